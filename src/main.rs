@@ -1,0 +1,2 @@
+//! The gearloss program.
+fn main() {}
