@@ -1,0 +1,401 @@
+//! What a model answers, and what it leaves behind on the way: terms, limits, observed quantities, steps.
+//!
+//! Terms, limits and observed quantities are constants with an index. No name is compared or stored per point.
+
+use std::cell::{Cell, RefCell};
+
+/// The most terms that one model may have.
+pub const MOST_TERMS: usize = 6;
+
+/// One named share of a loss, such as rolling, sliding or drag.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Term {
+    /// Place of the term among the terms of its model.
+    pub index: usize,
+    /// Name in the words of the source.
+    pub name: &'static str,
+    /// True when the term vanishes with the load.
+    pub load_dependent: bool,
+}
+
+impl Term {
+    /// A term that depends on the load.
+    pub const fn load(index: usize, name: &'static str) -> Self {
+        assert!(index < MOST_TERMS);
+        Self { index, name, load_dependent: true }
+    }
+
+    /// A term that does not depend on the load.
+    pub const fn no_load(index: usize, name: &'static str) -> Self {
+        assert!(index < MOST_TERMS);
+        Self { index, name, load_dependent: false }
+    }
+}
+
+/// Whether the values of a loss are moments about the attachment's relative speed or powers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Moments, N m. The power follows from the relative speed.
+    Moment,
+    /// Powers, W. The moment follows from the relative speed.
+    Power,
+}
+
+/// The loss of one part at one point: a value for each term.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loss {
+    measure: Measure,
+    values: [f64; MOST_TERMS],
+    first_share: f64,
+}
+
+impl Loss {
+    /// An answer in moments, N m, about the relative speed of the attachment; every term is zero.
+    pub const MOMENTS: Self = Self { measure: Measure::Moment, values: [0.0; MOST_TERMS], first_share: 0.5 };
+    /// An answer in powers, W; every term is zero.
+    pub const POWERS: Self = Self { measure: Measure::Power, ..Self::MOMENTS };
+
+    /// Adds to a term: N m for moments, W for powers.
+    #[inline]
+    pub fn with(mut self, term: &Term, value: f64) -> Self {
+        self.values[term.index] += value;
+        self
+    }
+
+    /// Says which share of a loss between two gears the first gear feels as torque; without it, half. From 0 to 1.
+    #[inline]
+    pub fn felt_by_first(mut self, share: f64) -> Self {
+        self.first_share = share;
+        self
+    }
+
+    /// The share of the power that the first gear of a pair feels as torque. \[-\]
+    #[inline]
+    pub fn first_share(&self) -> f64 {
+        self.first_share
+    }
+
+    /// Whether the answer is in moments or powers.
+    pub fn measure(&self) -> Measure {
+        self.measure
+    }
+
+    /// Value of one term as answered: N m or W.
+    #[inline]
+    pub fn value(&self, index: usize) -> f64 {
+        self.values[index]
+    }
+
+    /// Power of one term at a relative speed in rad/s. \[W\]
+    #[inline]
+    pub fn watts(&self, index: usize, speed: f64) -> f64 {
+        match self.measure {
+            Measure::Moment => self.values[index] * speed.abs(),
+            Measure::Power => self.values[index],
+        }
+    }
+
+    /// Sum of all terms as answered: N m or W. Terms are added in their order.
+    #[inline]
+    pub fn sum(&self) -> f64 {
+        self.values.iter().sum()
+    }
+
+    /// Power of all terms at a relative speed in rad/s: the sum of [`Loss::watts`], to the last bit. \[W\]
+    #[inline]
+    pub fn total_watts(&self, speed: f64) -> f64 {
+        (0..MOST_TERMS).map(|i| self.watts(i, speed)).sum()
+    }
+
+    /// Moment of all terms about the relative speed in rad/s; zero where a power acts at standstill. \[Nm\]
+    #[inline]
+    pub fn total_moment(&self, speed: f64) -> f64 {
+        match self.measure {
+            Measure::Moment => self.sum(),
+            Measure::Power if speed == 0.0 => 0.0,
+            Measure::Power => self.sum() / speed.abs(),
+        }
+    }
+
+    /// True when every term is a finite number that is not negative.
+    #[inline]
+    pub fn is_sound(&self) -> bool {
+        self.values.iter().all(|v| v.is_finite() && *v >= 0.0)
+    }
+}
+
+/// A formula has no value here. Small and without text of its own, so that it costs nothing in a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Undefined {
+    /// The quantity or condition that has left the formula's domain.
+    pub what: &'static str,
+    /// Its value, in the unit that `what` names.
+    pub value: f64,
+}
+
+impl std::fmt::Display for Undefined {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "undefined: {} = {:.6}", self.what, self.value)
+    }
+}
+
+impl std::error::Error for Undefined {}
+
+/// The range in which a source states its formula to hold. Outside of it the model still answers, and it is noted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// Place among the limits of its model.
+    pub index: usize,
+    /// Symbol or name of the quantity.
+    pub name: &'static str,
+    /// Unit of the range.
+    pub unit: &'static str,
+    /// Least value in the stated range.
+    pub least: f64,
+    /// Greatest value in the stated range.
+    pub greatest: f64,
+    /// Where the range comes from.
+    pub origin: &'static str,
+}
+
+impl Limit {
+    /// A stated range with its origin.
+    pub const fn new(
+        index: usize,
+        name: &'static str,
+        unit: &'static str,
+        least: f64,
+        greatest: f64,
+        origin: &'static str,
+    ) -> Self {
+        Self { index, name, unit, least, greatest, origin }
+    }
+}
+
+/// A quantity that a model lets the reader see, such as a coefficient of friction or a film ratio.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Observed {
+    /// Place among the observed quantities of its model.
+    pub index: usize,
+    /// Symbol.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// What it is, as a sentence.
+    pub meaning: &'static str,
+}
+
+impl Observed {
+    /// An observed quantity.
+    pub const fn new(index: usize, name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
+        Self { index, name, unit, meaning }
+    }
+}
+
+/// What was seen of one limit or observed quantity. Extents merge in any order to the same bits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// Least value seen.
+    pub least: f64,
+    /// Greatest value seen.
+    pub greatest: f64,
+    /// How often it was seen.
+    pub seen: u64,
+    /// How often it was outside of its limit; a value that is not a number counts as outside.
+    pub outside: u64,
+}
+
+impl Extent {
+    /// Nothing seen yet.
+    pub const EMPTY: Self = Self { least: f64::INFINITY, greatest: f64::NEG_INFINITY, seen: 0, outside: 0 };
+
+    #[inline]
+    fn add(self, x: f64, outside: bool) -> Self {
+        Self {
+            least: self.least.min(x),
+            greatest: self.greatest.max(x),
+            seen: self.seen + 1,
+            outside: self.outside + u64::from(outside),
+        }
+    }
+
+    /// Both together.
+    #[inline]
+    pub fn merge(self, other: Self) -> Self {
+        Self {
+            least: self.least.min(other.least),
+            greatest: self.greatest.max(other.greatest),
+            seen: self.seen + other.seen,
+            outside: self.outside + other.outside,
+        }
+    }
+
+    /// Counts one operating point: seen at all, outside at all.
+    #[inline]
+    pub fn once(self) -> Self {
+        Self { seen: self.seen.min(1), outside: self.outside.min(1), ..self }
+    }
+}
+
+/// One line of an explanation.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step {
+    /// An intermediate of the formula.
+    Value {
+        /// Path of the model instance that computed it.
+        instance: usize,
+        /// Symbol as in the source.
+        symbol: &'static str,
+        /// Unit as in the source.
+        unit: &'static str,
+        /// Value in that unit.
+        value: f64,
+    },
+    /// A branch that the formula took.
+    Branch {
+        /// Path of the model instance that took it.
+        instance: usize,
+        /// Which branch.
+        taken: &'static str,
+    },
+}
+
+/// Collects the steps of one explained evaluation.
+#[derive(Debug, Default)]
+pub struct Trace {
+    steps: RefCell<Vec<Step>>,
+}
+
+impl Trace {
+    /// The steps in the order in which the model took them.
+    pub fn into_steps(self) -> Vec<Step> {
+        self.steps.into_inner()
+    }
+}
+
+/// Where the notes of one model instance stand among all cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct NoteBase {
+    /// Number of the instance in the transmission.
+    pub instance: usize,
+    /// First cell of its limits.
+    pub limits: usize,
+    /// First cell of its observed quantities.
+    pub observed: usize,
+}
+
+/// Where one model instance writes its notes. Muted when it has no cells.
+#[derive(Debug, Clone, Copy)]
+pub struct Notes<'a> {
+    cells: &'a [Cell<Extent>],
+    base: NoteBase,
+    trace: Option<&'a Trace>,
+}
+
+impl<'a> Notes<'a> {
+    /// Notes that nobody reads.
+    pub const MUTED: Notes<'static> = Notes { cells: &[], base: NoteBase { instance: 0, limits: 0, observed: 0 }, trace: None };
+
+    /// Notes of one instance into the cells of a scratch.
+    #[inline]
+    pub fn new(cells: &'a [Cell<Extent>], base: NoteBase) -> Self {
+        Self { cells, base, trace: None }
+    }
+
+    /// The same notes, with every step written down.
+    pub fn traced(self, trace: &'a Trace) -> Self {
+        Self { trace: Some(trace), ..self }
+    }
+
+    /// The same place to write, seen by a nested instance.
+    #[inline]
+    pub fn of(self, base: NoteBase) -> Self {
+        Self { base, ..self }
+    }
+
+    /// True when the steps are written down.
+    #[inline]
+    pub fn is_traced(&self) -> bool {
+        self.trace.is_some()
+    }
+
+    /// Notes whether a value, in the limit's unit, lies in its stated range. Returns the value.
+    #[inline]
+    pub fn check(&self, limit: &Limit, x: f64) -> f64 {
+        if let Some(cell) = self.cells.get(self.base.limits + limit.index) {
+            let inside = x >= limit.least && x <= limit.greatest;
+            cell.set(cell.get().add(x, !inside));
+        }
+        self.step(limit.name, limit.unit, x);
+        x
+    }
+
+    /// Notes an observed quantity in its unit. Returns the value.
+    #[inline]
+    pub fn observe(&self, observed: &Observed, x: f64) -> f64 {
+        if let Some(cell) = self.cells.get(self.base.observed + observed.index) {
+            cell.set(cell.get().add(x, false));
+        }
+        self.step(observed.name, observed.unit, x);
+        x
+    }
+
+    /// Shows an intermediate of the formula, in the source's symbol and unit, when an explanation was asked for.
+    /// Returns the value.
+    #[inline]
+    pub fn show(&self, symbol: &'static str, unit: &'static str, x: f64) -> f64 {
+        self.step(symbol, unit, x);
+        x
+    }
+
+    /// Says which branch of the formula was taken, when an explanation was asked for.
+    #[inline]
+    pub fn branch(&self, taken: &'static str) {
+        if let Some(trace) = self.trace {
+            trace.steps.borrow_mut().push(Step::Branch { instance: self.base.instance, taken });
+        }
+    }
+
+    #[inline]
+    fn step(&self, symbol: &'static str, unit: &'static str, value: f64) {
+        if let Some(trace) = self.trace {
+            trace.steps.borrow_mut().push(Step::Value { instance: self.base.instance, symbol, unit, value });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROLLING: Term = Term::load(0, "rolling");
+    const DRAG: Term = Term::no_load(1, "drag");
+    const RANGE: Limit = Limit::new(0, "x", "-", 0.0, 1.0, "test");
+
+    #[test]
+    fn total_derives_from_terms_to_the_last_bit() {
+        let loss = Loss::MOMENTS.with(&ROLLING, 0.1).with(&DRAG, 0.2);
+        assert_eq!(loss.total_watts(-3.0), loss.watts(0, 3.0) + loss.watts(1, 3.0));
+        assert_eq!(loss.total_watts(0.0), 0.0);
+        assert_eq!(Loss::POWERS.with(&DRAG, 6.0).total_moment(-3.0), 2.0);
+    }
+
+    #[test]
+    fn a_limit_counts_what_is_outside_and_nan_too() {
+        let mut extents = [Extent::EMPTY];
+        {
+            let cells = Cell::from_mut(&mut extents[..]).as_slice_of_cells();
+            let notes = Notes::new(cells, NoteBase::default());
+            for x in [0.5, 1.5, f64::NAN] {
+                notes.check(&RANGE, x);
+            }
+        }
+        assert_eq!((extents[0].seen, extents[0].outside, extents[0].greatest), (3, 2, 1.5));
+        assert_eq!(extents[0].once().outside, 1);
+    }
+
+    #[test]
+    fn muted_notes_write_nowhere() {
+        assert_eq!(Notes::MUTED.check(&RANGE, 7.0), 7.0);
+    }
+}

@@ -1,0 +1,267 @@
+//! Mechanisms: physical causes of loss, each with its own trait, context and answer.
+//!
+//! A mechanism is written once and read often: an empty marker type, a plain trait that models implement, a context that
+//! lists each quantity once ([`context!`](crate::context)), and, where its parts have a section in the document, an
+//! attachment ([`crate::attach`]).
+
+pub mod auxiliary;
+pub mod bearing;
+pub mod clutch;
+pub mod gear_drag;
+pub mod gear_mesh;
+pub mod seal;
+pub mod synchronizer;
+pub mod tooth_friction;
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+
+use crate::attach::Attach;
+use crate::generic::Scalar;
+use crate::loss::{Loss, Notes, Undefined};
+use crate::unit::Unit;
+
+/// A physical cause of loss. Implemented by an empty marker type, once per mechanism.
+pub trait Mechanism: Sized + 'static {
+    /// Name in documents: snake_case, a noun.
+    const KEY: &'static str;
+    /// What the mechanism is, as a sentence.
+    const MEANING: &'static str;
+    /// What a model answers, for `constant`, `formula` and `table`. Ends in its \[unit\].
+    const ANSWER: &'static str;
+    /// A part that the conformance suite and `eval` may take, in YAML.
+    const EXAMPLE: &'static str;
+    /// The quantities of the context, as listed by [`context!`](crate::context).
+    const QUANTITIES: &'static [Quantity<Self>];
+    /// What the component is: the typed fields of its entry. [`NoPart`] where there is none. Derived values are
+    /// computed while it is deserialised (`serde(try_from)`), so that a part is ready when it exists.
+    type Part: DeserializeOwned + JsonSchema + Send + Sync;
+    /// All that a model may look at; made by [`context!`](crate::context).
+    type At<'a>: Copy;
+    /// A [`Loss`], or an `f64` for a coefficient.
+    type Answer: Answer;
+    /// The plain trait that a model implements, as `dyn`.
+    type Model: ?Sized + Send + Sync;
+
+    /// A context at its usual point, from which `eval` and the conformance grid depart.
+    fn usual<'a>(part: &'a Self::Part, notes: Notes<'a>) -> Self::At<'a>;
+    /// Calls the model.
+    fn answer(model: &Self::Model, at: &Self::At<'_>) -> Result<Self::Answer, Undefined>;
+    /// The relative speed that the answer's moments work against. \[rad/s\] One for a coefficient.
+    fn speed(_at: &Self::At<'_>) -> f64 {
+        1.0
+    }
+    /// The door through which `none`, `constant`, `formula` and `table` serve this mechanism.
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model>;
+}
+
+/// A mechanism whose parts have a section of their own in the document.
+pub trait Component: Mechanism<Answer = Loss> {
+    /// Name of the section: the plural of the part.
+    const SECTION: &'static str;
+    /// Where its parts sit; decides relative speed, loads, oil and who feels the reaction.
+    type Attachment: Attach;
+    /// The context of a part at its site.
+    fn at<'a>(part: &'a Self::Part, site: <Self::Attachment as Attach>::Site<'a>, notes: Notes<'a>) -> Self::At<'a>;
+}
+
+/// The part of a mechanism that has none.
+#[derive(Debug, Clone, Copy, Default, serde::Deserialize, serde::Serialize, JsonSchema)]
+pub struct NoPart {}
+
+/// What a mechanism's models answer.
+pub trait Answer: Copy + Send + Sync {
+    /// The named values of the answer at a relative speed: for a loss, the power of each term. \[W or the answer's unit\]
+    fn values(&self, terms: &'static [crate::loss::Term], speed: f64) -> Vec<(&'static str, f64)>;
+    /// True when the answer is finite and not negative.
+    fn is_sound(&self) -> bool;
+    /// One number that stands for the whole answer: the power, or the coefficient.
+    fn total(&self, speed: f64) -> f64;
+}
+
+impl Answer for Loss {
+    fn values(&self, terms: &'static [crate::loss::Term], speed: f64) -> Vec<(&'static str, f64)> {
+        terms.iter().map(|t| (t.name, self.watts(t.index, speed))).collect()
+    }
+    fn is_sound(&self) -> bool {
+        Loss::is_sound(self)
+    }
+    fn total(&self, speed: f64) -> f64 {
+        self.total_watts(speed)
+    }
+}
+
+impl Answer for f64 {
+    fn values(&self, _terms: &'static [crate::loss::Term], _speed: f64) -> Vec<(&'static str, f64)> {
+        vec![("value", *self)]
+    }
+    fn is_sound(&self) -> bool {
+        self.is_finite() && *self >= 0.0
+    }
+    fn total(&self, _speed: f64) -> f64 {
+        *self
+    }
+}
+
+/// One entry of a mechanism's context. It can be read and set, because `eval` and the conformance grid make contexts.
+pub struct Quantity<M: Mechanism> {
+    /// Name in formulas, tables and `eval`.
+    pub name: &'static str,
+    /// What it is and, at the end, its \[unit\].
+    pub doc: &'static str,
+    /// Usual value in the documented unit.
+    pub usual: f64,
+    /// Least value for which the framework calls a model, in the documented unit.
+    pub least: f64,
+    /// Greatest value for which the framework calls a model, in the documented unit.
+    pub greatest: f64,
+    /// Reads the value, SI.
+    pub get: for<'a, 'b> fn(&'b M::At<'a>) -> f64,
+    /// Sets the value, SI.
+    pub set: for<'a, 'b> fn(&'b mut M::At<'a>, f64),
+}
+
+impl<M: Mechanism> Quantity<M> {
+    /// The documented unit.
+    ///
+    /// # Panics
+    /// If the doc comment does not end in a unit; the conformance suite finds that.
+    pub fn unit(&self) -> &'static Unit {
+        Unit::of_doc(self.doc).unwrap_or_else(|| panic!("the doc comment of `{}` does not end in a [unit]", self.name))
+    }
+}
+
+/// A [`Quantity`] without its types, for listings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct QuantityDoc {
+    /// Name.
+    pub name: &'static str,
+    /// Meaning and unit.
+    pub doc: &'static str,
+    /// Usual value in the documented unit.
+    pub usual: f64,
+    /// Least value in the documented unit.
+    pub least: f64,
+    /// Greatest value in the documented unit.
+    pub greatest: f64,
+}
+
+/// Declares the context of a mechanism: each quantity once, with its meaning and unit in the doc comment, its usual value
+/// and the range in which the framework calls. The fields are SI; the three numbers are in the documented unit.
+///
+/// The same list feeds rustdoc, `models`, the schema and input of `eval`, the variables of `formula`, the axes of `table`
+/// and the grid of the conformance suite.
+#[macro_export]
+macro_rules! context {
+    ($(#[doc = $head:literal])+ pub struct $At:ident of $M:ty {
+        $($(#[doc = $doc:literal])+ $name:ident: $usual:literal in $least:literal ..= $greatest:literal,)+
+    }) => {
+        $(#[doc = $head])+
+        #[derive(Clone, Copy)]
+        pub struct $At<'a> {
+            /// What the component is.
+            pub part: &'a <$M as $crate::mechanism::Mechanism>::Part,
+            $($(#[doc = $doc])+ pub $name: f64,)+
+            /// Where limits, observed quantities and steps are noted.
+            pub notes: $crate::loss::Notes<'a>,
+        }
+
+        impl<'a> $At<'a> {
+            /// The list of the quantities.
+            pub const QUANTITIES: &'static [$crate::mechanism::Quantity<$M>] = &[$($crate::mechanism::Quantity {
+                name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest,
+                get: |at| at.$name, set: |at, si| at.$name = si,
+            }),+];
+
+            /// The context at its usual point.
+            pub fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {
+                let mut at = Self { part, $($name: 0.0,)+ notes };
+                for q in Self::QUANTITIES {
+                    (q.set)(&mut at, q.unit().to_si(q.usual));
+                }
+                at
+            }
+
+            /// Notes whether a value lies in the range of a limit; returns the value.
+            #[inline]
+            pub fn check(&self, limit: &$crate::loss::Limit, x: f64) -> f64 {
+                self.notes.check(limit, x)
+            }
+
+            /// Notes an observed quantity; returns the value.
+            #[inline]
+            pub fn observe(&self, observed: &$crate::loss::Observed, x: f64) -> f64 {
+                self.notes.observe(observed, x)
+            }
+
+            /// Shows an intermediate in an explanation; returns the value.
+            #[inline]
+            pub fn show(&self, symbol: &'static str, unit: &'static str, x: f64) -> f64 {
+                self.notes.show(symbol, unit, x)
+            }
+
+            /// Names the branch that was taken in an explanation.
+            #[inline]
+            pub fn branch(&self, taken: &'static str) {
+                self.notes.branch(taken);
+            }
+        }
+    };
+}
+
+/// Shop units at the point of use: an empirical formula shows its units where it is written.
+pub trait ShopUnits {
+    /// rad/s to revolutions per minute.
+    fn rpm(self) -> f64;
+    /// m to mm.
+    fn mm(self) -> f64;
+    /// m to um.
+    fn um(self) -> f64;
+    /// m2/s to mm2/s.
+    fn mm2_s(self) -> f64;
+    /// Pa s to mPa s.
+    fn mpa_s(self) -> f64;
+    /// Pa to GPa.
+    fn gpa(self) -> f64;
+    /// N/m to N/mm.
+    fn n_mm(self) -> f64;
+    /// N mm to N m.
+    fn from_nmm(self) -> f64;
+}
+
+impl ShopUnits for f64 {
+    #[inline]
+    fn rpm(self) -> f64 {
+        self * (30.0 / std::f64::consts::PI)
+    }
+    #[inline]
+    fn mm(self) -> f64 {
+        self * 1e3
+    }
+    #[inline]
+    fn um(self) -> f64 {
+        self * 1e6
+    }
+    #[inline]
+    fn mm2_s(self) -> f64 {
+        self * 1e6
+    }
+    #[inline]
+    fn mpa_s(self) -> f64 {
+        self * 1e3
+    }
+    #[inline]
+    fn gpa(self) -> f64 {
+        self * 1e-9
+    }
+    #[inline]
+    fn n_mm(self) -> f64 {
+        self * 1e-3
+    }
+    #[inline]
+    fn from_nmm(self) -> f64 {
+        self * 1e-3
+    }
+}

@@ -1,0 +1,86 @@
+//! Auxiliaries: pumps and whatever else takes moment from a shaft.
+
+use std::sync::Arc;
+
+use crate::attach::{MemberSite, OnMember};
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::{Component, Mechanism, NoPart, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum Auxiliary {}
+
+/// Moment that an auxiliary takes from its shaft. A model answers with a moment.
+pub trait AuxiliaryModel: Send + Sync {
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined>;
+}
+
+context! {
+    /// All that the model of an auxiliary may look at.
+    pub struct AuxiliaryAt of Auxiliary {
+        /// Speed of the shaft that drives it, signed. [rpm]
+        speed: 2000.0 in -30000.0..=30000.0,
+        /// Temperature of the oil. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Kinematic viscosity of the oil. [mm2/s]
+        nu: 10.0 in 1.0..=10000.0,
+        /// Dynamic viscosity of the oil. [mPa s]
+        eta: 8.0 in 0.5..=10000.0,
+        /// Density of the oil. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0,
+    }
+}
+
+impl Mechanism for Auxiliary {
+    const KEY: &'static str = "auxiliary";
+    const MEANING: &'static str = "Moment that a pump or another auxiliary takes from a shaft.";
+    const ANSWER: &'static str = "Moment taken from the shaft. [Nm]";
+    const EXAMPLE: &'static str = "{}";
+    const QUANTITIES: &'static [Quantity<Self>] = AuxiliaryAt::QUANTITIES;
+    type Part = NoPart;
+    type At<'a> = AuxiliaryAt<'a>;
+    type Answer = Loss;
+    type Model = dyn AuxiliaryModel;
+
+    fn usual<'a>(part: &'a NoPart, notes: Notes<'a>) -> AuxiliaryAt<'a> {
+        AuxiliaryAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &AuxiliaryAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl Component for Auxiliary {
+    const SECTION: &'static str = "auxiliaries";
+    type Attachment = OnMember;
+
+    fn at<'a>(part: &'a NoPart, site: MemberSite<'a>, notes: Notes<'a>) -> AuxiliaryAt<'a> {
+        let oil = site.oil;
+        AuxiliaryAt {
+            part,
+            speed: site.speed,
+            temperature: oil.temperature,
+            nu: oil.nu,
+            eta: oil.eta,
+            rho: oil.rho,
+            notes,
+        }
+    }
+}
+
+impl AuxiliaryModel for Scalar<Auxiliary> {
+    fn loss(&self, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined> {
+        self.moment(at)
+    }
+}
+
+crate::register_component!(Auxiliary);

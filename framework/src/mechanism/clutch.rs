@@ -1,0 +1,111 @@
+//! Drag of open wet clutches and brakes.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::attach::{Clearance, ClearanceSite};
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::{Component, Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum Clutch {}
+
+/// Drag of one open clutch or brake. Closed, its members have one speed and it loses nothing.
+pub trait ClutchModel: Send + Sync {
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &ClutchAt<'_>) -> Result<Loss, Undefined>;
+}
+
+/// A clutch between two members, or a brake between a member and the housing.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct ClutchPart {
+    /// Inner diameter of the friction faces. [mm]
+    #[schemars(range(min = 1.0, max = 2000.0))]
+    pub inner_diameter: Option<f64>,
+    /// Outer diameter of the friction faces. [mm]
+    #[schemars(range(min = 1.0, max = 2000.0))]
+    pub outer_diameter: Option<f64>,
+    /// Number of friction interfaces. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 100))]
+    pub faces: u32,
+    /// Gap of one open interface. [mm]
+    #[schemars(range(min = 0.01, max = 5.0))]
+    pub gap: Option<f64>,
+}
+
+fn one() -> u32 {
+    1
+}
+
+context! {
+    /// All that a clutch model may look at.
+    pub struct ClutchAt of Clutch {
+        /// Speed of the first member relative to the second, signed; zero when closed. [rpm]
+        speed: 500.0 in -30000.0..=30000.0,
+        /// Speed of the first member, signed. [rpm]
+        first_speed: 1000.0 in -30000.0..=30000.0,
+        /// Temperature of the oil. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Dynamic viscosity of the oil. [mPa s]
+        eta: 8.0 in 0.5..=10000.0,
+        /// Density of the oil. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0,
+    }
+}
+
+impl Mechanism for Clutch {
+    const KEY: &'static str = "clutch";
+    const MEANING: &'static str = "Drag of an open wet clutch or brake.";
+    const ANSWER: &'static str = "Drag moment. [Nm]";
+    const EXAMPLE: &'static str = "{ inner_diameter: 110 mm, outer_diameter: 140 mm, faces: 12, gap: 0.15 mm }";
+    const QUANTITIES: &'static [Quantity<Self>] = ClutchAt::QUANTITIES;
+    type Part = ClutchPart;
+    type At<'a> = ClutchAt<'a>;
+    type Answer = Loss;
+    type Model = dyn ClutchModel;
+
+    fn usual<'a>(part: &'a ClutchPart, notes: Notes<'a>) -> ClutchAt<'a> {
+        ClutchAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &ClutchAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &ClutchAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl Component for Clutch {
+    const SECTION: &'static str = "clutches";
+    type Attachment = Clearance;
+
+    fn at<'a>(part: &'a ClutchPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> ClutchAt<'a> {
+        let oil = site.oil;
+        ClutchAt {
+            part,
+            speed: site.speed,
+            first_speed: site.first_speed,
+            temperature: oil.temperature,
+            eta: oil.eta,
+            rho: oil.rho,
+            notes,
+        }
+    }
+}
+
+impl ClutchModel for Scalar<Clutch> {
+    fn loss(&self, at: &ClutchAt<'_>) -> Result<Loss, Undefined> {
+        self.moment(at)
+    }
+}
+
+crate::register_component!(Clutch);

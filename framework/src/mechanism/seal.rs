@@ -1,0 +1,117 @@
+//! Friction of shaft seals.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::attach::{MemberSite, OnMember};
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::{Component, Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum Seal {}
+
+/// Friction of one shaft seal. A model answers with a moment about the shaft.
+pub trait SealModel: Send + Sync {
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined>;
+}
+
+/// Kind of a shaft seal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SealKind {
+    /// Radial lip seal.
+    #[default]
+    RadialLip,
+    /// Seal without contact, such as a labyrinth.
+    NonContact,
+}
+
+/// Material of a seal's lip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LipMaterial {
+    /// Fluoroelastomer, for high rubbing speeds.
+    #[default]
+    Fkm,
+    /// Nitrile rubber.
+    Nbr,
+}
+
+/// A shaft seal against the housing.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct SealPart {
+    /// Shaft diameter at the lip. [mm]
+    #[schemars(range(min = 1.0, max = 1000.0))]
+    pub diameter: f64,
+    /// Kind of the seal.
+    #[serde(default)]
+    pub kind: SealKind,
+    /// Material of the lip.
+    #[serde(default)]
+    pub lip: LipMaterial,
+}
+
+context! {
+    /// All that a seal model may look at.
+    pub struct SealAt of Seal {
+        /// Speed of the shaft in the seal, signed. [rpm]
+        speed: 3000.0 in -30000.0..=30000.0,
+        /// Temperature of the oil at the seal. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Kinematic viscosity of the oil at the seal. [mm2/s]
+        nu: 10.0 in 1.0..=10000.0,
+        /// Kinematic viscosity of the oil at 40 degC. [mm2/s]
+        nu40: 32.0 in 2.0..=1000.0,
+        /// Density of the oil at the seal. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0,
+    }
+}
+
+impl Mechanism for Seal {
+    const KEY: &'static str = "seal";
+    const MEANING: &'static str = "Friction of a shaft seal.";
+    const ANSWER: &'static str = "Friction moment. [Nm]";
+    const EXAMPLE: &'static str = "{ diameter: 40 mm, kind: radial_lip }";
+    const QUANTITIES: &'static [Quantity<Self>] = SealAt::QUANTITIES;
+    type Part = SealPart;
+    type At<'a> = SealAt<'a>;
+    type Answer = Loss;
+    type Model = dyn SealModel;
+
+    fn usual<'a>(part: &'a SealPart, notes: Notes<'a>) -> SealAt<'a> {
+        SealAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &SealAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl Component for Seal {
+    const SECTION: &'static str = "seals";
+    type Attachment = OnMember;
+
+    fn at<'a>(part: &'a SealPart, site: MemberSite<'a>, notes: Notes<'a>) -> SealAt<'a> {
+        let oil = site.oil;
+        SealAt { part, speed: site.speed, temperature: oil.temperature, nu: oil.nu, nu40: oil.nu40, rho: oil.rho, notes }
+    }
+}
+
+impl SealModel for Scalar<Seal> {
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        self.moment(at)
+    }
+}
+
+crate::register_component!(Seal);

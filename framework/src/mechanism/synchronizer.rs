@@ -1,0 +1,139 @@
+//! Drag of synchronizers, dog couplings and rings with a gap.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::attach::{Clearance, ClearanceSite};
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::{Component, Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum Synchronizer {}
+
+/// Drag of one open coupling. Engaged, its members have one speed and it loses nothing.
+pub trait SynchronizerModel: Send + Sync {
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined>;
+}
+
+/// Kind of a coupling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CouplingKind {
+    /// Synchronizer with friction cones.
+    #[default]
+    Synchronizer,
+    /// Dog clutch.
+    Dog,
+    /// Cylindrical gap that nothing closes: a wheel that turns on a plain shaft, a bush.
+    Ring,
+}
+
+/// A coupling between two members: a synchronizer, a dog clutch, or a ring with a gap.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct CouplingPart {
+    /// Kind of the coupling.
+    #[serde(default)]
+    pub kind: CouplingKind,
+    /// Number of friction cones. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 4))]
+    pub cones: u32,
+    /// Mean diameter of a cone, or diameter of a ring gap. [mm]
+    #[schemars(range(min = 5.0, max = 500.0))]
+    pub cone_diameter: Option<f64>,
+    /// Width of a cone along the axis, or length of a ring gap. [mm]
+    #[schemars(range(min = 0.5, max = 200.0))]
+    pub cone_width: Option<f64>,
+    /// Half angle of a cone against the axis. [deg]
+    #[schemars(range(min = 1.0, max = 45.0))]
+    pub cone_angle: Option<f64>,
+    /// Gap normal to the faces. [mm]
+    #[schemars(range(min = 0.01, max = 5.0))]
+    pub gap: Option<f64>,
+    /// Share of the gap that oil fills: 1 flooded, 0.1 to 0.5 splashed. [-]
+    #[serde(default = "flooded")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub oil_fill: f64,
+}
+
+fn one() -> u32 {
+    1
+}
+
+fn flooded() -> f64 {
+    1.0
+}
+
+context! {
+    /// All that the model of an open coupling may look at.
+    pub struct SynchronizerAt of Synchronizer {
+        /// Speed of the first member relative to the second, signed; zero when engaged. [rpm]
+        speed: 1000.0 in -30000.0..=30000.0,
+        /// Speed of the first member, signed. [rpm]
+        first_speed: 3000.0 in -30000.0..=30000.0,
+        /// Temperature of the oil. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Dynamic viscosity of the oil. [mPa s]
+        eta: 8.0 in 0.5..=10000.0,
+        /// Density of the oil. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0,
+    }
+}
+
+impl Mechanism for Synchronizer {
+    const KEY: &'static str = "synchronizer";
+    const MEANING: &'static str = "Drag of an open synchronizer, dog coupling or ring gap.";
+    const ANSWER: &'static str = "Drag moment. [Nm]";
+    const EXAMPLE: &'static str =
+        "{ kind: synchronizer, cones: 1, cone_diameter: 62 mm, cone_width: 8 mm, cone_angle: 6.5 deg, gap: 0.15 mm }";
+    const QUANTITIES: &'static [Quantity<Self>] = SynchronizerAt::QUANTITIES;
+    type Part = CouplingPart;
+    type At<'a> = SynchronizerAt<'a>;
+    type Answer = Loss;
+    type Model = dyn SynchronizerModel;
+
+    fn usual<'a>(part: &'a CouplingPart, notes: Notes<'a>) -> SynchronizerAt<'a> {
+        SynchronizerAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &SynchronizerAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl Component for Synchronizer {
+    const SECTION: &'static str = "couplings";
+    type Attachment = Clearance;
+
+    fn at<'a>(part: &'a CouplingPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> SynchronizerAt<'a> {
+        let oil = site.oil;
+        SynchronizerAt {
+            part,
+            speed: site.speed,
+            first_speed: site.first_speed,
+            temperature: oil.temperature,
+            eta: oil.eta,
+            rho: oil.rho,
+            notes,
+        }
+    }
+}
+
+impl SynchronizerModel for Scalar<Synchronizer> {
+    fn loss(&self, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined> {
+        self.moment(at)
+    }
+}
+
+crate::register_component!(Synchronizer);
