@@ -1,1 +1,66 @@
-//! The gearloss program.
+//! Power losses, efficiency and operating temperature of transmissions: the program, as a library.
+//!
+//! An in-house program that adds a crate of its own models is three lines:
+//!
+//! ```no_run
+//! // use my_models as _;
+//! fn main() -> std::process::ExitCode {
+//!     gearloss::main()
+//! }
+//! ```
+
+mod args;
+mod commands;
+mod output;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+// The built-in models register themselves; naming the crate once links them.
+use gearloss_plugins as _;
+
+pub use gearloss_framework as framework;
+
+use args::{Args, Command};
+use output::{End, Failure, Out};
+
+/// Runs the program with the arguments of the process.
+///
+/// Exit codes: 0 fine, 1 a finding, 2 wrong input, 3 a bug.
+pub fn main() -> ExitCode {
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => {
+            let wrong = error.use_stderr();
+            let mut out = if wrong { Out::error() } else { Out::standard() };
+            // A closed pipe is no failure.
+            let _ = out.text(&error.render().to_string());
+            return ExitCode::from(if wrong { 2 } else { 0 });
+        }
+    };
+    match std::panic::catch_unwind(|| run(args)) {
+        Ok(Ok(End::Fine)) => ExitCode::SUCCESS,
+        Ok(Ok(End::Finding)) => ExitCode::from(1),
+        Ok(Err(Failure::Input(text))) => {
+            let _ = Out::error().text(&text);
+            ExitCode::from(2)
+        }
+        Err(_) => {
+            let _ = Out::error().text("This is a bug in gearloss. Please report the input and the lines above.\n");
+            ExitCode::from(3)
+        }
+    }
+}
+
+fn run(args: Args) -> Result<End, Failure> {
+    let mut out = Out::standard();
+    match args.command {
+        Command::Check(args) => commands::check::run(&args, &mut out),
+        Command::Solve(args) => commands::solve::run(&args, &mut out),
+        Command::Explain(args) => commands::explain::run(&args, &mut out),
+        Command::Run(args) => commands::run::run(&args, &mut out),
+        Command::Models(args) => commands::models::run(&args, &mut out),
+        Command::Eval(args) => commands::eval::run(&args, &mut out),
+        Command::Schema(args) => commands::schema::run(&args, &mut out),
+    }
+}

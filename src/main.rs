@@ -1,2 +1,7 @@
-//! The gearloss program.
-fn main() {}
+//! The program `gearloss`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    gearloss::main()
+}

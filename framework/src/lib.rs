@@ -1,1 +1,28 @@
-//! The frame of gearloss.
+//! The frame of gearloss: description, registry, kinematics, loads, evaluation. It names no concrete loss model.
+
+pub mod analysis;
+pub mod attach;
+pub mod conformance;
+pub mod description;
+pub mod document;
+pub mod eval;
+pub mod evaluate;
+pub mod flow;
+pub mod formula;
+pub mod gearbox;
+pub mod generic;
+pub mod geometry;
+pub mod immersion;
+pub mod kinematics;
+pub mod language;
+pub mod loads;
+pub mod loss;
+pub mod lubricant;
+pub mod mechanism;
+pub mod registry;
+pub mod resolve;
+pub mod study;
+pub mod table;
+pub mod transmission;
+
+pub use schemars;

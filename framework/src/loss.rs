@@ -5,7 +5,7 @@
 use std::cell::{Cell, RefCell};
 
 /// The most terms that one model may have.
-pub const MOST_TERMS: usize = 6;
+pub const MOST_TERMS: usize = 4;
 
 /// One named share of a loss, such as rolling, sliding or drag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,13 +22,21 @@ impl Term {
     /// A term that depends on the load.
     pub const fn load(index: usize, name: &'static str) -> Self {
         assert!(index < MOST_TERMS);
-        Self { index, name, load_dependent: true }
+        Self {
+            index,
+            name,
+            load_dependent: true,
+        }
     }
 
     /// A term that does not depend on the load.
     pub const fn no_load(index: usize, name: &'static str) -> Self {
         assert!(index < MOST_TERMS);
-        Self { index, name, load_dependent: false }
+        Self {
+            index,
+            name,
+            load_dependent: false,
+        }
     }
 }
 
@@ -51,9 +59,16 @@ pub struct Loss {
 
 impl Loss {
     /// An answer in moments, N m, about the relative speed of the attachment; every term is zero.
-    pub const MOMENTS: Self = Self { measure: Measure::Moment, values: [0.0; MOST_TERMS], first_share: 0.5 };
+    pub const MOMENTS: Self = Self {
+        measure: Measure::Moment,
+        values: [0.0; MOST_TERMS],
+        first_share: 0.5,
+    };
     /// An answer in powers, W; every term is zero.
-    pub const POWERS: Self = Self { measure: Measure::Power, ..Self::MOMENTS };
+    pub const POWERS: Self = Self {
+        measure: Measure::Power,
+        ..Self::MOMENTS
+    };
 
     /// Adds to a term: N m for moments, W for powers.
     #[inline]
@@ -98,13 +113,13 @@ impl Loss {
     /// Sum of all terms as answered: N m or W. Terms are added in their order.
     #[inline]
     pub fn sum(&self) -> f64 {
-        self.values.iter().sum()
+        self.values.iter().fold(0.0, |sum, v| sum + v)
     }
 
     /// Power of all terms at a relative speed in rad/s: the sum of [`Loss::watts`], to the last bit. \[W\]
     #[inline]
     pub fn total_watts(&self, speed: f64) -> f64 {
-        (0..MOST_TERMS).map(|i| self.watts(i, speed)).sum()
+        (0..MOST_TERMS).fold(0.0, |sum, i| sum + self.watts(i, speed))
     }
 
     /// Moment of all terms about the relative speed in rad/s; zero where a power acts at standstill. \[Nm\]
@@ -168,7 +183,14 @@ impl Limit {
         greatest: f64,
         origin: &'static str,
     ) -> Self {
-        Self { index, name, unit, least, greatest, origin }
+        Self {
+            index,
+            name,
+            unit,
+            least,
+            greatest,
+            origin,
+        }
     }
 }
 
@@ -188,7 +210,12 @@ pub struct Observed {
 impl Observed {
     /// An observed quantity.
     pub const fn new(index: usize, name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
-        Self { index, name, unit, meaning }
+        Self {
+            index,
+            name,
+            unit,
+            meaning,
+        }
     }
 }
 
@@ -207,7 +234,12 @@ pub struct Extent {
 
 impl Extent {
     /// Nothing seen yet.
-    pub const EMPTY: Self = Self { least: f64::INFINITY, greatest: f64::NEG_INFINITY, seen: 0, outside: 0 };
+    pub const EMPTY: Self = Self {
+        least: f64::INFINITY,
+        greatest: f64::NEG_INFINITY,
+        seen: 0,
+        outside: 0,
+    };
 
     #[inline]
     fn add(self, x: f64, outside: bool) -> Self {
@@ -233,7 +265,11 @@ impl Extent {
     /// Counts one operating point: seen at all, outside at all.
     #[inline]
     pub fn once(self) -> Self {
-        Self { seen: self.seen.min(1), outside: self.outside.min(1), ..self }
+        Self {
+            seen: self.seen.min(1),
+            outside: self.outside.min(1),
+            ..self
+        }
     }
 }
 
@@ -242,7 +278,7 @@ impl Extent {
 pub enum Step {
     /// An intermediate of the formula.
     Value {
-        /// Path of the model instance that computed it.
+        /// Number of the model instance that computed it.
         instance: usize,
         /// Symbol as in the source.
         symbol: &'static str,
@@ -253,11 +289,20 @@ pub enum Step {
     },
     /// A branch that the formula took.
     Branch {
-        /// Path of the model instance that took it.
+        /// Number of the model instance that took it.
         instance: usize,
         /// Which branch.
         taken: &'static str,
     },
+}
+
+impl Step {
+    /// Number of the model instance that took the step.
+    pub fn instance(&self) -> usize {
+        match self {
+            Self::Value { instance, .. } | Self::Branch { instance, .. } => *instance,
+        }
+    }
 }
 
 /// Collects the steps of one explained evaluation.
@@ -294,17 +339,32 @@ pub struct Notes<'a> {
 
 impl<'a> Notes<'a> {
     /// Notes that nobody reads.
-    pub const MUTED: Notes<'static> = Notes { cells: &[], base: NoteBase { instance: 0, limits: 0, observed: 0 }, trace: None };
+    pub const MUTED: Notes<'static> = Notes {
+        cells: &[],
+        base: NoteBase {
+            instance: 0,
+            limits: 0,
+            observed: 0,
+        },
+        trace: None,
+    };
 
     /// Notes of one instance into the cells of a scratch.
     #[inline]
     pub fn new(cells: &'a [Cell<Extent>], base: NoteBase) -> Self {
-        Self { cells, base, trace: None }
+        Self {
+            cells,
+            base,
+            trace: None,
+        }
     }
 
     /// The same notes, with every step written down.
     pub fn traced(self, trace: &'a Trace) -> Self {
-        Self { trace: Some(trace), ..self }
+        Self {
+            trace: Some(trace),
+            ..self
+        }
     }
 
     /// The same place to write, seen by a nested instance.
@@ -352,14 +412,22 @@ impl<'a> Notes<'a> {
     #[inline]
     pub fn branch(&self, taken: &'static str) {
         if let Some(trace) = self.trace {
-            trace.steps.borrow_mut().push(Step::Branch { instance: self.base.instance, taken });
+            trace.steps.borrow_mut().push(Step::Branch {
+                instance: self.base.instance,
+                taken,
+            });
         }
     }
 
     #[inline]
     fn step(&self, symbol: &'static str, unit: &'static str, value: f64) {
         if let Some(trace) = self.trace {
-            trace.steps.borrow_mut().push(Step::Value { instance: self.base.instance, symbol, unit, value });
+            trace.steps.borrow_mut().push(Step::Value {
+                instance: self.base.instance,
+                symbol,
+                unit,
+                value,
+            });
         }
     }
 }

@@ -19,9 +19,9 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use crate::attach::Attach;
+use crate::document::Unit;
 use crate::generic::Scalar;
-use crate::loss::{Loss, Notes, Undefined};
-use crate::unit::Unit;
+use crate::loss::{Loss, Notes, Term, Undefined};
 
 /// A physical cause of loss. Implemented by an empty marker type, once per mechanism.
 pub trait Mechanism: Sized + 'static {
@@ -35,6 +35,8 @@ pub trait Mechanism: Sized + 'static {
     const EXAMPLE: &'static str;
     /// The quantities of the context, as listed by [`context!`](crate::context).
     const QUANTITIES: &'static [Quantity<Self>];
+    /// The term that `constant`, `formula` and `table` fill.
+    const TOTAL: Term = Term::no_load(0, "total");
     /// What the component is: the typed fields of its entry. [`NoPart`] where there is none. Derived values are
     /// computed while it is deserialised (`serde(try_from)`), so that a part is ready when it exists.
     type Part: DeserializeOwned + JsonSchema + Send + Sync;
@@ -74,15 +76,19 @@ pub struct NoPart {}
 /// What a mechanism's models answer.
 pub trait Answer: Copy + Send + Sync {
     /// The named values of the answer at a relative speed: for a loss, the power of each term. \[W or the answer's unit\]
-    fn values(&self, terms: &'static [crate::loss::Term], speed: f64) -> Vec<(&'static str, f64)>;
+    fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)>;
     /// True when the answer is finite and not negative.
     fn is_sound(&self) -> bool;
     /// One number that stands for the whole answer: the power, or the coefficient.
     fn total(&self, speed: f64) -> f64;
+    /// The moment about a relative speed; absent for a coefficient. \[Nm\]
+    fn moment(&self, speed: f64) -> Option<f64>;
+    /// Index of a term that is filled but not listed.
+    fn stray(&self, terms: &[Term]) -> Option<usize>;
 }
 
 impl Answer for Loss {
-    fn values(&self, terms: &'static [crate::loss::Term], speed: f64) -> Vec<(&'static str, f64)> {
+    fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)> {
         terms.iter().map(|t| (t.name, self.watts(t.index, speed))).collect()
     }
     fn is_sound(&self) -> bool {
@@ -91,10 +97,16 @@ impl Answer for Loss {
     fn total(&self, speed: f64) -> f64 {
         self.total_watts(speed)
     }
+    fn moment(&self, speed: f64) -> Option<f64> {
+        Some(self.total_moment(speed))
+    }
+    fn stray(&self, terms: &[Term]) -> Option<usize> {
+        (terms.len()..crate::loss::MOST_TERMS).find(|i| self.value(*i) != 0.0)
+    }
 }
 
 impl Answer for f64 {
-    fn values(&self, _terms: &'static [crate::loss::Term], _speed: f64) -> Vec<(&'static str, f64)> {
+    fn values(&self, _terms: &'static [Term], _speed: f64) -> Vec<(&'static str, f64)> {
         vec![("value", *self)]
     }
     fn is_sound(&self) -> bool {
@@ -102,6 +114,12 @@ impl Answer for f64 {
     }
     fn total(&self, _speed: f64) -> f64 {
         *self
+    }
+    fn moment(&self, _speed: f64) -> Option<f64> {
+        None
+    }
+    fn stray(&self, _terms: &[Term]) -> Option<usize> {
+        None
     }
 }
 
@@ -228,7 +246,7 @@ pub trait ShopUnits {
     /// N/m to N/mm.
     fn n_mm(self) -> f64;
     /// N mm to N m.
-    fn from_nmm(self) -> f64;
+    fn nmm_in_nm(self) -> f64;
 }
 
 impl ShopUnits for f64 {
@@ -261,7 +279,7 @@ impl ShopUnits for f64 {
         self * 1e-3
     }
     #[inline]
-    fn from_nmm(self) -> f64 {
+    fn nmm_in_nm(self) -> f64 {
         self * 1e-3
     }
 }

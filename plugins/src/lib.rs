@@ -1,1 +1,12 @@
-//! Loss models.
+//! The loss models and catalogues that ship with gearloss: one file per model, a folder per mechanism.
+//!
+//! The crate uses the framework exactly as an in-house crate does. A program links it by `use gearloss_plugins as _;`.
+
+pub mod bearing;
+pub mod catalogues;
+pub mod gear_drag;
+pub mod gear_mesh;
+pub mod seal;
+pub mod sets;
+pub mod synchronizer;
+pub mod tooth_friction;

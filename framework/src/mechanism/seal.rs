@@ -32,17 +32,6 @@ pub enum SealKind {
     NonContact,
 }
 
-/// Material of a seal's lip.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LipMaterial {
-    /// Fluoroelastomer, for high rubbing speeds.
-    #[default]
-    Fkm,
-    /// Nitrile rubber.
-    Nbr,
-}
-
 /// A shaft seal against the housing.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct SealPart {
@@ -52,9 +41,6 @@ pub struct SealPart {
     /// Kind of the seal.
     #[serde(default)]
     pub kind: SealKind,
-    /// Material of the lip.
-    #[serde(default)]
-    pub lip: LipMaterial,
 }
 
 context! {
@@ -104,7 +90,15 @@ impl Component for Seal {
 
     fn at<'a>(part: &'a SealPart, site: MemberSite<'a>, notes: Notes<'a>) -> SealAt<'a> {
         let oil = site.oil;
-        SealAt { part, speed: site.speed, temperature: oil.temperature, nu: oil.nu, nu40: oil.nu40, rho: oil.rho, notes }
+        SealAt {
+            part,
+            speed: site.speed,
+            temperature: oil.temperature,
+            nu: oil.nu,
+            nu40: oil.nu40,
+            rho: oil.rho,
+            notes,
+        }
     }
 }
 

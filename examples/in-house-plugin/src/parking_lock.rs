@@ -1,0 +1,82 @@
+//! Drag of parking locks: a mechanism with its own section `parking_locks`.
+
+use std::sync::Arc;
+
+use gearloss_framework::attach::{MemberSite, OnMember};
+use gearloss_framework::generic::Scalar;
+use gearloss_framework::loss::{Loss, Notes, Undefined};
+use gearloss_framework::mechanism::{Component, Mechanism, Quantity};
+use gearloss_framework::{context, register_component};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum ParkingLock {}
+
+/// Drag of an open parking lock. A model answers with a moment about its shaft.
+pub trait ParkingLockModel: Send + Sync {
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &ParkingLockAt<'_>) -> Result<Loss, Undefined>;
+}
+
+/// A parking lock.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct ParkingLockPart {
+    /// Outside diameter of the wheel. [mm]
+    #[schemars(range(min = 20.0, max = 500.0))]
+    pub wheel: f64,
+}
+
+context! {
+    /// All that a model of a parking lock may look at.
+    pub struct ParkingLockAt of ParkingLock {
+        /// Speed of the wheel, signed. [rpm]
+        speed: 1000.0 in -20000.0..=20000.0,
+        /// Dynamic viscosity of the oil. [mPa s]
+        eta: 8.0 in 0.5..=10000.0,
+    }
+}
+
+impl Mechanism for ParkingLock {
+    const KEY: &'static str = "parking_lock";
+    const MEANING: &'static str = "Drag of an open parking lock.";
+    const ANSWER: &'static str = "Drag moment. [Nm]";
+    const EXAMPLE: &'static str = "{ wheel: 90 mm }";
+    const QUANTITIES: &'static [Quantity<Self>] = ParkingLockAt::QUANTITIES;
+    type Part = ParkingLockPart;
+    type At<'a> = ParkingLockAt<'a>;
+    type Answer = Loss;
+    type Model = dyn ParkingLockModel;
+
+    fn usual<'a>(part: &'a ParkingLockPart, notes: Notes<'a>) -> ParkingLockAt<'a> {
+        ParkingLockAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &ParkingLockAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &ParkingLockAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl Component for ParkingLock {
+    const SECTION: &'static str = "parking_locks";
+    type Attachment = OnMember;
+
+    fn at<'a>(part: &'a ParkingLockPart, site: MemberSite<'a>, notes: Notes<'a>) -> ParkingLockAt<'a> {
+        ParkingLockAt { part, speed: site.speed, eta: site.oil.eta, notes }
+    }
+}
+
+// Gives `constant`, `formula`, `table` and `none`.
+impl ParkingLockModel for Scalar<ParkingLock> {
+    fn loss(&self, at: &ParkingLockAt<'_>) -> Result<Loss, Undefined> {
+        self.moment(at)
+    }
+}
+
+register_component!(ParkingLock);

@@ -1,0 +1,43 @@
+//! A pawl that is held off the wheel by a spring and rattles along its teeth.
+//!
+//! Source: invented for this example; the figures mean nothing.
+
+use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::parking_lock::{ParkingLock, ParkingLockAt, ParkingLockModel};
+
+const RATTLE: Term = Term::no_load(0, "rattle");
+const SPEED: Limit = Limit::new(0, "n", "1/min", 0.0, 6000.0, "rig of the example");
+
+/// A pawl held off the wheel by a spring.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Pawl {
+    /// Mean force of the pawl on the wheel. [N]
+    #[serde(default = "force")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub force: f64,
+}
+
+fn force() -> f64 {
+    0.5
+}
+
+impl ParkingLockModel for Pawl {
+    fn loss(&self, at: &ParkingLockAt<'_>) -> Result<Loss, Undefined> {
+        at.check(&SPEED, at.speed.abs().rpm());
+        let moment = at.show("M", "Nm", self.force * 0.5 * at.part.wheel);
+        Ok(Loss::MOMENTS.with(&RATTLE, moment))
+    }
+}
+
+register!(ParkingLock, "pawl", Pawl,
+    meaning: "A pawl that rattles along the wheel.",
+    source: "rig report 17 of nobody",
+    example: "{ type: pawl, force: 0.8 N }",
+    evidence: [formula(Evidence::Assumed, "invented"), default_of("force", Evidence::Assumed, "invented")],
+    limits: [SPEED], terms: [RATTLE]);

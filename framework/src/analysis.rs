@@ -1,0 +1,9 @@
+//! Analyses: many points of one transmission, in parallel, with the same bits on any number of threads.
+
+mod grid;
+mod notes;
+mod sums;
+
+pub use grid::{GridResult, PointResult, Points, run_grid};
+pub use notes::{Note, WeakPoint, evidence, notes};
+pub use sums::{SUMS, sum_of};

@@ -1,0 +1,162 @@
+//! What was seen of limits and observed quantities, with the paths of their models, and how well models are known.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::loss::Extent;
+use crate::registry::{Evidence, Instance};
+use crate::resolve::{Came, Resolved, lookup};
+use crate::transmission::Transmission;
+
+/// One limit or observed quantity over many points.
+#[derive(Debug, Clone, Serialize)]
+pub struct Note {
+    /// Path of the model.
+    pub path: String,
+    /// Symbol.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// Least value seen.
+    pub least: f64,
+    /// Greatest value seen.
+    pub greatest: f64,
+    /// At how many points it was seen.
+    pub points: u64,
+    /// At how many points it was outside of the stated range; zero for an observed quantity.
+    pub outside: u64,
+    /// The stated range with its origin; absent for an observed quantity.
+    pub range: Option<(f64, f64, &'static str)>,
+}
+
+/// All limits and observed quantities that were seen.
+pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for instance in transmission.instances() {
+        for limit in instance.entry.limits {
+            let extent = seen[instance.notes.limits + limit.index];
+            notes.extend(note(
+                instance,
+                limit.name,
+                limit.unit,
+                extent,
+                Some((limit.least, limit.greatest, limit.origin)),
+            ));
+        }
+        for observed in instance.entry.observed {
+            notes.extend(note(
+                instance,
+                observed.name,
+                observed.unit,
+                seen[instance.notes.observed + observed.index],
+                None,
+            ));
+        }
+    }
+    notes
+}
+
+fn note(
+    instance: &Instance,
+    name: &'static str,
+    unit: &'static str,
+    extent: Extent,
+    range: Option<(f64, f64, &'static str)>,
+) -> Option<Note> {
+    (extent.seen > 0).then(|| Note {
+        path: instance.path.clone(),
+        name,
+        unit,
+        least: extent.least,
+        greatest: extent.greatest,
+        points: extent.seen,
+        outside: extent.outside,
+        range,
+    })
+}
+
+/// A formula, default or catalogue value that a result rests on, with its grade.
+#[derive(Debug, Clone, Serialize)]
+pub struct WeakPoint {
+    /// Model, and the parameter where the grade is that of a default.
+    pub what: String,
+    /// The grade.
+    pub grade: Evidence,
+    /// What it rests on.
+    pub because: String,
+    /// Paths that use it.
+    pub paths: Vec<String>,
+}
+
+/// How well everything that the transmission uses is known, the weakest first. A parameter that is written counts as the
+/// user's own and is left out.
+pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn Fn(&str) -> bool) -> Vec<WeakPoint> {
+    let mut points: Vec<WeakPoint> = Vec::new();
+    let mut add =
+        |what: String, grade: Evidence, because: &str, path: &str| match points.iter_mut().find(|p| p.what == what) {
+            Some(point) => point.paths.push(path.to_owned()),
+            None => points.push(WeakPoint {
+                what,
+                grade,
+                because: because.to_owned(),
+                paths: vec![path.to_owned()],
+            }),
+        };
+    for instance in transmission.instances() {
+        let entry = &instance.entry;
+        if entry.name == "none" {
+            continue;
+        }
+        let model = format!("{}/{}", entry.mechanism, entry.name);
+        for graded in entry.evidence {
+            if graded.key.is_empty() {
+                add(model.clone(), graded.grade, graded.because, &instance.path);
+                continue;
+            }
+            let path = format!("{}.{}", instance.path, graded.key);
+            let value = lookup(&resolved.value, &path);
+            let own = written(&path) || *resolved.came(&path) == Came::Override;
+            // A parameter with a default that nobody wrote, or one that the model fills itself.
+            if !own || value.is_none_or(Value::is_null) {
+                add(
+                    format!("{model}.{}", graded.key),
+                    graded.grade,
+                    graded.because,
+                    &instance.path,
+                );
+            }
+        }
+    }
+    for (path, came) in &resolved.came {
+        if let Came::Catalogue {
+            designation,
+            confidence,
+        } = came
+        {
+            let grade = match confidence.as_str() {
+                "high" => Evidence::SeveralSources,
+                "medium" => Evidence::OneSource,
+                "low" => Evidence::Recalled,
+                _ => Evidence::User,
+            };
+            let owner = path.rsplit_once('.').map_or(path.as_str(), |(owner, _)| owner);
+            let what = format!("catalogue row {designation}");
+            if !points
+                .iter()
+                .any(|p| p.what == what && p.paths.iter().any(|p| p == owner))
+            {
+                match points.iter_mut().find(|p| p.what == what) {
+                    Some(point) => point.paths.push(owner.to_owned()),
+                    None => points.push(WeakPoint {
+                        what,
+                        grade,
+                        because: format!("confidence {confidence}"),
+                        paths: vec![owner.to_owned()],
+                    }),
+                }
+            }
+        }
+    }
+    points.sort_by(|a, b| b.grade.cmp(&a.grade).then_with(|| a.what.cmp(&b.what)));
+    points
+}

@@ -1,0 +1,307 @@
+//! Where a component sits: the closed set of attachments, as types.
+//!
+//! From the attachment alone follow the relative speed, the loads, the local oil, and who feels the reaction. Each has a
+//! *place* (the keys that it adds to the component's entry), a *seat* (indices), and a *site* (the state at one point).
+
+mod clearance;
+mod member;
+mod support;
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+
+pub use clearance::{Clearance, ClearancePlace, ClearanceSeat, ClearanceSite};
+pub use member::{MemberPlace, MemberSite, OnMember};
+pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
+
+use crate::document::{Diagnostic, did_you_mean};
+use crate::loads::SupportLoad;
+use crate::registry::Common;
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// An attachment. The set is closed: mechanisms choose one, they do not make one.
+pub trait Attach: sealed::Sealed + 'static {
+    /// The keys that the attachment adds to the component's entry.
+    type Place: DeserializeOwned + JsonSchema;
+    /// Indices of what the place names.
+    type Seat: Copy + Send + Sync;
+    /// The state at one operating point.
+    type Site<'a>;
+    /// True where the loss may depend on torque or load.
+    const LOADED: bool;
+    /// Looks up the names of a place; those that dangle go to the findings.
+    fn seat(place: &Self::Place, names: &mut Names<'_>) -> Option<Self::Seat>;
+    /// The site of a seat.
+    fn site<'a>(seat: Self::Seat, spot: &Spot, state: &State<'a>) -> Self::Site<'a>;
+    /// First and second member: moments work against the speed of the first relative to the second, and both feel them.
+    /// Absent for the housing.
+    fn between(seat: Self::Seat) -> [Option<u16>; 2];
+    /// Number of the support, where the attachment carries load.
+    fn support(_seat: Self::Seat) -> Option<u16> {
+        None
+    }
+}
+
+/// The oil at one place at one point, SI; temperature in degC.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Oil {
+    /// Temperature. \[degC\]
+    pub temperature: f64,
+    /// Kinematic viscosity. \[m2/s\]
+    pub nu: f64,
+    /// Density. \[kg/m3\]
+    pub rho: f64,
+    /// Dynamic viscosity. \[Pa s\]
+    pub eta: f64,
+    /// Kinematic viscosity at 40 degC. \[m2/s\]
+    pub nu40: f64,
+    /// Pressure-viscosity coefficient. \[1/Pa\]
+    pub alpha: f64,
+    /// Coefficient of boundary friction in rolling bearings; zero where none is stated.
+    pub mu_bl: f64,
+    /// Coefficient of full-film friction in rolling bearings.
+    pub mu_ehl: f64,
+    /// Lubricant factor of mean mesh friction.
+    pub x_l: f64,
+}
+
+/// Where a component takes its oil from and how high that stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spot {
+    /// Number of the oil among those of the transmission.
+    pub oil: u16,
+    /// How the height of the oil above the component's axis follows.
+    pub level: Level,
+}
+
+/// Height of the oil above an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Level {
+    /// No oil reaches the place.
+    Dry,
+    /// A pocket of its own, with this height above the axis. \[m\]
+    Own(f64),
+    /// The sump: `(surface - height) * slope`, with the height of the place above the datum. \[m\]
+    Sump {
+        /// Height of the place above the datum, along the upward direction. \[m\]
+        height: f64,
+        /// One over the share of the upward direction across the shafts.
+        slope: f64,
+    },
+}
+
+/// State of the transmission at one operating point, as attachments see it.
+#[derive(Debug, Clone, Copy)]
+pub struct State<'a> {
+    /// Speeds of the members. \[rad/s\]
+    pub speeds: &'a [f64],
+    /// Oils, by number.
+    pub oils: &'a [Oil],
+    /// Height of the oil above the datum; minus infinity without a sump. \[m\]
+    pub surface: f64,
+    /// Loads of the supports.
+    pub loads: &'a [SupportLoad],
+}
+
+impl<'a> State<'a> {
+    /// Speed of a member; zero for the housing. \[rad/s\]
+    #[inline]
+    pub fn speed(&self, member: Option<u16>) -> f64 {
+        member.map_or(0.0, |m| self.speeds[m as usize])
+    }
+
+    /// Difference of two members' speeds; zero where it is rounding. \[rad/s\]
+    #[inline]
+    pub fn relative(&self, a: Option<u16>, b: Option<u16>) -> f64 {
+        let (a, b) = (self.speed(a), self.speed(b));
+        if (a - b).abs() <= 1e-12 * a.abs().max(b.abs()) {
+            0.0
+        } else {
+            a - b
+        }
+    }
+
+    /// The oil of a spot.
+    #[inline]
+    pub fn oil(&self, spot: &Spot) -> &'a Oil {
+        &self.oils[spot.oil as usize]
+    }
+
+    /// Height of the oil above the axis at a spot; minus infinity where it is dry. \[m\]
+    #[inline]
+    pub fn level(&self, spot: &Spot) -> f64 {
+        match spot.level {
+            Level::Dry => f64::NEG_INFINITY,
+            Level::Own(level) => level,
+            Level::Sump { height, slope } => (self.surface - height) * slope,
+        }
+    }
+}
+
+/// A support as seated, for statics.
+#[derive(Debug, Clone)]
+pub struct SeatedSupport {
+    /// Path of the component.
+    pub path: String,
+    /// Member inside.
+    pub inner: u16,
+    /// Member outside; absent for the housing.
+    pub outer: Option<u16>,
+    /// What was written.
+    pub place: SupportPlace,
+}
+
+/// A clearance as seated: gear states may close it.
+#[derive(Debug, Clone)]
+pub struct SeatedClearance {
+    /// Id of the component.
+    pub id: String,
+    /// Path of the component.
+    pub path: String,
+    /// The two members; absent for the housing.
+    pub between: [Option<u16>; 2],
+}
+
+/// Numbers an oil by lubricant and temperature offset, and says how high a place lies.
+pub trait Places {
+    /// Number of the oil of a lubricant with an offset; absent and reported where the lubricant dangles.
+    fn oil(&mut self, path: &str, common: &Common) -> Option<u16>;
+    /// How the height of the oil follows at a place along a member's axis.
+    fn level(&self, member: Option<u16>, at: f64) -> Level;
+}
+
+/// The names that a component may use, while it is seated. Collects supports, clearances and findings.
+pub struct Names<'a> {
+    members: &'a [(String, Option<u16>)],
+    places: &'a mut dyn Places,
+    supports: Vec<SeatedSupport>,
+    clearances: Vec<SeatedClearance>,
+    findings: Vec<Diagnostic>,
+    path: String,
+    id: String,
+    site: (Option<u16>, f64),
+    own: Option<f64>,
+}
+
+impl<'a> Names<'a> {
+    /// Names of members: each with its index, absent where the member itself has a fault that was reported.
+    pub fn new(members: &'a [(String, Option<u16>)], places: &'a mut dyn Places) -> Self {
+        Self {
+            members,
+            places,
+            supports: Vec::new(),
+            clearances: Vec::new(),
+            findings: Vec::new(),
+            path: String::new(),
+            id: String::new(),
+            site: (None, 0.0),
+            own: None,
+        }
+    }
+
+    /// Turns to the next component.
+    pub fn turn_to(&mut self, section: &str, id: &str) {
+        self.path = format!("{section}.{id}");
+        id.clone_into(&mut self.id);
+        self.site = (None, 0.0);
+        self.own = None;
+    }
+
+    /// Path of the component.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// A member by its id. The outer absence: reported. The inner absence: the housing.
+    pub fn side(&mut self, key: &str, id: &str) -> Option<Option<u16>> {
+        if id == "housing" {
+            Some(None)
+        } else {
+            self.member(key, id).map(Some)
+        }
+    }
+
+    /// A member by its id; absent and reported where there is none.
+    pub fn member(&mut self, key: &str, id: &str) -> Option<u16> {
+        if let Some((_, index)) = self.members.iter().find(|(name, _)| name == id) {
+            *index
+        } else {
+            let ids: Vec<&str> = self.members.iter().map(|(name, _)| name.as_str()).collect();
+            self.findings.push(dangling(
+                &format!("{}.{key}", self.path),
+                "shaft or loose gear",
+                id,
+                &ids,
+            ));
+            None
+        }
+    }
+
+    fn lies(&mut self, member: Option<u16>, at: f64) {
+        self.site = (member, at);
+    }
+
+    fn own_level(&mut self, level: Option<f64>) {
+        self.own = level;
+    }
+
+    fn add_support(&mut self, inner: u16, outer: Option<u16>, place: &SupportPlace) -> u16 {
+        self.supports.push(SeatedSupport {
+            path: self.path.clone(),
+            inner,
+            outer,
+            place: place.clone(),
+        });
+        (self.supports.len() - 1) as u16
+    }
+
+    fn add_clearance(&mut self, between: [Option<u16>; 2]) {
+        self.clearances.push(SeatedClearance {
+            id: self.id.clone(),
+            path: self.path.clone(),
+            between,
+        });
+    }
+
+    /// Where the component takes its oil from; after it was seated.
+    pub fn spot(&mut self, common: &Common) -> Option<Spot> {
+        let oil = self.places.oil(&self.path, common)?;
+        let level = self
+            .own
+            .map_or_else(|| self.places.level(self.site.0, self.site.1), Level::Own);
+        Some(Spot { oil, level })
+    }
+
+    /// Adds a finding.
+    pub fn report(&mut self, finding: Diagnostic) {
+        self.findings.push(finding);
+    }
+
+    /// Supports, clearances and findings.
+    pub fn finish(self) -> (Vec<SeatedSupport>, Vec<SeatedClearance>, Vec<Diagnostic>) {
+        (self.supports, self.clearances, self.findings)
+    }
+}
+
+/// The error for an id that nothing has.
+pub fn dangling(path: &str, what: &str, id: &str, ids: &[&str]) -> Diagnostic {
+    let error = Diagnostic::error(path, format!("no {what} is called `{id}`"));
+    let error = if ids.is_empty() {
+        error
+    } else {
+        error.note(format!("there are: {}", ids.join(", ")))
+    };
+    // A neighbour of a short id is as often another part as a misspelt one.
+    let close = if id.len() > 2 {
+        did_you_mean(id, ids.iter().copied())
+    } else {
+        None
+    };
+    match close {
+        Some(close) => error.mend(format!("write `{close}`")),
+        None => error.mend(format!("name one of them, or add `{id}`")),
+    }
+}

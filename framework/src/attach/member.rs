@@ -1,0 +1,60 @@
+//! On a member, against the housing: seals, pumps, whatever else takes moment from a shaft.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Attach, Names, Oil, Spot, State, sealed};
+
+/// On a shaft or a loose gear, against the housing.
+#[derive(Debug)]
+pub enum OnMember {}
+
+/// Where a component sits on a member.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct MemberPlace {
+    /// Shaft or loose gear.
+    pub shaft: String,
+    /// Place along the shaft; matters for the oil level of a tilted housing only. [mm]
+    #[serde(default)]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub at: f64,
+}
+
+/// The state where a component sits on a member.
+#[derive(Debug, Clone, Copy)]
+pub struct MemberSite<'a> {
+    /// Speed of the member, signed. \[rad/s\]
+    pub speed: f64,
+    /// The oil there.
+    pub oil: &'a Oil,
+    /// Height of the oil above the axis; minus infinity where it is dry. \[m\]
+    pub level: f64,
+}
+
+impl sealed::Sealed for OnMember {}
+
+impl Attach for OnMember {
+    type Place = MemberPlace;
+    type Seat = u16;
+    type Site<'a> = MemberSite<'a>;
+    const LOADED: bool = false;
+
+    fn seat(place: &MemberPlace, names: &mut Names<'_>) -> Option<u16> {
+        let member = names.member("shaft", &place.shaft)?;
+        names.lies(Some(member), place.at);
+        Some(member)
+    }
+
+    #[inline]
+    fn site<'a>(seat: u16, spot: &Spot, state: &State<'a>) -> MemberSite<'a> {
+        MemberSite {
+            speed: state.speed(Some(seat)),
+            oil: state.oil(spot),
+            level: state.level(spot),
+        }
+    }
+
+    fn between(seat: u16) -> [Option<u16>; 2] {
+        [Some(seat), None]
+    }
+}

@@ -1,0 +1,183 @@
+//! The conformance suite: what every model owes to the framework, checked on a grid of its mechanism's context.
+//!
+//! It serves built-in models and those of other crates alike: [`check_all`] in one test of a crate covers every model that
+//! is linked.
+
+use std::cell::Cell;
+use std::sync::Arc;
+
+use serde_json::Value;
+
+use crate::language::Language;
+use crate::loss::{Extent, Notes, Undefined};
+use crate::mechanism::{Answer, Mechanism};
+use crate::registry::{Build, Entry, Files, Registry, from_resolved};
+
+/// Checks every linked model on its mechanism's example part. Empty when all is well; else one line for each fault.
+pub fn check_all(language: &Language) -> Vec<String> {
+    let mut faults = Vec::new();
+    for mechanism in language.registry().mechanisms() {
+        for q in (mechanism.quantities)() {
+            if crate::document::Unit::of_doc(q.doc).is_none() {
+                faults.push(format!(
+                    "{}: the doc comment of `{}` does not end in a [unit]",
+                    mechanism.key, q.name
+                ));
+            }
+            if !(q.least <= q.usual && q.usual <= q.greatest) {
+                faults.push(format!(
+                    "{}: the usual value of `{}` is outside of its range",
+                    mechanism.key, q.name
+                ));
+            }
+        }
+        for entry in language.registry().models(mechanism.key) {
+            match language.example_of(entry) {
+                Ok((model, part)) => {
+                    let files = Files::default();
+                    // The example of `table` names a file; a plane over the first quantity stands for it.
+                    if let Some(q) = (mechanism.quantities)().first() {
+                        let unit = crate::document::Unit::of_doc(q.doc).map_or("-", |u| u.symbol);
+                        let csv = format!("{} [{unit}],answer\n{},0.01\n{},0.02\n", q.name, q.least, q.greatest);
+                        files.put("table.csv", &csv);
+                    }
+                    for fault in (mechanism.conform)(language.registry(), &files, entry, &model, &part) {
+                        faults.push(format!("{}/{}: {fault}", entry.mechanism, entry.name));
+                    }
+                }
+                Err(found) => {
+                    faults.extend(
+                        found
+                            .iter()
+                            .map(|d| format!("{}/{}: its example: {d}", entry.mechanism, entry.name)),
+                    );
+                }
+            }
+        }
+    }
+    faults
+}
+
+/// What is wrong with one model, built from its resolved parameters, on one resolved part.
+pub fn conform<M: Mechanism>(
+    registry: &Registry,
+    files: &Files,
+    entry: &Entry,
+    model: &Value,
+    part: &Value,
+) -> Vec<String> {
+    let mut faults = head(entry);
+    let part: Arc<M::Part> = match from_resolved(part) {
+        Ok(part) => Arc::new(part),
+        Err(e) => return vec![format!("the mechanism's example part cannot be read: {e}")],
+    };
+    let mut build = Build::new(registry, files);
+    let slot = match build.slot_at::<M>("model", &part, model) {
+        Ok(slot) => slot,
+        Err(e) => return vec![format!("cannot be built from its example: {e}")],
+    };
+    let (instances, cells) = build.finish();
+    for instance in &instances {
+        let found = instance
+            .path
+            .split('.')
+            .skip(1)
+            .try_fold(model, |value, key| value.get(key));
+        if found.is_none() {
+            faults.push(format!(
+                "nested slot `{}` is not a key of the parameters",
+                instance.path
+            ));
+        }
+    }
+    let mut extents = vec![Extent::EMPTY; cells];
+    let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
+    let usual = M::usual(&part, Notes::MUTED);
+    let noted = M::usual(&part, Notes::new(cells, slot.notes));
+    let mut try_at = |what: &str, changes: &[(usize, f64)]| {
+        let (mut at, mut with_notes) = (usual, noted);
+        for (i, value) in changes {
+            let q = &M::QUANTITIES[*i];
+            (q.set)(&mut at, q.unit().to_si(*value));
+            (q.set)(&mut with_notes, q.unit().to_si(*value));
+        }
+        let answer = M::answer(&slot, &at);
+        let speed = M::speed(&at);
+        if !same(&answer, &M::answer(&slot, &with_notes), speed) {
+            faults.push(format!("answers differently when it is noted, at {what}"));
+        }
+        match answer {
+            Ok(answer) if !answer.is_sound() => faults.push(format!("the answer is negative or not finite at {what}")),
+            Ok(answer) => {
+                if let Some(term) = answer.stray(entry.terms) {
+                    faults.push(format!("fills term {term}, which it does not list, at {what}"));
+                }
+            }
+            Err(Undefined { what: "", .. }) => {
+                faults.push(format!("undefined without a reason at {what}"));
+            }
+            Err(_) => {}
+        }
+    };
+    try_at("the usual point", &[]);
+    for (i, q) in M::QUANTITIES.iter().enumerate() {
+        let mut values = vec![q.least, q.greatest, 0.5 * (q.least + q.greatest)];
+        if q.least <= 0.0 && q.greatest >= 0.0 {
+            values.push(0.0);
+        }
+        for value in values {
+            try_at(&format!("{} = {value}", q.name), &[(i, value)]);
+            for (j, other) in M::QUANTITIES.iter().enumerate().skip(i + 1) {
+                for second in [other.least, other.greatest] {
+                    try_at(
+                        &format!("{} = {value}, {} = {second}", q.name, other.name),
+                        &[(i, value), (j, second)],
+                    );
+                }
+            }
+        }
+    }
+    faults.dedup();
+    faults.truncate(12);
+    faults
+}
+
+fn same<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f64) -> bool {
+    match (a, b) {
+        (Ok(a), Ok(b)) => a.total(speed).to_bits() == b.total(speed).to_bits(),
+        (Err(a), Err(b)) => a.what == b.what,
+        _ => false,
+    }
+}
+
+fn head(entry: &Entry) -> Vec<String> {
+    let mut faults = Vec::new();
+    for (i, limit) in entry.limits.iter().enumerate() {
+        if limit.index != i {
+            faults.push(format!("limit `{}` has index {} in place {i}", limit.name, limit.index));
+        }
+        if limit.least.is_nan() || limit.greatest.is_nan() || limit.least > limit.greatest {
+            faults.push(format!("limit `{}` has an empty range", limit.name));
+        }
+    }
+    for (i, observed) in entry.observed.iter().enumerate() {
+        if observed.index != i {
+            faults.push(format!(
+                "observed `{}` has index {} in place {i}",
+                observed.name, observed.index
+            ));
+        }
+    }
+    for (i, term) in entry.terms.iter().enumerate() {
+        if term.index != i {
+            faults.push(format!("term `{}` has index {} in place {i}", term.name, term.index));
+        }
+    }
+    if entry.source.trim().is_empty() {
+        faults.push("has no source".to_owned());
+    }
+    if entry.evidence.is_empty() {
+        faults.push("has no evidence".to_owned());
+    }
+    faults
+}

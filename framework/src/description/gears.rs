@@ -1,0 +1,178 @@
+//! Gears, meshes, planetary sets and differentials.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::mechanism::gear_drag::GearDrag;
+use crate::mechanism::gear_mesh::GearMesh;
+use crate::registry::{DragSlots, ModelRef};
+
+/// A gear.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct GearEntry {
+    /// Shaft, carrier or planet body that carries the gear.
+    pub shaft: String,
+    /// Middle of the face along the shafts. [mm]
+    #[serde(default)]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub at: f64,
+    /// Number of teeth; positive for rings, too. [-]
+    #[schemars(range(min = 5, max = 2000))]
+    pub z: u32,
+    /// Face width. [mm]
+    #[schemars(range(min = 0.1, max = 2000.0))]
+    pub facewidth: f64,
+    /// Hand of the helix; the mate's follows. Not needed for spur gears.
+    pub hand: Option<Hand>,
+    /// External teeth or a ring with internal teeth.
+    #[serde(default)]
+    pub kind: GearKind,
+    /// Profile shift coefficient; absent, it closes the centre distance. [-]
+    #[schemars(range(min = -3.0, max = 3.0))]
+    pub profile_shift: Option<f64>,
+    /// Fixed to the shaft, or loose until a coupling joins it.
+    #[serde(default)]
+    pub mounted: Mounting,
+    /// Tip diameter; absent, it follows from the reference tooth. Required for rings. [mm]
+    #[schemars(range(min = 1.0, max = 1e4))]
+    pub tip_diameter: Option<f64>,
+    /// Root diameter; absent, it follows from the reference tooth. [mm]
+    #[schemars(range(min = 1.0, max = 1e4))]
+    pub root_diameter: Option<f64>,
+    /// Flanks; absent, those of the gearbox.
+    pub surface: Option<Surface>,
+    /// Height of the oil above the gear's axis, where it runs in a pocket of its own. [mm]
+    #[schemars(range(min = -1e4, max = 1e4))]
+    pub level: Option<f64>,
+    /// Oil; absent, that of the housing.
+    pub lubricant: Option<String>,
+    /// Temperature of the oil at the gear above that of the sump. [K]
+    #[serde(default)]
+    #[schemars(range(min = -200.0, max = 200.0))]
+    pub temperature_offset: f64,
+    /// Drag models of this gear by name; they take the place of those in `models`.
+    pub drag: Option<DragSlots<GearDrag>>,
+}
+
+/// Hand of a helix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Hand {
+    /// Right-hand helix.
+    Right,
+    /// Left-hand helix.
+    Left,
+}
+
+/// External or internal teeth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GearKind {
+    /// External teeth.
+    #[default]
+    External,
+    /// Internal teeth.
+    Ring,
+}
+
+/// How a gear sits on its shaft.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Mounting {
+    /// Turns with the shaft.
+    #[default]
+    Fixed,
+    /// Turns freely until a coupling joins it.
+    Loose,
+}
+
+/// Roughness of flanks.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Surface {
+    /// Arithmetic mean roughness of one flank. [um]
+    #[schemars(range(min = 0.001, max = 50.0))]
+    pub ra: f64,
+    /// Root mean square roughness of one flank; absent, 1.25 times `ra`. [um]
+    #[schemars(range(min = 0.001, max = 50.0))]
+    pub rq: Option<f64>,
+}
+
+/// Two gears in mesh.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct MeshEntry {
+    /// First and second gear. A ring is the second.
+    pub gears: [String; 2],
+    /// Normal module. [mm]
+    #[schemars(range(min = 0.05, max = 100.0))]
+    pub normal_module: f64,
+    /// Normal pressure angle. [deg]
+    #[serde(default = "twenty_degrees")]
+    #[schemars(range(min = 10.0, max = 35.0))]
+    pub pressure_angle: f64,
+    /// Helix angle at the reference circle; zero for spur gears. [deg]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 60.0))]
+    pub helix_angle: f64,
+    /// Working centre distance; absent, that of the axes or of the profile shifts. [mm]
+    #[schemars(range(min = 0.5, max = 1e5))]
+    pub centre_distance: Option<f64>,
+    /// Both halves of a double-helical gear: their axial forces cancel.
+    #[serde(default)]
+    pub double_helical: bool,
+    /// Young's modulus of both gears. [GPa]
+    #[serde(default = "crate::mechanism::gear_mesh::steel")]
+    #[schemars(range(min = 0.1, max = 1000.0))]
+    pub elastic_modulus: f64,
+    /// Poisson's ratio of both gears. [-]
+    #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
+    #[schemars(range(min = 0.0, max = 0.49))]
+    pub poisson: f64,
+    /// Tip shortening keeps the tip clearance of shifted external gears.
+    #[serde(default = "yes")]
+    pub tip_shortening: bool,
+    /// Oil; absent, that of the housing.
+    pub lubricant: Option<String>,
+    /// Temperature of the oil in the mesh above that of the sump. [K]
+    #[serde(default)]
+    #[schemars(range(min = -200.0, max = 200.0))]
+    pub temperature_offset: f64,
+    /// Loss model of the mesh; absent, that of `models`.
+    pub model: Option<ModelRef<GearMesh>>,
+    /// Drag models of this mesh by name; they take the place of those in `models`.
+    pub drag: Option<DragSlots<GearDrag>>,
+}
+
+fn twenty_degrees() -> f64 {
+    20.0_f64.to_radians()
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// Planets on a carrier.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct PlanetarySetEntry {
+    /// Shaft that is the carrier.
+    pub carrier: String,
+    /// Number of equal planets, equally spaced: their transverse forces on central members cancel. [-]
+    #[schemars(range(min = 2, max = 50))]
+    pub count: u32,
+    /// Shafts that are the planet bodies; each stands for all of its equal copies.
+    #[schemars(length(min = 1))]
+    pub planets: Vec<String>,
+}
+
+/// A differential: the speeds of both sides against the case add up to zero.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct DifferentialEntry {
+    /// Shaft that is the case.
+    pub case: String,
+    /// Left side shaft.
+    pub left: String,
+    /// Right side shaft.
+    pub right: String,
+    /// Both sides turn at one speed unless a point prescribes their speeds.
+    #[serde(default = "yes")]
+    pub equal_speeds: bool,
+}

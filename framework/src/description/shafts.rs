@@ -1,0 +1,67 @@
+//! Shafts and what acts on them from outside.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A shaft, a carrier or a planet body.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct ShaftEntry {
+    /// Axis in the housing: y and z, z upwards. Absent for a planet body, whose axis moves with its carrier. [mm]
+    #[schemars(inner(range(min = -1e5, max = 1e5)))]
+    pub axis: Option<[f64; 2]>,
+    /// Mass with all that is fixed to the shaft; its weight loads the bearings. [kg]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e5))]
+    pub mass: f64,
+    /// Place of the centre of mass along the shaft; required with a mass. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub mass_at: Option<f64>,
+    /// Sections with their diameters; required where more than two bearings carry the shaft, or a hinge or a tilting
+    /// stiffness is stated.
+    #[serde(default)]
+    pub sections: Vec<SectionEntry>,
+    /// Counts the deflection by shear (Timoshenko) beside that by bending.
+    #[serde(default)]
+    pub shear_deformation: bool,
+    /// Places of hinges along the shaft. [mm]
+    #[serde(default)]
+    #[schemars(inner(range(min = -1e5, max = 1e5)))]
+    pub hinges: Vec<f64>,
+    /// Forces from outside.
+    #[serde(default)]
+    pub loads: Vec<LoadEntry>,
+}
+
+/// A piece of a shaft with constant diameters.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct SectionEntry {
+    /// Where the piece begins. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub from: f64,
+    /// Where the piece ends. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub to: f64,
+    /// Outer diameter. [mm]
+    #[schemars(range(min = 0.1, max = 1e4))]
+    pub outer: f64,
+    /// Inner diameter. [mm]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e4))]
+    pub inner: f64,
+}
+
+/// A force and a moment on a shaft from outside, fixed in the housing.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct LoadEntry {
+    /// Place along the shaft. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub at: f64,
+    /// Force: x along the shafts, y, z upwards. [N]
+    #[serde(default)]
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
+    pub force: [f64; 3],
+    /// Bending moment about y and about z. [Nm]
+    #[serde(default)]
+    #[schemars(inner(range(min = -1e9, max = 1e9)))]
+    pub moment: [f64; 2],
+}

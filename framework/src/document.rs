@@ -1,0 +1,21 @@
+//! Documents: YAML text to nodes with places, one collecting walk along a compiled schema, values in SI.
+
+mod diagnostic;
+mod node;
+mod places;
+mod publish;
+mod quantity;
+mod schema;
+mod unit;
+mod walk;
+mod yaml;
+
+pub use diagnostic::{Diagnostic, Severity, Sources, did_you_mean};
+pub use node::{Content, Key, Node, Span};
+pub use places::{Place, Places};
+pub use publish::publish;
+pub use quantity::{QuantityFault, number_length, parse_quantity};
+pub use schema::{Field, Schema, Shape, Unsupported};
+pub use unit::{Dimension, Unit};
+pub use walk::{Walked, walk, walk_at};
+pub use yaml::{Read, read_yaml};

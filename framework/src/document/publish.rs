@@ -1,0 +1,135 @@
+//! From generated schemas to the published one: quantities may carry units, records are closed, defaults are in the
+//! documented unit.
+
+use serde_json::{Map, Value, json};
+
+use super::unit::{Dimension, Unit};
+
+/// Pattern of ids. Words that many YAML readers turn into booleans are no ids.
+pub(super) const ID: &str = "^(?!([yY]|[nN]|[yY]es|YES|[nN]o|NO|[oO]n|ON|[oO]ff|OFF|[tT]rue|TRUE|[fF]alse|FALSE|[nN]ull|NULL)$)[A-Za-z][A-Za-z0-9_]*$";
+
+/// Publishes a composed schema.
+pub fn publish(mut schema: Value) -> Value {
+    visit(&mut schema, None);
+    schema
+}
+
+fn visit(schema: &mut Value, inherited: Option<&'static Unit>) {
+    let Some(object) = schema.as_object_mut() else { return };
+    for key in ["format", "title"] {
+        if key != "title" || !object.contains_key("$schema") {
+            object.shift_remove(key);
+        }
+    }
+    drop_null(object);
+    let unit = object
+        .get("description")
+        .and_then(Value::as_str)
+        .and_then(Unit::of_doc)
+        .or(inherited);
+    for key in ["oneOf", "anyOf", "allOf"] {
+        for inner in object.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten() {
+            visit(inner, if key == "allOf" { None } else { unit });
+        }
+    }
+    if let Some(items) = object.get_mut("items") {
+        visit(items, unit);
+    }
+    for key in ["properties", "definitions"] {
+        for (_, inner) in object.get_mut(key).and_then(Value::as_object_mut).into_iter().flatten() {
+            visit(inner, None);
+        }
+    }
+    let is = |object: &Map<String, Value>, name: &str| object.get("type").and_then(Value::as_str) == Some(name);
+    if is(object, "number") || is(object, "integer") {
+        quantity(object, unit);
+    } else if is(object, "object") {
+        record(object);
+    }
+    let default = match (object.get("default"), unit) {
+        (Some(Value::Null), _) => Some(None),
+        // The fields of a record have their own defaults.
+        (Some(Value::Object(_)), _) => Some(Some(json!({}))),
+        (Some(value), Some(unit)) if !is(object, "integer") => Some(Some(in_unit(value, unit))),
+        _ => None,
+    };
+    match default {
+        Some(Some(value)) => {
+            object.insert("default".to_owned(), value);
+        }
+        Some(None) => {
+            object.shift_remove("default");
+        }
+        None => {}
+    }
+}
+
+/// `Option` allows null; in a document an optional key is left out instead.
+fn drop_null(object: &mut Map<String, Value>) {
+    if let Some(types) = object.get_mut("type").and_then(Value::as_array_mut) {
+        types.retain(|t| t != "null");
+        if types.len() == 1 {
+            let only = types.remove(0);
+            object.insert("type".to_owned(), only);
+        }
+    }
+    if let Some(variants) = object.get_mut("anyOf").and_then(Value::as_array_mut) {
+        variants.retain(|v| v.get("type").and_then(Value::as_str) != Some("null"));
+        if variants.len() == 1 {
+            let only = variants.remove(0);
+            object.shift_remove("anyOf");
+            if object.is_empty() {
+                if let Value::Object(inner) = only {
+                    *object = inner;
+                }
+            } else {
+                object.insert("allOf".to_owned(), json!([only]));
+            }
+        }
+    }
+    if let Some(values) = object.get_mut("enum").and_then(Value::as_array_mut) {
+        values.retain(|v| !v.is_null());
+    }
+}
+
+fn quantity(object: &mut Map<String, Value>, unit: Option<&'static Unit>) {
+    let Some(unit) = unit else { return };
+    object.insert("x-unit".to_owned(), json!(unit.symbol));
+    if unit.dimension != Dimension::None && object.get("type").and_then(Value::as_str) == Some("number") {
+        object.insert("type".to_owned(), json!(["number", "string"]));
+        object.insert("pattern".to_owned(), json!(unit.pattern()));
+    }
+}
+
+fn record(object: &mut Map<String, Value>) {
+    match object.get_mut("additionalProperties") {
+        None => {
+            object.insert("additionalProperties".to_owned(), json!(false));
+        }
+        Some(Value::Bool(false)) => {}
+        Some(inner) => {
+            visit(inner, None);
+            let anything = matches!(inner, Value::Bool(true)) || inner.as_object().is_some_and(Map::is_empty);
+            if !anything {
+                object.insert("propertyNames".to_owned(), json!({ "pattern": ID }));
+            }
+        }
+    }
+}
+
+fn in_unit(value: &Value, unit: &Unit) -> Value {
+    match value {
+        Value::Number(n) => {
+            let x = unit.from_si(n.as_f64().unwrap_or(0.0));
+            // A default such as 20 deg comes back from radians with rounding in its last digit.
+            let rounded = (x * 1e9).round() / 1e9;
+            json!(if (rounded - x).abs() <= 1e-12 * x.abs() {
+                rounded
+            } else {
+                x
+            })
+        }
+        Value::Array(list) => Value::Array(list.iter().map(|v| in_unit(v, unit)).collect()),
+        other => other.clone(),
+    }
+}

@@ -1,0 +1,155 @@
+//! Quantities written as text: a plain decimal number and a unit.
+
+use super::unit::{Dimension, Unit};
+
+/// What is wrong with a quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuantityFault {
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub mend: Option<String>,
+}
+
+impl QuantityFault {
+    fn new(message: impl Into<String>, mend: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            mend: Some(mend.into()),
+        }
+    }
+}
+
+/// Length of the plain decimal number at the start of a text; zero where there is none. One grammar for parser, pattern
+/// and formula.
+pub fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+            at += 1;
+        }
+        at
+    };
+    let start = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
+    let whole = digits(start);
+    let mut end = whole;
+    if bytes.get(whole) == Some(&b'.') {
+        let fraction = digits(whole + 1);
+        if whole == start && fraction == whole + 1 {
+            return 0;
+        }
+        end = fraction;
+    } else if whole == start {
+        return 0;
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = end + 1 + usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let exponent = digits(sign);
+        if exponent > sign {
+            end = exponent;
+        }
+    }
+    end
+}
+
+/// The SI value of a quantity written as text, for a place whose documented unit is given.
+///
+/// # Errors
+/// A decimal comma, a number without unit, an unknown unit, a wrong dimension, a value that is not finite.
+pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFault> {
+    let number = number_length(text);
+    if number == 0 {
+        return Err(QuantityFault::new(
+            format!("`{text}` is not a quantity"),
+            format!("write a {} such as {}", unit.dimension.name(), example(unit)),
+        ));
+    }
+    let (digits, rest) = text.split_at(number);
+    if rest.starts_with(',') {
+        return Err(QuantityFault::new(
+            "a decimal comma",
+            format!("write `{}`", text.replacen(',', ".", 1)),
+        ));
+    }
+    let value: f64 = digits.parse().unwrap_or(f64::NAN);
+    let symbol = rest.strip_prefix(' ').unwrap_or(rest);
+    if symbol.is_empty() {
+        return Err(if unit.dimension == Dimension::None {
+            QuantityFault::new("a number written as text", format!("write {digits} without quotes"))
+        } else {
+            QuantityFault::new(
+                "a number written as text",
+                format!("write {digits} without quotes, or `{digits} {}`", unit.symbol),
+            )
+        });
+    }
+    let Some(written) = Unit::of_symbol(symbol) else {
+        let close = super::did_you_mean(symbol, Unit::symbols(unit.dimension));
+        let known: Vec<&str> = Unit::symbols(unit.dimension).collect();
+        return Err(QuantityFault::new(
+            format!("unknown unit `{symbol}`"),
+            match close {
+                Some(close) if unit.dimension != Dimension::None => format!("write `{digits} {close}`"),
+                _ if unit.dimension == Dimension::None => format!("this is a plain number: write {digits}"),
+                _ => format!("a {} is written in {}", unit.dimension.name(), known.join(", ")),
+            },
+        ));
+    };
+    if written.dimension != unit.dimension || unit.dimension == Dimension::None {
+        return Err(QuantityFault::new(
+            format!(
+                "`{symbol}` is a {}, not a {}",
+                written.dimension.name(),
+                unit.dimension.name()
+            ),
+            if unit.dimension == Dimension::None {
+                format!("this is a plain number: write {digits}")
+            } else {
+                format!("write a {} such as {}", unit.dimension.name(), example(unit))
+            },
+        ));
+    }
+    let si = written.to_si(value);
+    if si.is_finite() {
+        Ok(si)
+    } else {
+        Err(QuantityFault {
+            message: format!("`{text}` is too large"),
+            mend: None,
+        })
+    }
+}
+
+fn example(unit: &Unit) -> String {
+    format!("`20 {}`", unit.symbol)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn mm() -> &'static Unit {
+        Unit::of_symbol("mm").unwrap()
+    }
+
+    #[test]
+    fn spellings_of_one_length() {
+        for text in ["30 mm", "30mm", "3 cm", "0.03 m", "3e-2 m", "+30.0 mm", "30000 µm"] {
+            assert!((parse_quantity(text, mm()).unwrap() - 0.03).abs() < 1e-15, "{text}");
+        }
+    }
+
+    #[test]
+    fn each_fault_says_what_and_how_to_mend() {
+        let fault = |text: &str| parse_quantity(text, mm()).unwrap_err();
+        assert!(fault("30 Nm").message.contains("torque, not a length"));
+        assert_eq!(fault("1,25 mm").mend.unwrap(), "write `1.25 mm`");
+        assert!(fault("47").message.contains("number written as text"));
+        assert_eq!(fault("47 mmm").mend.unwrap(), "write `47 mm`");
+        assert!(fault("1e999 mm").message.contains("too large"));
+        for text in ["", "mm", " 5 mm", "5  mm", "0x10 mm", "5 mm ", "--5 mm", ".", "."] {
+            assert!(parse_quantity(text, mm()).is_err(), "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,301 @@
+//! Units of quantities. Inside, everything is SI; temperatures are degC.
+
+/// What a unit measures. Quantities of different dimensions never convert.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// A plain number.
+    None,
+    /// Length, m.
+    Length,
+    /// Area, m2.
+    Area,
+    /// Volume, m3.
+    Volume,
+    /// Angle, rad.
+    Angle,
+    /// Angular speed, rad/s.
+    AngularSpeed,
+    /// Speed, m/s.
+    Speed,
+    /// Torque, N m.
+    Torque,
+    /// Force, N.
+    Force,
+    /// Force per length, N/m; also a stiffness.
+    LineLoad,
+    /// Angular stiffness, N m/rad.
+    AngularStiffness,
+    /// Power, W.
+    Power,
+    /// Mass, kg.
+    Mass,
+    /// Density, kg/m3.
+    Density,
+    /// Kinematic viscosity, m2/s.
+    KinematicViscosity,
+    /// Dynamic viscosity, Pa s.
+    DynamicViscosity,
+    /// Temperature, degC.
+    Temperature,
+    /// Temperature difference, K.
+    TemperatureDifference,
+    /// Thermal expansion, 1/K.
+    Expansion,
+    /// Pressure or modulus, Pa.
+    Pressure,
+    /// One over a pressure, 1/Pa.
+    PressureCoefficient,
+    /// Time, s.
+    Time,
+    /// Volume flow, m3/s.
+    Flow,
+    /// Heat transfer coefficient, W/(m2 K).
+    HeatTransfer,
+    /// Thermal conductivity, W/(m K).
+    Conductivity,
+    /// Specific heat, J/(kg K).
+    SpecificHeat,
+}
+
+impl Dimension {
+    /// What it is called in a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "plain number",
+            Self::Length => "length",
+            Self::Area => "area",
+            Self::Volume => "volume",
+            Self::Angle => "angle",
+            Self::AngularSpeed => "angular speed",
+            Self::Speed => "speed",
+            Self::Torque => "torque",
+            Self::Force => "force",
+            Self::LineLoad => "force per length",
+            Self::AngularStiffness => "angular stiffness",
+            Self::Power => "power",
+            Self::Mass => "mass",
+            Self::Density => "density",
+            Self::KinematicViscosity => "kinematic viscosity",
+            Self::DynamicViscosity => "dynamic viscosity",
+            Self::Temperature => "temperature",
+            Self::TemperatureDifference => "temperature difference",
+            Self::Expansion => "thermal expansion",
+            Self::Pressure => "pressure",
+            Self::PressureCoefficient => "pressure coefficient",
+            Self::Time => "time",
+            Self::Flow => "volume flow",
+            Self::HeatTransfer => "heat transfer coefficient",
+            Self::Conductivity => "thermal conductivity",
+            Self::SpecificHeat => "specific heat",
+        }
+    }
+}
+
+/// One way to write a unit.
+#[derive(Debug, PartialEq)]
+pub struct Unit {
+    /// As written.
+    pub symbol: &'static str,
+    /// What it measures.
+    pub dimension: Dimension,
+    /// SI value of one.
+    pub factor: f64,
+    /// SI value of zero.
+    pub offset: f64,
+}
+
+const PI: f64 = std::f64::consts::PI;
+
+const fn unit(symbol: &'static str, dimension: Dimension, factor: f64) -> Unit {
+    Unit {
+        symbol,
+        dimension,
+        factor,
+        offset: 0.0,
+    }
+}
+
+/// All spellings, the usual one of each unit first.
+static UNITS: &[Unit] = &[
+    unit("-", Dimension::None, 1.0),
+    unit("mm", Dimension::Length, 1e-3),
+    unit("um", Dimension::Length, 1e-6),
+    unit("µm", Dimension::Length, 1e-6),
+    unit("μm", Dimension::Length, 1e-6),
+    unit("cm", Dimension::Length, 1e-2),
+    unit("m", Dimension::Length, 1.0),
+    unit("in", Dimension::Length, 25.4e-3),
+    unit("mm2", Dimension::Area, 1e-6),
+    unit("mm²", Dimension::Area, 1e-6),
+    unit("cm2", Dimension::Area, 1e-4),
+    unit("cm²", Dimension::Area, 1e-4),
+    unit("m2", Dimension::Area, 1.0),
+    unit("m²", Dimension::Area, 1.0),
+    unit("l", Dimension::Volume, 1e-3),
+    unit("L", Dimension::Volume, 1e-3),
+    unit("ml", Dimension::Volume, 1e-6),
+    unit("cm3", Dimension::Volume, 1e-6),
+    unit("cm³", Dimension::Volume, 1e-6),
+    unit("mm3", Dimension::Volume, 1e-9),
+    unit("m3", Dimension::Volume, 1.0),
+    unit("m³", Dimension::Volume, 1.0),
+    unit("deg", Dimension::Angle, PI / 180.0),
+    unit("°", Dimension::Angle, PI / 180.0),
+    unit("rad", Dimension::Angle, 1.0),
+    unit("rpm", Dimension::AngularSpeed, PI / 30.0),
+    unit("1/min", Dimension::AngularSpeed, PI / 30.0),
+    unit("rad/s", Dimension::AngularSpeed, 1.0),
+    unit("m/s", Dimension::Speed, 1.0),
+    unit("km/h", Dimension::Speed, 1.0 / 3.6),
+    unit("Nm", Dimension::Torque, 1.0),
+    unit("N m", Dimension::Torque, 1.0),
+    unit("N·m", Dimension::Torque, 1.0),
+    unit("mNm", Dimension::Torque, 1e-3),
+    unit("N mm", Dimension::Torque, 1e-3),
+    unit("Nmm", Dimension::Torque, 1e-3),
+    unit("kNm", Dimension::Torque, 1e3),
+    unit("kN m", Dimension::Torque, 1e3),
+    unit("N", Dimension::Force, 1.0),
+    unit("kN", Dimension::Force, 1e3),
+    unit("N/mm", Dimension::LineLoad, 1e3),
+    unit("N/um", Dimension::LineLoad, 1e6),
+    unit("kN/mm", Dimension::LineLoad, 1e6),
+    unit("N/m", Dimension::LineLoad, 1.0),
+    unit("Nm/rad", Dimension::AngularStiffness, 1.0),
+    unit("N m/rad", Dimension::AngularStiffness, 1.0),
+    unit("W", Dimension::Power, 1.0),
+    unit("kW", Dimension::Power, 1e3),
+    unit("kg", Dimension::Mass, 1.0),
+    unit("g", Dimension::Mass, 1e-3),
+    unit("t", Dimension::Mass, 1e3),
+    unit("kg/m3", Dimension::Density, 1.0),
+    unit("kg/m³", Dimension::Density, 1.0),
+    unit("kg/l", Dimension::Density, 1e3),
+    unit("g/cm3", Dimension::Density, 1e3),
+    unit("g/cm³", Dimension::Density, 1e3),
+    unit("mm2/s", Dimension::KinematicViscosity, 1e-6),
+    unit("mm²/s", Dimension::KinematicViscosity, 1e-6),
+    unit("cSt", Dimension::KinematicViscosity, 1e-6),
+    unit("m2/s", Dimension::KinematicViscosity, 1.0),
+    unit("m²/s", Dimension::KinematicViscosity, 1.0),
+    unit("mPa s", Dimension::DynamicViscosity, 1e-3),
+    unit("mPas", Dimension::DynamicViscosity, 1e-3),
+    unit("mPa·s", Dimension::DynamicViscosity, 1e-3),
+    unit("cP", Dimension::DynamicViscosity, 1e-3),
+    unit("Pa s", Dimension::DynamicViscosity, 1.0),
+    unit("degC", Dimension::Temperature, 1.0),
+    unit("°C", Dimension::Temperature, 1.0),
+    unit("C", Dimension::Temperature, 1.0),
+    Unit {
+        symbol: "degF",
+        dimension: Dimension::Temperature,
+        factor: 5.0 / 9.0,
+        offset: -160.0 / 9.0,
+    },
+    unit("K", Dimension::TemperatureDifference, 1.0),
+    unit("1/K", Dimension::Expansion, 1.0),
+    unit("Pa", Dimension::Pressure, 1.0),
+    unit("kPa", Dimension::Pressure, 1e3),
+    unit("bar", Dimension::Pressure, 1e5),
+    unit("MPa", Dimension::Pressure, 1e6),
+    unit("N/mm2", Dimension::Pressure, 1e6),
+    unit("GPa", Dimension::Pressure, 1e9),
+    unit("1/GPa", Dimension::PressureCoefficient, 1e-9),
+    unit("1/Pa", Dimension::PressureCoefficient, 1.0),
+    unit("s", Dimension::Time, 1.0),
+    unit("min", Dimension::Time, 60.0),
+    unit("h", Dimension::Time, 3600.0),
+    unit("l/min", Dimension::Flow, 1e-3 / 60.0),
+    unit("L/min", Dimension::Flow, 1e-3 / 60.0),
+    unit("m3/s", Dimension::Flow, 1.0),
+    unit("W/(m2 K)", Dimension::HeatTransfer, 1.0),
+    unit("W/(m² K)", Dimension::HeatTransfer, 1.0),
+    unit("W/m2K", Dimension::HeatTransfer, 1.0),
+    unit("W/(m K)", Dimension::Conductivity, 1.0),
+    unit("W/mK", Dimension::Conductivity, 1.0),
+    unit("J/(kg K)", Dimension::SpecificHeat, 1.0),
+    unit("kJ/(kg K)", Dimension::SpecificHeat, 1e3),
+];
+
+impl Unit {
+    /// The plain number.
+    pub const ONE: &'static Unit = &unit("-", Dimension::None, 1.0);
+
+    /// The unit of a symbol.
+    pub fn of_symbol(symbol: &str) -> Option<&'static Unit> {
+        UNITS.iter().find(|u| u.symbol == symbol)
+    }
+
+    /// The unit in brackets at the end of a doc comment.
+    pub fn of_doc(doc: &str) -> Option<&'static Unit> {
+        let inner = doc.trim_end().strip_suffix(']')?;
+        let open = inner.rfind('[')?;
+        Self::of_symbol(&inner[open + 1..])
+    }
+
+    /// All symbols of a dimension.
+    pub fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str> {
+        UNITS.iter().filter(move |u| u.dimension == dimension).map(|u| u.symbol)
+    }
+
+    /// All symbols.
+    pub fn all_symbols() -> impl Iterator<Item = &'static str> {
+        UNITS.iter().map(|u| u.symbol)
+    }
+
+    /// A number in this unit, in SI.
+    #[inline]
+    pub fn to_si(&self, x: f64) -> f64 {
+        x * self.factor + self.offset
+    }
+
+    /// An SI value in this unit.
+    #[inline]
+    pub fn from_si(&self, si: f64) -> f64 {
+        (si - self.offset) / self.factor
+    }
+
+    /// Regular expression of a quantity of this unit's dimension written as text.
+    pub fn pattern(&self) -> String {
+        let symbols: Vec<String> = Self::symbols(self.dimension)
+            .map(|symbol| {
+                symbol.chars().fold(String::new(), |mut text, c| {
+                    if "()^.*+?|[]{}".contains(c) {
+                        text.push('\\');
+                    }
+                    text.push(c);
+                    text
+                })
+            })
+            .collect();
+        format!(
+            "^[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)? ?({})$",
+            symbols.join("|")
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn every_symbol_is_written_once_and_converts_there_and_back() {
+        for (i, u) in UNITS.iter().enumerate() {
+            assert!(UNITS[..i].iter().all(|v| v.symbol != u.symbol), "{}", u.symbol);
+            for x in [-40.0, 0.0, 1.0, 123.456] {
+                let back = u.from_si(u.to_si(x));
+                assert!((back - x).abs() <= 1e-12 * (1.0 + x.abs()), "{} {x} {back}", u.symbol);
+            }
+        }
+        assert!((Unit::of_symbol("degF").unwrap().to_si(212.0) - 100.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_unit_of_a_doc_comment_stands_in_brackets_at_its_end() {
+        assert_eq!(Unit::of_doc(" Bore diameter. [mm]").unwrap().symbol, "mm");
+        assert!(Unit::of_doc("No unit.").is_none());
+        assert!(Unit::of_doc("Strange. [furlong]").is_none());
+    }
+}

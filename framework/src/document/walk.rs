@@ -1,0 +1,596 @@
+//! The one walk over a document: every unknown key, missing key, wrong kind, wrong dimension, value out of range and
+//! unknown `type` in one run; defaults filled; quantities in SI.
+
+use serde_json::{Map, Value};
+
+use super::diagnostic::{Diagnostic, did_you_mean};
+use super::node::{Content, Key, Node};
+use super::places::{Place, Places};
+use super::quantity::parse_quantity;
+use super::schema::{Field, Schema, Shape};
+use super::unit::{Dimension, Unit};
+
+/// A walked document.
+#[derive(Debug, Clone)]
+pub struct Walked {
+    /// The value, SI, with defaults; complete only without findings.
+    pub value: Value,
+    /// What is wrong.
+    pub findings: Vec<Diagnostic>,
+    /// Where each path was written.
+    pub places: Places,
+}
+
+/// Walks a document.
+pub fn walk(node: &Node, schema: &Schema) -> Walked {
+    let mut walker = Walker {
+        schema,
+        findings: Vec::new(),
+        places: Places::default(),
+        path: String::new(),
+    };
+    let value = walker.value(node, &schema.root).unwrap_or(Value::Null);
+    Walked {
+        value,
+        findings: walker.findings,
+        places: walker.places,
+    }
+}
+
+/// Walks a value as if it stood at a path of a document. A tagged record on the way counts as having the keys of all of its
+/// variants.
+pub fn walk_at(node: &Node, schema: &Schema, path: &str) -> Walked {
+    let mut walker = Walker {
+        schema,
+        findings: Vec::new(),
+        places: Places::default(),
+        path: path.to_owned(),
+    };
+    let shapes = walker.shapes_at(path);
+    let value = match shapes.as_slice() {
+        [] => {
+            let error = Diagnostic::error(path, "there is no such place in the document");
+            walker
+                .findings
+                .push(error.mend("`gearloss check --resolved` prints every path"));
+            None
+        }
+        [first, rest @ ..] => {
+            let value = walker.value(node, first);
+            // The same key may mean another thing in another variant: one that fits is enough.
+            for shape in rest {
+                if walker.findings.is_empty() {
+                    break;
+                }
+                let mut other = Walker {
+                    schema,
+                    findings: Vec::new(),
+                    places: Places::default(),
+                    path: path.to_owned(),
+                };
+                if let (Some(value), true) = (other.value(node, shape), other.findings.is_empty()) {
+                    return Walked {
+                        value,
+                        findings: Vec::new(),
+                        places: other.places,
+                    };
+                }
+            }
+            value
+        }
+    };
+    Walked {
+        value: value.unwrap_or(Value::Null),
+        findings: walker.findings,
+        places: walker.places,
+    }
+}
+
+struct Walker<'a> {
+    schema: &'a Schema,
+    findings: Vec<Diagnostic>,
+    places: Places,
+    path: String,
+}
+
+/// Words that many YAML readers turn into booleans.
+fn is_boolean_trap(text: &str) -> bool {
+    ["y", "n", "yes", "no", "on", "off", "true", "false"].contains(&text.to_ascii_lowercase().as_str())
+}
+
+fn is_id(text: &str) -> bool {
+    let mut letters = text.chars();
+    letters.next().is_some_and(|c| c.is_ascii_alphabetic())
+        && letters.all(|c| c.is_ascii_alphanumeric() || c == '_')
+        && !is_boolean_trap(text)
+        && !["null"].contains(&text.to_ascii_lowercase().as_str())
+}
+
+impl<'a> Walker<'a> {
+    fn report(&mut self, node: &Node, message: impl Into<String>, mend: impl Into<String>) {
+        let finding = Diagnostic::error(self.path.clone(), message).at(node.span).mend(mend);
+        self.findings.push(finding);
+    }
+
+    fn within<T>(&mut self, key: &str, walk: impl FnOnce(&mut Self) -> T) -> T {
+        let length = self.path.len();
+        if length > 0 {
+            self.path.push('.');
+        }
+        self.path.push_str(key);
+        let result = walk(self);
+        self.path.truncate(length);
+        result
+    }
+
+    fn value(&mut self, node: &Node, shape: &'a Shape) -> Option<Value> {
+        match self.schema.follow(shape) {
+            Shape::Number {
+                unit,
+                least,
+                greatest,
+                whole,
+            } => self.number(node, unit, *least, *greatest, *whole),
+            Shape::Text(words) => self.text(node, words),
+            Shape::Bool => self.boolean(node),
+            Shape::Any => Some(node.to_json()),
+            Shape::Record(fields) => self.record(node, fields, None),
+            Shape::Ids(item) => self.ids(node, item),
+            Shape::Paths => match &node.content {
+                Content::Map(_) => Some(node.to_json()),
+                _ => self.wrong(node, "a map from paths to values"),
+            },
+            Shape::List { item, least, most } => self.list(node, item, *least, *most),
+            Shape::Tagged { what, variants, short } => self.tagged(node, what, variants, short),
+            Shape::Either(shapes) => self.either(node, shapes),
+            Shape::Named(name) => {
+                self.report(node, format!("bug: no definition `{name}`"), "report this");
+                None
+            }
+        }
+    }
+
+    fn wrong(&mut self, node: &Node, wanted: &str) -> Option<Value> {
+        let message = if matches!(node.content, Content::Null) {
+            format!("has no value; {wanted} is due")
+        } else {
+            format!("is {}, not {wanted}", node.kind())
+        };
+        let mend = if matches!(node.content, Content::Null) {
+            "write a value, or leave the key out"
+        } else {
+            "see `gearloss schema`"
+        };
+        self.report(node, message, mend);
+        None
+    }
+
+    fn number(&mut self, node: &Node, unit: &'static Unit, least: f64, greatest: f64, whole: bool) -> Option<Value> {
+        let (shown, si) = match &node.content {
+            Content::Number(x) => (*x, unit.to_si(*x)),
+            Content::Text { text, plain } => match parse_quantity(text, unit) {
+                Ok(si) => (unit.from_si(si), si),
+                Err(fault) => {
+                    if *plain && is_boolean_trap(text) {
+                        return self.wrong(node, "a number");
+                    }
+                    self.report(
+                        node,
+                        fault.message,
+                        fault.mend.unwrap_or_else(|| "write a smaller number".to_owned()),
+                    );
+                    return None;
+                }
+            },
+            _ => {
+                let wanted = if unit.dimension == Dimension::None {
+                    "a number".to_owned()
+                } else {
+                    format!("a {} such as `20 {}`", unit.dimension.name(), unit.symbol)
+                };
+                return self.wrong(node, &wanted);
+            }
+        };
+        if !shown.is_finite() {
+            self.report(node, "the number is too large", "write a number of a size that occurs");
+            return None;
+        }
+        // A text is compared after conversion there and back: allow for its rounding.
+        let slack = if matches!(node.content, Content::Text { .. }) {
+            1e-12 * shown.abs()
+        } else {
+            0.0
+        };
+        if shown < least - slack || shown > greatest + slack {
+            let unit_name = if unit.dimension == Dimension::None {
+                String::new()
+            } else {
+                format!(" {}", unit.symbol)
+            };
+            let range = match (least.is_finite(), greatest.is_finite()) {
+                (true, true) => format!("{} to {}{unit_name}", tidy(least), tidy(greatest)),
+                (true, false) => format!("{}{unit_name} or more", tidy(least)),
+                _ => format!("{}{unit_name} or less", tidy(greatest)),
+            };
+            self.report(
+                node,
+                format!("{}{unit_name} is out of range", tidy(shown)),
+                format!("write {range}"),
+            );
+            return None;
+        }
+        if whole {
+            if shown.fract() != 0.0 {
+                self.report(
+                    node,
+                    format!("{} is not a whole number", tidy(shown)),
+                    "write a whole number",
+                );
+                return None;
+            }
+            return Some(Value::from(shown as i64));
+        }
+        Some(Value::from(si))
+    }
+
+    fn text(&mut self, node: &Node, words: &[String]) -> Option<Value> {
+        let text = match &node.content {
+            Content::Text { text, plain } => {
+                if *plain && is_boolean_trap(text) {
+                    self.report(
+                        node,
+                        format!("`{text}` is a boolean to many YAML readers"),
+                        "choose another name",
+                    );
+                    return None;
+                }
+                text
+            }
+            Content::Bool(_) => {
+                self.report(node, "is true or false, not a text", "choose another word");
+                return None;
+            }
+            Content::Number(x) if words.is_empty() => {
+                self.report(
+                    node,
+                    "is a number, not a text",
+                    format!("write it in quotes: \"{}\"", tidy(*x)),
+                );
+                return None;
+            }
+            _ => return self.wrong(node, "a text"),
+        };
+        if !words.is_empty() && !words.contains(text) {
+            let close = did_you_mean(text, words.iter().map(String::as_str)).map(str::to_owned);
+            let finding = Diagnostic::error(
+                self.path.clone(),
+                format!("`{text}` is not one of the words for this key"),
+            )
+            .at(node.span)
+            .note(format!("words: {}", words.join(", ")))
+            .mend(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
+            self.findings.push(finding);
+            return None;
+        }
+        Some(Value::from(text.as_str()))
+    }
+
+    fn boolean(&mut self, node: &Node) -> Option<Value> {
+        match &node.content {
+            Content::Bool(b) => Some(Value::Bool(*b)),
+            Content::Text { text, .. } if is_boolean_trap(text) => {
+                let good = ["y", "yes", "on", "true"].contains(&text.to_ascii_lowercase().as_str());
+                self.report(node, format!("`{text}` is a text here"), format!("write {good}"));
+                None
+            }
+            _ => self.wrong(node, "`true` or `false`"),
+        }
+    }
+
+    fn list(&mut self, node: &Node, item: &'a Shape, least: usize, most: usize) -> Option<Value> {
+        let Content::List(list) = &node.content else {
+            return self.wrong(node, "a list in brackets");
+        };
+        if list.len() < least || list.len() > most {
+            let commas = list.len() > most
+                && list.windows(2).any(|pair| {
+                    matches!(pair[0].content, Content::Number(_))
+                        && pair[1]
+                            .text()
+                            .is_some_and(|t| t.starts_with(|c: char| c.is_ascii_digit()))
+                });
+            let mend = if commas {
+                "a decimal comma splits a number in two: write a point".to_owned()
+            } else if least == most {
+                format!("write {least} entries")
+            } else {
+                format!("write {least} entries or more")
+            };
+            self.report(node, format!("has {} entries", list.len()), mend);
+            return None;
+        }
+        let before = self.findings.len();
+        let values: Vec<Value> = list
+            .iter()
+            .enumerate()
+            .filter_map(|(i, node)| {
+                self.within(&i.to_string(), |w| {
+                    w.places.0.insert(
+                        w.path.clone(),
+                        Place {
+                            value: node.span,
+                            key: node.span,
+                        },
+                    );
+                    w.value(node, item)
+                })
+            })
+            .collect();
+        (self.findings.len() == before).then_some(Value::Array(values))
+    }
+
+    fn ids(&mut self, node: &Node, item: &'a Shape) -> Option<Value> {
+        let Content::Map(entries) = &node.content else {
+            return self.wrong(node, "a map");
+        };
+        let mut map = Map::new();
+        for (key, node) in entries {
+            self.within(&key.name, |w| {
+                if !is_id(&key.name) {
+                    let (message, mend) = if is_boolean_trap(&key.name) {
+                        (
+                            format!("`{}` is a boolean to many YAML readers", key.name),
+                            "choose another name",
+                        )
+                    } else {
+                        (
+                            format!("`{}` is no id", key.name),
+                            "begin with a letter and go on with letters, digits and _",
+                        )
+                    };
+                    w.findings
+                        .push(Diagnostic::error(w.path.clone(), message).at(key.span).mend(mend));
+                }
+                w.places.0.insert(
+                    w.path.clone(),
+                    Place {
+                        value: node.span,
+                        key: key.span,
+                    },
+                );
+                if let Some(value) = w.value(node, item) {
+                    map.insert(key.name.clone(), value);
+                }
+            });
+        }
+        Some(Value::Object(map))
+    }
+
+    fn tagged(&mut self, node: &Node, what: &str, variants: &'a [(String, Shape)], short: &[String]) -> Option<Value> {
+        let names = || variants.iter().map(|(name, _)| name.as_str());
+        match &node.content {
+            Content::Text { text, .. } if short.contains(text) => Some(Value::from(text.as_str())),
+            Content::Text { text, .. } => {
+                if names().any(|name| name == text) {
+                    self.report(
+                        node,
+                        format!("`{text}` is a text here"),
+                        format!("write {{ type: {text} }}"),
+                    );
+                } else {
+                    self.unknown_type(node, what, text, &names().collect::<Vec<_>>());
+                }
+                None
+            }
+            Content::Map(_) => match node.get("type") {
+                None => {
+                    let finding = Diagnostic::error(self.path.clone(), format!("a {what} needs a `type`"))
+                        .at(node.span)
+                        .note(format!("linked here: {}", names().collect::<Vec<_>>().join(", ")))
+                        .mend("a `model:` replaces the default wholly: write its `type`, too");
+                    self.findings.push(finding);
+                    None
+                }
+                Some(tag) => match tag.text() {
+                    Some(name) => {
+                        if let Some((_, Shape::Record(fields))) = variants.iter().find(|(variant, _)| variant == name) {
+                            self.record(node, fields, Some(name))
+                        } else {
+                            self.unknown_type(tag, what, name, &names().collect::<Vec<_>>());
+                            None
+                        }
+                    }
+                    None => self.within("type", |w| w.wrong(tag, "the name of a model")),
+                },
+            },
+            _ => self.wrong(
+                node,
+                &format!(
+                    "a {what}, such as {{ type: ... }}{}",
+                    if short.is_empty() { "" } else { " or none" }
+                ),
+            ),
+        }
+    }
+
+    fn unknown_type(&mut self, node: &Node, what: &str, name: &str, names: &[&str]) {
+        let finding = Diagnostic::error(self.path.clone(), format!("no {what} is called `{name}`"))
+            .at(node.span)
+            .note(format!("linked here: {}", names.join(", ")))
+            .mend(match did_you_mean(name, names.iter().copied()) {
+                Some(close) => format!("write `{close}`"),
+                None => "choose one of them; `gearloss models` says what they are".to_owned(),
+            });
+        self.findings.push(finding);
+    }
+
+    fn either(&mut self, node: &Node, shapes: &'a [Shape]) -> Option<Value> {
+        let schema = self.schema;
+        let fits = |shape: &&'a Shape| match (schema.follow(shape), &node.content) {
+            (Shape::Number { .. }, Content::Number(_) | Content::Text { .. })
+            | (Shape::List { .. }, Content::List(_))
+            | (Shape::Record(_) | Shape::Ids(_) | Shape::Paths | Shape::Tagged { .. }, Content::Map(_))
+            | (Shape::Bool, Content::Bool(_))
+            | (Shape::Any, _) => true,
+            (Shape::Text(words), Content::Text { text, .. }) => words.is_empty() || words.contains(text),
+            _ => false,
+        };
+        let text_first = shapes
+            .iter()
+            .filter(|s| matches!(schema.follow(s), Shape::Text(_)))
+            .find(fits);
+        if let Some(shape) = text_first.or_else(|| shapes.iter().find(fits)) {
+            self.value(node, shape)
+        } else {
+            let kinds: Vec<&str> = shapes
+                .iter()
+                .map(|s| match schema.follow(s) {
+                    Shape::Number { .. } => "a quantity",
+                    Shape::List { .. } => "a list",
+                    Shape::Bool => "true or false",
+                    Shape::Text(_) => "a text",
+                    _ => "a map",
+                })
+                .collect();
+            self.wrong(node, &kinds.join(" or "))
+        }
+    }
+
+    fn record(&mut self, node: &Node, fields: &'a [(String, Field)], tag: Option<&str>) -> Option<Value> {
+        let Content::Map(entries) = &node.content else {
+            return self.wrong(node, "a map of keys");
+        };
+        let mut map = Map::new();
+        let mut behind = None;
+        let mut meant: Vec<String> = Vec::new();
+        for (key, node) in entries {
+            if !fields.iter().any(|(name, _)| *name == key.name) {
+                meant.extend(self.unknown_key(key, node, fields, entries, behind));
+            }
+            behind = if let Content::Number(x) = node.content {
+                Some(x)
+            } else {
+                None
+            };
+        }
+        for (name, field) in fields {
+            let entry = entries.iter().find(|(key, _)| key.name == *name);
+            let value = match entry {
+                Some((key, node)) => self.within(name, |w| {
+                    w.places.0.insert(
+                        w.path.clone(),
+                        Place {
+                            value: node.span,
+                            key: key.span,
+                        },
+                    );
+                    if let (Some(tag), "type") = (tag, name.as_str()) {
+                        return Some(Value::from(tag));
+                    }
+                    w.value(node, &field.shape)
+                }),
+                None => match &field.default {
+                    Some(default) => {
+                        let places = std::mem::take(&mut self.places);
+                        let value = self.within(name, |w| w.value(&Node::from_json(default), &field.shape));
+                        self.places = places;
+                        value
+                    }
+                    // A misspelt key is one error, not two.
+                    None if field.required && meant.contains(name) => None,
+                    None if field.required => {
+                        let first_sentence = field.doc.split(". ").next().unwrap_or_default().trim_end_matches('.');
+                        let finding = Diagnostic::error(self.path.clone(), format!("`{name}` is missing"))
+                            .at(node.span)
+                            .mend(format!("add `{name}:` ({first_sentence})"));
+                        self.findings.push(finding);
+                        None
+                    }
+                    None => None,
+                },
+            };
+            if let Some(value) = value {
+                map.insert(name.clone(), value);
+            }
+        }
+        Some(Value::Object(map))
+    }
+
+    fn unknown_key(
+        &mut self,
+        key: &Key,
+        node: &Node,
+        fields: &[(String, Field)],
+        entries: &[(Key, Node)],
+        behind: Option<f64>,
+    ) -> Option<String> {
+        let comma = behind
+            .filter(|_| matches!(node.content, Content::Null) && key.name.starts_with(|c: char| c.is_ascii_digit()));
+        let path = if self.path.is_empty() {
+            key.name.clone()
+        } else {
+            format!("{}.{}", self.path, key.name)
+        };
+        let mut meant = None;
+        let finding = if let Some(before) = comma {
+            Diagnostic::error(path, "a decimal comma splits the number before it").mend(format!(
+                "write `{}.{}`",
+                tidy(before),
+                key.name
+            ))
+        } else {
+            let open = fields
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .filter(|name| entries.iter().all(|(k, _)| k.name != *name));
+            let error = Diagnostic::error(path, format!("unknown key `{}`", key.name));
+            meant = did_you_mean(&key.name, open).map(str::to_owned);
+            if let Some(close) = &meant {
+                error.mend(format!("write `{close}`"))
+            } else {
+                let names: Vec<&str> = fields.iter().map(|(name, _)| name.as_str()).collect();
+                error
+                    .note(format!("keys here: {}", names.join(", ")))
+                    .mend("leave it out")
+            }
+        };
+        self.findings.push(finding.at(key.span));
+        meant
+    }
+
+    /// All shapes that a path may have; several where tagged records lie on the way.
+    fn shapes_at(&self, path: &str) -> Vec<&'a Shape> {
+        let schema = self.schema;
+        let mut shapes = vec![schema.follow(&schema.root)];
+        for key in path.split('.') {
+            let mut next = Vec::new();
+            let mut open = shapes;
+            while let Some(shape) = open.pop() {
+                match shape {
+                    Shape::Record(fields) => {
+                        next.extend(
+                            fields
+                                .iter()
+                                .filter(|(name, _)| name == key)
+                                .map(|(_, f)| schema.follow(&f.shape)),
+                        );
+                    }
+                    Shape::Ids(item) => next.push(schema.follow(item)),
+                    Shape::List { item, .. } if key.parse::<usize>().is_ok() => next.push(schema.follow(item)),
+                    Shape::Tagged { variants, .. } => open.extend(variants.iter().map(|(_, s)| schema.follow(s))),
+                    Shape::Either(several) => open.extend(several.iter().map(|s| schema.follow(s))),
+                    Shape::Any | Shape::Paths => next.push(&Shape::Any),
+                    _ => {}
+                }
+            }
+            shapes = next;
+        }
+        shapes
+    }
+}
+
+/// A number without the noise of conversions.
+fn tidy(x: f64) -> String {
+    let rounded: f64 = format!("{x:.9e}").parse().unwrap_or(x);
+    format!("{rounded}")
+}

@@ -1,0 +1,400 @@
+//! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
+
+mod scratch;
+mod solution;
+
+pub use scratch::Scratch;
+pub use solution::{PartLoss, Solution};
+
+use std::cell::Cell;
+
+use crate::attach::State;
+use crate::flow::{Balance, Drive, FlowState, Outcome, Status, Tolerance};
+use crate::immersion::dip;
+use crate::loads::SupportLoad;
+use crate::loss::{Extent, Loss, Notes, Undefined};
+use crate::mechanism::gear_drag::GearDragAt;
+use crate::mechanism::gear_mesh::GearMeshAt;
+use crate::transmission::{Case, Component, Transmission};
+
+/// Whether losses change the torques of what comes after them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PowerFlow {
+    /// Torque after a stage is reduced by the losses before it.
+    #[default]
+    Real,
+    /// Torques without losses; all losses are computed from them.
+    Ideal,
+}
+
+/// One operating point of a case.
+#[derive(Debug, Clone, Copy)]
+pub struct Point<'a> {
+    /// Speeds at the case's speed ports. \[rad/s\]
+    pub speeds: &'a [f64],
+    /// Torques at the case's torque ports, as applied to the transmission. \[Nm\]
+    pub torques: &'a [f64],
+    /// Real or ideal flow.
+    pub flow: PowerFlow,
+    /// How well loads and losses must agree.
+    pub tolerance: Tolerance,
+}
+
+impl Transmission {
+    /// Space for evaluating one case; one for each thread.
+    pub fn scratch(&self, case: &Case) -> Scratch {
+        Scratch::new(self, case)
+    }
+
+    /// Evaluates a point at the temperatures of the nodes (degC, [`Transmission::nodes`] of them).
+    ///
+    /// # Panics
+    /// If the point has not as many speeds and torques as the case has ports for them, or there are fewer temperatures than
+    /// nodes: a bug of the caller.
+    pub fn evaluate<'s>(
+        &'s self,
+        case: &'s Case,
+        point: &Point<'_>,
+        temperatures: &[f64],
+        scratch: &'s mut Scratch,
+    ) -> Solution<'s> {
+        self.solve(case, point, temperatures, scratch);
+        Solution {
+            transmission: self,
+            case,
+            scratch,
+            ideal: point.flow == PowerFlow::Ideal,
+        }
+    }
+
+    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch) {
+        assert_eq!(
+            point.speeds.len(),
+            case.speed_ports.len(),
+            "one speed for each speed port of the case"
+        );
+        assert_eq!(
+            point.torques.len(),
+            case.torque_ports.len(),
+            "one torque for each torque port of the case"
+        );
+        s.prescribed[..point.speeds.len()].copy_from_slice(point.speeds);
+        s.prescribed[point.speeds.len()..].fill(0.0);
+        case.motion.speeds(&s.prescribed, &mut s.speeds);
+        s.given[..point.torques.len()].copy_from_slice(point.torques);
+        s.given[point.torques.len()..].fill(0.0);
+        self.oils.at(temperatures, &mut s.oils);
+        s.surface = self.oils.surface(&s.speeds);
+        s.idle_cells.fill(Extent::EMPTY);
+        s.idle_drags.fill(0.0);
+        s.passes = 0;
+        s.loads.fill(SupportLoad::default());
+        let standing = s.speeds.iter().all(|w| *w == 0.0);
+
+        // What does not hang on torque is evaluated once.
+        {
+            let cells = Cell::from_mut(s.idle_cells.as_mut_slice()).as_slice_of_cells();
+            let state = State {
+                speeds: &s.speeds,
+                oils: &s.oils,
+                surface: s.surface,
+                loads: &s.loads,
+            };
+            for (i, (component, loss)) in self.components.iter().zip(&mut s.component_losses).enumerate() {
+                let speed = state.relative(component.between[0], component.between[1]);
+                s.relative[i] = speed;
+                if !component.loaded {
+                    *loss = component_loss(component, &state, Notes::new(cells, component.notes));
+                    let moment = moment(loss, speed) * component.count;
+                    brake(component.between, speed, moment, &mut s.idle_drags);
+                }
+            }
+            for (i, loss) in s.drag_losses.iter_mut().enumerate() {
+                *loss = self.drag(i, &state, Notes::new(cells, self.drags[i].model.notes));
+                self.brake_gears(i, loss, &s.speeds, &mut s.idle_drags);
+            }
+        }
+
+        let Scratch {
+            speeds,
+            given,
+            oils,
+            surface,
+            loads,
+            passed,
+            tangential,
+            loaded_cells,
+            component_losses,
+            mesh_losses,
+            idle_drags,
+            relative,
+            work,
+            ..
+        } = s;
+        let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
+        let (idle_drags, relative) = (&*idle_drags, &*relative);
+        let losses = |flow: &mut FlowState<'_>| {
+            // Meshes are the first rows, in their own order.
+            for ((mesh, tangential), multiplier) in self.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers)
+            {
+                let torque = multiplier * f64::from(mesh.seat.pair.z[0]);
+                *tangential = torque / (mesh.seat.count * mesh.seat.pair.working_radius[0]);
+            }
+            self.loads.evaluate(tangential, speeds, passed, loads);
+            self.correct_loads(case, flow.ports, loads);
+            loaded_cells.fill(Extent::EMPTY);
+            let cells = Cell::from_mut(loaded_cells.as_mut_slice()).as_slice_of_cells();
+            let state = State {
+                speeds,
+                oils,
+                surface,
+                loads,
+            };
+            flow.drags[..idle_drags.len()].copy_from_slice(idle_drags);
+            for ((component, loss), speed) in self.components.iter().zip(component_losses.iter_mut()).zip(relative) {
+                if component.loaded {
+                    *loss = component_loss(component, &state, Notes::new(cells, component.notes));
+                    let moment = moment(loss, *speed) * component.count;
+                    brake(component.between, *speed, moment, flow.drags);
+                }
+            }
+            for (i, loss) in mesh_losses.iter_mut().enumerate() {
+                let mesh = &self.meshes[i];
+                let drives = flow.drives[i];
+                *loss = self.mesh(i, tangential[i], drives, &state, Notes::new(cells, mesh.model.notes));
+                let speed = self.mesh_speed(i, speeds);
+                flow.mesh_loss[i] = match loss {
+                    Ok(loss) if speed != 0.0 => loss.total_watts(speed) * mesh.seat.count,
+                    _ => 0.0,
+                };
+            }
+        };
+        let outcome = match point.flow {
+            PowerFlow::Real if standing => {
+                case.flow.ideal(speeds, given, work);
+                work.once(speeds, losses);
+                Outcome::Converged { passes: 1 }
+            }
+            PowerFlow::Real => case.flow.real(speeds, given, point.tolerance, work, losses),
+            PowerFlow::Ideal => {
+                case.flow.ideal(speeds, given, work);
+                work.once(speeds, losses);
+                Outcome::Converged { passes: 1 }
+            }
+        };
+        self.finish(standing, outcome, s);
+    }
+
+    /// Loss of one drag model.
+    fn drag(&self, index: usize, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+        let drag = &self.drags[index];
+        let seat = &drag.seat;
+        let oil = &state.oils[drag.oil as usize];
+        let speed = seat.members.map(|m| state.speeds[m]);
+        let level = seat
+            .levels
+            .map(|level| state.level(&crate::attach::Spot { oil: drag.oil, level }));
+        let towards = |i: usize| f64::from(u8::from(seat.mates[i].iter().any(|y| speed[i] * y > 0.0)));
+        sound(drag.model.loss(&GearDragAt {
+            part: &drag.part,
+            speed: speed[0],
+            speed_2: speed[1],
+            tip_dip: dip(level[0], seat.radii[0][0]),
+            dip: dip(level[0], seat.radii[0][1]),
+            tip_dip_2: if seat.pair {
+                dip(level[1], seat.radii[1][0])
+            } else {
+                0.0
+            },
+            dip_2: if seat.pair {
+                dip(level[1], seat.radii[1][1])
+            } else {
+                0.0
+            },
+            towards_mesh: towards(0),
+            towards_mesh_2: if seat.pair { towards(1) } else { 0.0 },
+            temperature: oil.temperature,
+            nu: oil.nu,
+            eta: oil.eta,
+            rho: oil.rho,
+            notes,
+        }))
+    }
+
+    /// Loss of one mesh, one copy.
+    fn mesh(
+        &self,
+        index: usize,
+        tangential: f64,
+        drives: Drive,
+        state: &State<'_>,
+        notes: Notes<'_>,
+    ) -> Result<Loss, Undefined> {
+        let mesh = &self.meshes[index];
+        let oil = &state.oils[mesh.oil as usize];
+        sound(mesh.model.loss(&GearMeshAt {
+            part: &mesh.part,
+            torque: (tangential * mesh.seat.pair.working_radius[0]).abs(),
+            speed: self.mesh_speed(index, state.speeds),
+            first_drives: f64::from(u8::from(drives != Drive::Second)),
+            temperature: oil.temperature,
+            nu: oil.nu,
+            eta: oil.eta,
+            rho: oil.rho,
+            alpha: oil.alpha,
+            x_l: oil.x_l,
+            notes,
+        }))
+    }
+
+    /// Speed of a mesh's first gear in its carrier's frame; zero where it is rounding. \[rad/s\]
+    fn mesh_speed(&self, index: usize, speeds: &[f64]) -> f64 {
+        let seat = &self.meshes[index].seat;
+        let (own, carrier) = (speeds[seat.members[0]], seat.carrier.map_or(0.0, |c| speeds[c]));
+        if (own - carrier).abs() <= 1e-12 * own.abs().max(carrier.abs()) {
+            0.0
+        } else {
+            own - carrier
+        }
+    }
+
+    /// The gears of a drag model feel its loss.
+    fn brake_gears(&self, index: usize, loss: &Result<Loss, Undefined>, speeds: &[f64], drags: &mut [f64]) {
+        let Ok(loss) = loss else { return };
+        let seat = &self.drags[index].seat;
+        let [first, second] = seat.members;
+        let watts = loss.total_watts(speeds[first]) * seat.count;
+        if !seat.pair {
+            if speeds[first] != 0.0 {
+                drags[first] -= watts / speeds[first];
+            }
+            return;
+        }
+        let share = match (speeds[first] != 0.0, speeds[second] != 0.0) {
+            (true, true) => loss.first_share(),
+            (true, false) => 1.0,
+            (false, true) => 0.0,
+            (false, false) => return,
+        };
+        if share > 0.0 {
+            drags[first] -= share * watts / speeds[first];
+        }
+        if share < 1.0 {
+            drags[second] -= (1.0 - share) * watts / speeds[second];
+        }
+    }
+
+    fn correct_loads(&self, case: &Case, ports: &[f64], loads: &mut [SupportLoad]) {
+        let torque = |port: usize| ports[self.ports[port].member];
+        if let Some(imported) = &self.imported {
+            for (i, load) in loads.iter_mut().enumerate() {
+                if let Some(own) = imported.load(case.state, i, torque(imported.port)) {
+                    *load = own;
+                }
+            }
+        }
+        for (load, factors) in loads.iter_mut().zip(&self.load_factors) {
+            load.radial *= factors.radial.at(torque);
+            load.axial *= factors.axial.at(torque);
+        }
+    }
+
+    fn finish(&self, standing: bool, outcome: Outcome, s: &mut Scratch) {
+        let mut undefined = None;
+        let mut sum = 0.0;
+        for (place, part) in self.parts.iter().enumerate() {
+            let one = self.part_loss(part, s);
+            s.watts[place] = one.watts();
+            if let Err(error) = one.result {
+                undefined.get_or_insert((place, error));
+            }
+            sum += s.watts[place];
+        }
+        s.sum = sum;
+        s.undefined = undefined;
+        let powers = self.ports.iter().map(|p| s.work.ports[p.member] * s.speeds[p.member]);
+        s.balance = Balance::of(powers);
+        s.status = match outcome {
+            Outcome::SelfLocking => Status::SelfLocking,
+            Outcome::NoConvergence => Status::NoConvergence,
+            Outcome::Converged { passes } => {
+                s.passes = passes;
+                if undefined.is_some() {
+                    Status::Undefined
+                } else if standing {
+                    Status::Standstill
+                } else {
+                    self.regime(s)
+                }
+            }
+        };
+        if matches!(outcome, Outcome::Converged { .. }) {
+            for ((total, idle), loaded) in s.totals.iter_mut().zip(&s.idle_cells).zip(&s.loaded_cells) {
+                *total = total.merge(idle.merge(*loaded).once());
+            }
+        }
+    }
+
+    fn regime(&self, s: &Scratch) -> Status {
+        let power = |p: &crate::transmission::Port| s.work.ports[p.member] * s.speeds[p.member];
+        let least = 1e-12 * s.balance.input;
+        let inputs = self.ports.iter().filter(|p| power(p) > least).count();
+        if s.balance.output == 0.0 {
+            Status::Dragged
+        } else if inputs > 1 {
+            Status::Split
+        } else if power(&self.ports[self.reference_port()]) > least {
+            Status::Drive
+        } else {
+            Status::Coast
+        }
+    }
+}
+
+/// Loss of one copy of a component. Where the shaft has thrust that nothing takes, the load of its bearings is unknown and
+/// so is their loss, unless it was switched off.
+pub(crate) fn component_loss(component: &Component, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+    let loss = sound(component.placed.loss(state, notes))?;
+    let untaken = component.support.map_or(0.0, |n| state.loads[n as usize].untaken);
+    if untaken != 0.0 && loss.sum() > 0.0 {
+        return Err(Undefined {
+            what: "thrust that no bearing of the shaft takes [N]",
+            value: untaken,
+        });
+    }
+    Ok(loss)
+}
+
+/// A model's answer counts only when it is a number that is not negative.
+fn sound(answer: Result<Loss, Undefined>) -> Result<Loss, Undefined> {
+    match answer {
+        Ok(loss) if !loss.is_sound() => Err(Undefined {
+            what: "answer of the model, which is negative or not finite",
+            value: loss.sum(),
+        }),
+        other => other,
+    }
+}
+
+/// Moment of a loss about its relative speed; zero at rest, where statics leaves friction open.
+fn moment(loss: &Result<Loss, Undefined>, speed: f64) -> f64 {
+    match loss {
+        Ok(loss) if speed != 0.0 => loss.total_moment(speed),
+        _ => 0.0,
+    }
+}
+
+/// Puts a moment between two members, against their relative speed.
+fn brake(between: [Option<u16>; 2], speed: f64, moment: f64, drags: &mut [f64]) {
+    if speed == 0.0 {
+        return;
+    }
+    let signed = moment * speed.signum();
+    if let Some(a) = between[0] {
+        drags[a as usize] -= signed;
+    }
+    if let Some(b) = between[1] {
+        drags[b as usize] += signed;
+    }
+}

@@ -1,0 +1,75 @@
+//! Space for one evaluation, and what was seen over many.
+
+use crate::attach::Oil;
+use crate::flow::{Balance, Status, Work};
+use crate::loads::SupportLoad;
+use crate::loss::{Extent, Loss, Undefined};
+use crate::transmission::{Case, Transmission};
+
+/// A loss that was not evaluated yet.
+const NOT_YET: Result<Loss, Undefined> = Ok(Loss::POWERS);
+
+/// Space for evaluating the points of one case. Everything is allocated here, once.
+#[derive(Debug, Clone)]
+pub struct Scratch {
+    pub(super) prescribed: Vec<f64>,
+    pub(super) given: Vec<f64>,
+    pub(super) speeds: Vec<f64>,
+    pub(super) oils: Vec<Oil>,
+    pub(super) surface: f64,
+    pub(super) loads: Vec<SupportLoad>,
+    pub(super) passed: Vec<f64>,
+    pub(super) tangential: Vec<f64>,
+    pub(super) component_losses: Vec<Result<Loss, Undefined>>,
+    pub(super) mesh_losses: Vec<Result<Loss, Undefined>>,
+    pub(super) drag_losses: Vec<Result<Loss, Undefined>>,
+    pub(super) idle_drags: Vec<f64>,
+    /// Relative speed of each component. \[rad/s\]
+    pub(super) relative: Vec<f64>,
+    pub(super) idle_cells: Vec<Extent>,
+    pub(super) loaded_cells: Vec<Extent>,
+    pub(super) work: Work,
+    pub(super) watts: Vec<f64>,
+    pub(super) sum: f64,
+    pub(super) undefined: Option<(usize, Undefined)>,
+    pub(super) balance: Balance,
+    pub(super) status: Status,
+    pub(super) passes: usize,
+    /// What was seen of every limit and observed quantity since the scratch was made, one count for each point.
+    pub totals: Vec<Extent>,
+}
+
+impl Scratch {
+    pub(super) fn new(transmission: &Transmission, case: &Case) -> Self {
+        let columns = case.flow.columns();
+        let supports = transmission.supports.len();
+        Self {
+            prescribed: vec![0.0; case.speed_ports.len() + case.ruled_speeds],
+            given: vec![0.0; case.torque_ports.len() + case.ruled_torques],
+            speeds: vec![0.0; columns],
+            oils: vec![Oil::default(); transmission.oils.len()],
+            surface: 0.0,
+            loads: vec![SupportLoad::default(); supports],
+            passed: vec![0.0; transmission.loads.scratch_len()],
+            tangential: vec![0.0; transmission.meshes.len()],
+            component_losses: vec![NOT_YET; transmission.components.len()],
+            mesh_losses: vec![NOT_YET; transmission.meshes.len()],
+            drag_losses: vec![NOT_YET; transmission.drags.len()],
+            idle_drags: vec![0.0; columns],
+            relative: vec![0.0; transmission.components.len()],
+            idle_cells: vec![Extent::EMPTY; transmission.cells],
+            loaded_cells: vec![Extent::EMPTY; transmission.cells],
+            work: case.flow.work(),
+            watts: vec![0.0; transmission.parts.len()],
+            sum: 0.0,
+            undefined: None,
+            balance: Balance {
+                input: 0.0,
+                output: 0.0,
+            },
+            status: Status::Standstill,
+            passes: 0,
+            totals: vec![Extent::EMPTY; transmission.cells],
+        }
+    }
+}

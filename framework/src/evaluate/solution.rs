@@ -1,0 +1,246 @@
+//! What a point came to: a view into the scratch. Totals derive from terms.
+
+use super::Scratch;
+use crate::flow::Status;
+use crate::loads::SupportLoad;
+use crate::loss::{Extent, Loss, Notes, Trace, Undefined};
+use crate::transmission::{Case, PartInfo, PartKind, Transmission};
+
+/// Loss of one part, all copies together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartLoss {
+    /// The model's answer for one copy.
+    pub result: Result<Loss, Undefined>,
+    /// Relative speed that moments work against. \[rad/s\]
+    pub speed: f64,
+    /// Copies; for a mesh also the ratio of the power used in the balance to the last answer, which differs from one by the
+    /// tolerance.
+    pub factor: f64,
+    /// True where nothing moves, so that no power is lost.
+    pub still: bool,
+}
+
+impl PartLoss {
+    /// Power; zero where it is undefined, which the solution says. \[W\]
+    pub fn watts(&self) -> f64 {
+        match self.result {
+            Ok(loss) if !self.still => loss.total_watts(self.speed) * self.factor,
+            _ => 0.0,
+        }
+    }
+
+    /// Power of one term. \[W\]
+    pub fn term_watts(&self, index: usize) -> f64 {
+        match self.result {
+            Ok(loss) if !self.still => loss.watts(index, self.speed) * self.factor,
+            _ => 0.0,
+        }
+    }
+
+    /// Moment of one copy about its relative speed; the model's limit at rest. \[Nm\]
+    pub fn moment(&self) -> Option<f64> {
+        self.result.ok().map(|loss| loss.total_moment(self.speed))
+    }
+}
+
+impl Transmission {
+    pub(super) fn part_loss(&self, part: &PartInfo, s: &Scratch) -> PartLoss {
+        match part.kind {
+            PartKind::Component(i) => {
+                let relative = s.relative[i];
+                PartLoss {
+                    result: s.component_losses[i],
+                    speed: relative,
+                    factor: self.components[i].count,
+                    still: relative == 0.0,
+                }
+            }
+            PartKind::Mesh(i) => {
+                let speed = self.mesh_speed(i, &s.speeds);
+                let count = self.meshes[i].seat.count;
+                let asked = s.mesh_losses[i].map_or(0.0, |loss| loss.total_watts(speed)) * count;
+                let ratio = if asked > 0.0 { s.work.mesh_loss[i] / asked } else { 1.0 };
+                PartLoss {
+                    result: s.mesh_losses[i],
+                    speed,
+                    factor: count * ratio,
+                    still: speed == 0.0,
+                }
+            }
+            PartKind::Drag(i) => {
+                let seat = &self.drags[i].seat;
+                let [first, second] = seat.members.map(|m| s.speeds[m]);
+                let still = first == 0.0 && (!seat.pair || second == 0.0);
+                PartLoss {
+                    result: s.drag_losses[i],
+                    speed: first,
+                    factor: seat.count,
+                    still,
+                }
+            }
+        }
+    }
+}
+
+/// A solved point.
+pub struct Solution<'a> {
+    pub(super) transmission: &'a Transmission,
+    pub(super) case: &'a Case,
+    pub(super) scratch: &'a mut Scratch,
+    pub(super) ideal: bool,
+}
+
+impl Solution<'_> {
+    /// What the transmission does.
+    pub fn status(&self) -> Status {
+        self.scratch.status
+    }
+
+    /// True where losses have values: the flow was found and no loss is undefined.
+    pub fn is_complete(&self) -> bool {
+        !matches!(
+            self.status(),
+            Status::SelfLocking | Status::NoConvergence | Status::Undefined
+        )
+    }
+
+    /// Why a loss has no value: its part and the reason.
+    pub fn undefined(&self) -> Option<(&PartInfo, Undefined)> {
+        self.scratch
+            .undefined
+            .map(|(part, reason)| (&self.transmission.parts[part], reason))
+    }
+
+    /// Number of the part whose loss has no value, and why.
+    pub fn undefined_part(&self) -> Option<(usize, Undefined)> {
+        self.scratch.undefined
+    }
+
+    /// Sum of all losses; absent where one is undefined. \[W\]
+    pub fn loss(&self) -> Option<f64> {
+        self.is_complete().then_some(self.scratch.sum)
+    }
+
+    /// Power that ports put in; with ideal flow that of the driving ports. \[W\]
+    pub fn input_power(&self) -> Option<f64> {
+        self.is_complete().then_some(self.scratch.balance.input)
+    }
+
+    /// Power that comes out; with ideal flow the input less the losses. \[W\]
+    pub fn output_power(&self) -> Option<f64> {
+        let loss = self.loss()?;
+        Some(if self.ideal {
+            (self.scratch.balance.input - loss).max(0.0)
+        } else {
+            self.scratch.balance.output
+        })
+    }
+
+    /// Power out over power in; absent where nothing comes out.
+    pub fn efficiency(&self) -> Option<f64> {
+        let (input, output) = (self.input_power()?, self.output_power()?);
+        (output > 0.0 && input > 0.0).then(|| output / input)
+    }
+
+    /// Loss over the speed of the reference port; absent at standstill. \[Nm\]
+    pub fn loss_torque(&self) -> Option<f64> {
+        let t = self.transmission;
+        let speed = self.scratch.speeds[t.ports[t.reference_port()].member].abs();
+        let loss = self.loss()?;
+        (speed > 0.0).then(|| loss / speed)
+    }
+
+    /// What is left over of power in, power out and losses; zero to rounding with real flow, absent with ideal flow. \[W\]
+    pub fn residual(&self) -> Option<f64> {
+        let t = self.transmission;
+        if self.ideal {
+            return None;
+        }
+        let power: f64 = t
+            .ports
+            .iter()
+            .map(|p| self.scratch.work.ports[p.member] * self.scratch.speeds[p.member])
+            .sum();
+        Some(power - self.loss()?)
+    }
+
+    /// Largest power inside: rolling powers and those of ports. \[W\]
+    pub fn largest_power(&self) -> f64 {
+        self.scratch.work.largest
+    }
+
+    /// Passes over the loss models.
+    pub fn passes(&self) -> usize {
+        self.scratch.passes
+    }
+
+    /// Speed of a member by number. \[rad/s\]
+    pub fn speed(&self, member: usize) -> f64 {
+        self.scratch.speeds[member]
+    }
+
+    /// Torque that a port applies to the transmission. \[Nm\]
+    pub fn torque(&self, port: usize) -> f64 {
+        self.scratch.work.ports[self.transmission.ports[port].member]
+    }
+
+    /// Load of a support by number.
+    pub fn load(&self, support: usize) -> SupportLoad {
+        self.scratch.loads[support]
+    }
+
+    /// Torque of one copy of a mesh on its first gear, signed. \[Nm\]
+    pub fn mesh_torque(&self, mesh: usize) -> f64 {
+        self.scratch.tangential[mesh] * self.transmission.meshes[mesh].seat.pair.working_radius[0]
+    }
+
+    /// Loss of each part, in the order of the parts.
+    pub fn parts(&self) -> impl Iterator<Item = (&PartInfo, PartLoss)> {
+        self.transmission
+            .parts
+            .iter()
+            .map(|part| (part, self.transmission.part_loss(part, self.scratch)))
+    }
+
+    /// Powers of all parts, in their order; zero where undefined. \[W\]
+    pub fn watts(&self) -> &[f64] {
+        &self.scratch.watts
+    }
+
+    /// What was seen of limits and observed quantities at this point.
+    pub fn extents(&self) -> Vec<Extent> {
+        self.scratch
+            .idle_cells
+            .iter()
+            .zip(&self.scratch.loaded_cells)
+            .map(|(a, b)| a.merge(*b))
+            .collect()
+    }
+
+    /// Evaluates one part again with every step written down. The numbers are those of the solution.
+    pub fn explain(&self, part: usize) -> (PartLoss, Trace) {
+        let t = self.transmission;
+        let s = &*self.scratch;
+        let trace = Trace::default();
+        let state = crate::attach::State {
+            speeds: &s.speeds,
+            oils: &s.oils,
+            surface: s.surface,
+            loads: &s.loads,
+        };
+        let info = &t.parts[part];
+        let notes = Notes::new(&[], info.notes).traced(&trace);
+        let mut loss = t.part_loss(info, s);
+        loss.result = match info.kind {
+            PartKind::Component(i) => super::component_loss(&t.components[i], &state, notes),
+            PartKind::Mesh(i) => t.mesh(i, s.tangential[i], s.work.drives[i], &state, notes),
+            PartKind::Drag(i) => t.drag(i, &state, notes),
+        };
+        (loss, trace)
+    }
+
+    /// Name of the gear state.
+    pub fn gear(&self) -> &str {
+        &self.transmission.states[self.case.state].name
+    }
+}

@@ -1,0 +1,306 @@
+//! The one loop between torque and loss.
+
+use super::system::Flow;
+use super::work::{Drive, FlowState, Losses, Outcome, Tolerance, Work};
+
+/// A rolling power below this of the largest internal power has no direction.
+const NO_POWER: f64 = 1e-13;
+/// A driver that turns more often than this belongs to a train that may lock itself.
+const TURNS: u8 = 4;
+/// Passes without progress after which steps are halved.
+const PATIENCE: usize = 10;
+/// The error to come is an estimate from two steps.
+const SAFETY: f64 = 0.5;
+/// Farthest extrapolation, in steps back and forth.
+const REACH: (f64, f64) = (-9.0, 0.9);
+
+impl Flow {
+    /// The flow without losses. Speeds of all columns; torques of the given ports in their order.
+    pub fn ideal(&self, speeds: &[f64], torques: &[f64], work: &mut Work) {
+        work.used.values.fill(0.0);
+        work.drags.fill(0.0);
+        work.drives.fill(Drive::Neither);
+        work.mismatch = 0.0;
+        if !self.solve(speeds, torques, work, true) {
+            // Only torques beyond the range of numbers lead here.
+            work.multipliers.fill(0.0);
+            work.ports.fill(0.0);
+            work.rolling.fill(0.0);
+            work.mesh_loss.fill(0.0);
+            work.largest = 0.0;
+        }
+        for k in 0..self.meshes.len() {
+            work.drives[k] = drive(work.rolling[k], work.largest);
+            work.rolling[k] = if work.drives[k] == Drive::Neither {
+                0.0
+            } else {
+                work.rolling[k]
+            };
+        }
+    }
+
+    /// The flow with losses that `losses` writes from the torques. The losses in `work` are those of the accepted solve,
+    /// so the balance of power holds to rounding whatever the tolerance.
+    pub fn real(
+        &self,
+        speeds: &[f64],
+        torques: &[f64],
+        tolerance: Tolerance,
+        work: &mut Work,
+        mut losses: impl FnMut(&mut FlowState<'_>),
+    ) -> Outcome {
+        self.ideal(speeds, torques, work);
+        work.ideal.copy_from_slice(&work.drives);
+        work.turned.fill(0);
+        let mut passes = 0;
+        let task = Task {
+            speeds,
+            torques,
+            tolerance,
+        };
+        let end = match self.iterate(task, work, &mut losses, &mut passes, false) {
+            End::Turning => self.patterns(task, work, &mut losses, &mut passes),
+            End::Agreed => Outcome::Converged { passes },
+            End::Open => Outcome::NoConvergence,
+        };
+        work.drags.copy_from_slice(work.used.drags());
+        end
+    }
+
+    /// Passes over models and equilibrium until they agree; `fixed` keeps the drivers as they are.
+    fn iterate(
+        &self,
+        task: Task<'_>,
+        work: &mut Work,
+        losses: &mut impl FnMut(&mut FlowState<'_>),
+        passes: &mut usize,
+        fixed: bool,
+    ) -> End {
+        let Task {
+            speeds,
+            torques,
+            tolerance,
+        } = task;
+        let mut known = false;
+        let (mut least, mut slow, mut damping) = (f64::INFINITY, 0, 1.0);
+        for _ in 0..tolerance.passes {
+            *passes += 1;
+            if !ask(speeds, work, losses) {
+                return End::Open;
+            }
+            self.weigh(speeds, work);
+            work.mismatch = distance(&work.answer, &work.used, &work.weights);
+            let left = if known { remaining(work) } else { work.mismatch };
+            let last = left <= SAFETY * tolerance.power * work.largest;
+            if work.mismatch < least {
+                (least, slow) = (work.mismatch, 0);
+            } else {
+                slow += 1;
+                if slow == PATIENCE {
+                    (damping, slow) = (0.5 * damping, 0);
+                }
+            }
+            let back = if known && !last { secant(work) } else { 0.0 };
+            let pace = if last { 1.0 } else { damping };
+            self.advance(work, back, pace);
+            if !self.solve(speeds, torques, work, last) {
+                return if fixed { End::Turning } else { End::Open };
+            }
+            known = true;
+            if !fixed && turn(work) {
+                // The friction just used sat on the wrong gear: this flow is none.
+                known = false;
+                least = f64::INFINITY;
+                if work.turned.iter().any(|turned| *turned > TURNS) {
+                    return End::Turning;
+                }
+                continue;
+            }
+            if last {
+                return End::Agreed;
+            }
+        }
+        End::Open
+    }
+
+    /// Power per unit of each entry of the losses.
+    fn weigh(&self, speeds: &[f64], work: &mut Work) {
+        let meshes = self.meshes.len();
+        for (weight, rolling) in work.weights.iter_mut().zip(&work.rolling) {
+            *weight = rolling.abs();
+        }
+        work.weights[meshes..2 * meshes].fill(1.0);
+        for (weight, speed) in work.weights[2 * meshes..].iter_mut().zip(speeds) {
+            *weight = speed.abs();
+        }
+    }
+
+    /// The losses of the next solve: the answer, drawn `back` towards the answer before, at some pace.
+    fn advance(&self, work: &mut Work, back: f64, pace: f64) {
+        let magnitudes = 2 * self.meshes.len();
+        for i in 0..work.used.values.len() {
+            let (used, answer, before) = (work.used.values[i], work.answer.values[i], work.answer_before.values[i]);
+            let next = used + pace * (answer - back * (answer - before) - used);
+            work.used_before.values[i] = used;
+            work.used.values[i] = if i < magnitudes { next.max(0.0) } else { next };
+        }
+        let Work {
+            answer, answer_before, ..
+        } = work;
+        answer_before.copy(answer);
+    }
+
+    /// Tries patterns of the meshes whose driver kept turning, fewest changes against the ideal pattern first.
+    fn patterns(
+        &self,
+        task: Task<'_>,
+        work: &mut Work,
+        losses: &mut impl FnMut(&mut FlowState<'_>),
+        passes: &mut usize,
+    ) -> Outcome {
+        let mut doubtful = [0_usize; 8];
+        let mut count = 0;
+        for k in 0..self.meshes.len() {
+            if work.turned[k] > 0 {
+                if count == doubtful.len() {
+                    return Outcome::NoConvergence;
+                }
+                doubtful[count] = k;
+                count += 1;
+            }
+        }
+        for changes in 0..=count as u32 {
+            for pattern in (0..1_u32 << count).filter(|p| p.count_ones() == changes) {
+                self.ideal(task.speeds, task.torques, work);
+                for (bit, &k) in doubtful[..count].iter().enumerate() {
+                    if pattern >> bit & 1 == 1 {
+                        work.drives[k] = if work.ideal[k] == Drive::Second {
+                            Drive::First
+                        } else {
+                            Drive::Second
+                        };
+                    }
+                }
+                let end = self.iterate(task, work, losses, passes, true);
+                let agrees = |k: usize| {
+                    let now = drive(work.rolling[k], work.largest);
+                    now == Drive::Neither || now == work.drives[k]
+                };
+                if matches!(end, End::Agreed) && (0..self.meshes.len()).all(agrees) {
+                    return Outcome::Converged { passes: *passes };
+                }
+            }
+        }
+        Outcome::SelfLocking
+    }
+}
+
+/// What is to be solved, and how well.
+#[derive(Clone, Copy)]
+struct Task<'a> {
+    speeds: &'a [f64],
+    torques: &'a [f64],
+    tolerance: Tolerance,
+}
+
+/// How a loop ended.
+enum End {
+    /// Loads and losses agree.
+    Agreed,
+    /// A driver turned too often, or the pattern tried has no equilibrium.
+    Turning,
+    /// Neither within the passes allowed.
+    Open,
+}
+
+/// Asks the models for the losses at the present torques; false where an answer is no number.
+fn ask(speeds: &[f64], work: &mut Work, losses: &mut impl FnMut(&mut FlowState<'_>)) -> bool {
+    work.asked.fill(0.0);
+    work.answer.drags_mut().fill(0.0);
+    losses(&mut FlowState {
+        speeds,
+        multipliers: &work.multipliers,
+        drives: &work.drives,
+        ports: &work.ports,
+        mesh_loss: &mut work.asked,
+        drags: work.answer.drags_mut(),
+    });
+    for (k, loss) in work.asked.iter().enumerate() {
+        work.answer.set_mesh(k, *loss, work.rolling[k].abs());
+    }
+    work.asked.iter().chain(work.answer.drags()).all(|x| x.is_finite())
+}
+
+/// Takes over the drivers of the last solve; true where one of them was assumed otherwise.
+fn turn(work: &mut Work) -> bool {
+    let mut turned = false;
+    for k in 0..work.drives.len() {
+        let now = drive(work.rolling[k], work.largest);
+        if now == Drive::Neither || now == work.drives[k] {
+            continue;
+        }
+        if work.drives[k] == Drive::Neither {
+            turned |= work.used.share(k) > 0.0 || work.used.constant(k) > 0.0;
+        } else {
+            turned = true;
+            work.turned[k] += 1;
+        }
+        work.drives[k] = now;
+    }
+    turned
+}
+
+/// Largest difference of power between losses.
+fn distance(a: &Losses, b: &Losses, weights: &[f64]) -> f64 {
+    a.values
+        .iter()
+        .zip(&b.values)
+        .zip(weights)
+        .fold(0.0_f64, |most, ((a, b), weight)| most.max(((a - b) * weight).abs()))
+}
+
+/// Error to expect after one more plain step: the mismatch of each loss falls as it did in the last step, or as all of them did,
+/// whichever is slower. A loss that has just appeared says nothing yet about how it falls.
+fn remaining(work: &Work) -> f64 {
+    let moved = distance(&work.used, &work.used_before, &work.weights);
+    let followed = distance(&work.answer, &work.answer_before, &work.weights);
+    let common = if moved > 0.0 { followed / moved } else { 1.0 };
+    let mut most = 0.0_f64;
+    for (i, weight) in work.weights.iter().enumerate() {
+        let mismatch = ((work.answer.values[i] - work.used.values[i]) * weight).abs();
+        let moved = (work.used.values[i] - work.used_before.values[i]).abs();
+        let followed = (work.answer.values[i] - work.answer_before.values[i]).abs();
+        let own = if followed < moved { followed / moved } else { 1.0 };
+        let falls = common.max(own);
+        // All steps to come, as a geometric series.
+        most = most.max(mismatch * falls / (1.0 - falls).max(1e-3));
+    }
+    most
+}
+
+/// How far to go back towards the answer before, so that the mismatch along the last step vanishes (Anderson 1965 with
+/// a depth of one).
+fn secant(work: &Work) -> f64 {
+    let (mut product, mut square) = (0.0, 0.0);
+    for (i, weight) in work.weights.iter().enumerate() {
+        let now = (work.answer.values[i] - work.used.values[i]) * weight;
+        let before = (work.answer_before.values[i] - work.used_before.values[i]) * weight;
+        product += now * (now - before);
+        square += (now - before) * (now - before);
+    }
+    if square > 0.0 {
+        (product / square).clamp(REACH.0, REACH.1)
+    } else {
+        0.0
+    }
+}
+
+fn drive(rolling: f64, largest: f64) -> Drive {
+    if rolling.abs() <= NO_POWER * largest {
+        Drive::Neither
+    } else if rolling > 0.0 {
+        Drive::First
+    } else {
+        Drive::Second
+    }
+}

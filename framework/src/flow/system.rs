@@ -1,0 +1,182 @@
+//! The square system of equilibrium: multipliers of rows and torques of ports.
+
+use super::linear::{add_product, inverse};
+use crate::kinematics::Train;
+
+/// A mesh among the rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshRow {
+    /// Number of the row.
+    pub row: usize,
+    /// Column of the first gear.
+    pub first: Option<usize>,
+    /// Coefficient of the first gear.
+    pub z1: f64,
+    /// Column of the second gear.
+    pub second: Option<usize>,
+    /// Coefficient of the second gear, with its sign.
+    pub sz2: f64,
+    /// Column of the carrier.
+    pub carrier: Option<usize>,
+}
+
+/// How a member's torque is shared by two rows: `part_b * torque_a = part_a * torque_b`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// Column of the member.
+    pub member: usize,
+    /// First row and its part.
+    pub a: (usize, f64),
+    /// Second row and its part.
+    pub b: (usize, f64),
+}
+
+/// Why no torques can be found.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FlowFault {
+    /// The wrong number of given torques.
+    Count {
+        /// Torques that must be given.
+        needed: usize,
+        /// Torques that are given.
+        given: usize,
+    },
+    /// Redundant loops without a torque share: the rows of each.
+    Redundant {
+        /// Rows of each loop.
+        loops: Vec<Vec<usize>>,
+    },
+    /// The given torques depend on each other, or the shares do not break their loops.
+    Singular,
+}
+
+/// How friction changes the column of a mesh, for each gear that may be driven.
+#[derive(Debug, Clone)]
+pub(super) struct Friction {
+    pub row: usize,
+    /// Second gear driven, first gear driven.
+    pub sides: [Side; 2],
+}
+
+/// One driven side of a mesh.
+#[derive(Debug, Clone)]
+pub(super) struct Side {
+    /// Change of the column per share of loss: less torque on the driven gear, the reaction on the carrier.
+    pub change: Vec<f64>,
+    /// The inverse times the change.
+    pub response: Vec<f64>,
+}
+
+/// The equilibrium of one gear state for one choice of given torques.
+#[derive(Debug, Clone)]
+pub struct Flow {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    pub(super) size: usize,
+    /// The matrix without friction, column by column.
+    pub(super) base: Vec<f64>,
+    /// Its inverse.
+    pub(super) inverse: Vec<f64>,
+    /// Scale of each row: the unknown is the multiplier over its scale.
+    pub(super) scale: Vec<f64>,
+    pub(super) meshes: Vec<MeshRow>,
+    /// What friction does to the column of each mesh.
+    pub(super) friction: Vec<Friction>,
+    pub(super) unknown: Vec<usize>,
+    pub(super) given: Vec<usize>,
+}
+
+impl Flow {
+    /// The flow of a train. `unknown` and `given` are the columns of ports without and with a given torque; `loops` are
+    /// those of [`crate::kinematics::Motion`].
+    ///
+    /// # Errors
+    /// If the number of given torques or of shares does not fit, or the system is singular.
+    pub fn new(
+        train: &Train,
+        meshes: Vec<MeshRow>,
+        shares: Vec<Share>,
+        loops: &[Vec<usize>],
+        unknown: Vec<usize>,
+        given: Vec<usize>,
+    ) -> Result<Self, FlowFault> {
+        let (n, m) = (train.columns, train.rows.len());
+        let rank = m - loops.len();
+        let freedom = n - rank;
+        if unknown.len() != freedom {
+            let ports = unknown.len() + given.len();
+            return Err(FlowFault::Count {
+                needed: ports.saturating_sub(freedom),
+                given: given.len(),
+            });
+        }
+        if shares.len() != loops.len() {
+            return Err(FlowFault::Redundant { loops: loops.to_vec() });
+        }
+        let size = m + unknown.len();
+        let mut base = vec![0.0; size * size];
+        let mut scale = Vec::with_capacity(m);
+        for (k, row) in train.rows.iter().enumerate() {
+            let dense = row.dense(n);
+            let largest = dense
+                .iter()
+                .fold(0.0_f64, |most, x| most.max(x.abs()))
+                .max(f64::MIN_POSITIVE);
+            scale.push(1.0 / largest);
+            for (i, x) in dense.iter().enumerate() {
+                base[k * size + i] = x / largest;
+            }
+        }
+        for (k, port) in unknown.iter().enumerate() {
+            base[(m + k) * size + port] = 1.0;
+        }
+        // Scaled columns: a torque is the entry times the unknown in both rows of a share, so the scales cancel.
+        let parts: Vec<(usize, f64, usize, usize)> = shares
+            .into_iter()
+            .enumerate()
+            .flat_map(|(r, Share { member, a, b })| [(a.0, b.1, member, n + r), (b.0, -a.1, member, n + r)])
+            .collect();
+        for &(row, part, member, equation) in &parts {
+            base[row * size + equation] = part * base[row * size + member];
+        }
+        let inverse = inverse(base.clone(), size).ok_or(FlowFault::Singular)?;
+        let friction = meshes
+            .iter()
+            .map(|mesh| Friction {
+                row: mesh.row,
+                sides: [(mesh.second, mesh.sz2), (mesh.first, mesh.z1)].map(|(driven, coefficient)| {
+                    let mut change = vec![0.0; size];
+                    if let Some(driven) = driven {
+                        change[driven] -= coefficient * scale[mesh.row];
+                    }
+                    if let Some(carrier) = mesh.carrier {
+                        change[carrier] += coefficient * scale[mesh.row];
+                    }
+                    for &(_, part, member, equation) in parts.iter().filter(|part| part.0 == mesh.row) {
+                        change[equation] += part * change[member];
+                    }
+                    let mut response = vec![0.0; size];
+                    add_product(&inverse, &change, 1.0, &mut response);
+                    Side { change, response }
+                }),
+            })
+            .collect();
+        Ok(Self {
+            columns: n,
+            rows: m,
+            size,
+            base,
+            inverse,
+            scale,
+            meshes,
+            friction,
+            unknown,
+            given,
+        })
+    }
+
+    /// The meshes among the rows.
+    pub fn meshes(&self) -> &[MeshRow] {
+        &self.meshes
+    }
+}

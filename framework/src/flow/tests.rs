@@ -1,0 +1,183 @@
+#![allow(clippy::unwrap_used)]
+
+mod epicyclic;
+mod properties;
+mod sharing;
+mod two_speed;
+
+use super::{Balance, Drive, Flow, FlowFault, FlowState, MeshRow, Outcome, Share, Status, Tolerance, Work};
+use crate::kinematics::{Motion, Row, Train};
+
+/// A train under test: columns, meshes with a constant share of loss, other rows.
+#[derive(Debug, Clone, Default)]
+struct Rig {
+    columns: usize,
+    meshes: Vec<(MeshRow, f64)>,
+    rows: Vec<Row>,
+    /// Pairs of columns with a drag moment between them.
+    drags: Vec<(Option<usize>, Option<usize>, f64)>,
+    shares: Vec<Share>,
+}
+
+impl Rig {
+    fn new(columns: usize) -> Self {
+        Self {
+            columns,
+            ..Self::default()
+        }
+    }
+    fn mesh(mut self, first: usize, z1: f64, second: usize, sz2: f64, carrier: Option<usize>, zeta: f64) -> Self {
+        let row = self.rows.len();
+        let mesh = MeshRow {
+            row,
+            first: Some(first),
+            z1,
+            second: Some(second),
+            sz2,
+            carrier,
+        };
+        self.rows.push(Row::mesh(Some(first), z1, Some(second), sz2, carrier));
+        self.meshes.push((mesh, zeta));
+        self
+    }
+    fn join(mut self, a: usize, b: Option<usize>) -> Self {
+        self.rows.push(Row::joined(Some(a), b));
+        self
+    }
+    fn drag(mut self, a: Option<usize>, b: Option<usize>, moment: f64) -> Self {
+        self.drags.push((a, b, moment));
+        self
+    }
+    fn train(&self) -> Train {
+        Train {
+            columns: self.columns,
+            rows: self.rows.clone(),
+        }
+    }
+}
+
+struct Solved {
+    speeds: Vec<f64>,
+    work: Work,
+    outcome: Outcome,
+    drag_loss: f64,
+}
+
+impl Solved {
+    fn loss(&self) -> f64 {
+        self.work.mesh_loss.iter().sum::<f64>() + self.drag_loss
+    }
+    fn balance(&self, ports: &[usize]) -> Balance {
+        Balance::of(ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p]))
+    }
+    fn status(&self, ports: &[usize]) -> Status {
+        Status::of(ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p]), 0)
+    }
+    fn passes(&self) -> usize {
+        match self.outcome {
+            Outcome::Converged { passes } => passes,
+            other => panic!("{other:?}"),
+        }
+    }
+    fn efficiency(&self, ports: &[usize]) -> f64 {
+        self.balance(ports).efficiency().unwrap()
+    }
+}
+
+/// Solves to 1e-12 with the law `loss(mesh, torque of the driver, relative speed of the driver)` per mesh.
+fn solve_with(
+    rig: &Rig,
+    ports: &[usize],
+    speed_ports: &[(usize, f64)],
+    torque_ports: &[(usize, f64)],
+    law: impl Fn(usize, f64, f64) -> f64,
+    extra: impl Fn(&FlowState<'_>) -> Vec<f64>,
+) -> Solved {
+    solve_to(1e-12, rig, ports, speed_ports, torque_ports, law, extra)
+}
+
+fn solve_to(
+    power: f64,
+    rig: &Rig,
+    ports: &[usize],
+    speed_ports: &[(usize, f64)],
+    torque_ports: &[(usize, f64)],
+    law: impl Fn(usize, f64, f64) -> f64,
+    extra: impl Fn(&FlowState<'_>) -> Vec<f64>,
+) -> Solved {
+    let train = rig.train();
+    let prescribed: Vec<usize> = speed_ports.iter().map(|p| p.0).collect();
+    let motion = Motion::new(&train, ports, &prescribed).unwrap();
+    let mut speeds = vec![0.0; rig.columns];
+    motion.speeds(&speed_ports.iter().map(|p| p.1).collect::<Vec<_>>(), &mut speeds);
+    let given: Vec<usize> = torque_ports.iter().map(|p| p.0).collect();
+    let unknown: Vec<usize> = ports.iter().copied().filter(|p| !given.contains(p)).collect();
+    let meshes: Vec<MeshRow> = rig.meshes.iter().map(|m| m.0).collect();
+    let flow = Flow::new(&train, meshes, rig.shares.clone(), &motion.loops, unknown, given).unwrap();
+    let mut work = flow.work();
+    let torques: Vec<f64> = torque_ports.iter().map(|p| p.1).collect();
+    let tolerance = Tolerance { power, passes: 60 };
+    let outcome = flow.real(&speeds, &torques, tolerance, &mut work, |state| {
+        for (k, (mesh, _)) in rig.meshes.iter().enumerate() {
+            let speed = |c: Option<usize>| c.map_or(0.0, |c| state.speeds[c]);
+            let lambda = state.multipliers[mesh.row].abs();
+            let (z, column) = if state.drives[k] == Drive::Second {
+                (mesh.sz2, mesh.second)
+            } else {
+                (mesh.z1, mesh.first)
+            };
+            let relative = speed(column) - speed(mesh.carrier);
+            let relative = if relative.abs() < 1e-12 * speed(column).abs() {
+                0.0
+            } else {
+                relative
+            };
+            state.mesh_loss[k] = law(k, lambda * z.abs(), relative.abs());
+        }
+        for (a, b, moment) in &rig.drags {
+            let speed = |c: Option<usize>| c.map_or(0.0, |c: usize| state.speeds[c]);
+            let delta = speed(*a) - speed(*b);
+            if delta.abs() > 1e-12 * speed(*a).abs().max(speed(*b).abs()) {
+                if let Some(a) = a {
+                    state.drags[*a] -= moment * delta.signum();
+                }
+                if let Some(b) = b {
+                    state.drags[*b] += moment * delta.signum();
+                }
+            }
+        }
+        let more = extra(state);
+        for (drag, torque) in state.drags.iter_mut().zip(more) {
+            *drag += torque;
+        }
+    });
+    let drag_loss = -work.drags.iter().zip(&speeds).map(|(d, w)| d * w).sum::<f64>();
+    Solved {
+        speeds,
+        work,
+        outcome,
+        drag_loss,
+    }
+}
+
+fn solve(rig: &Rig, ports: &[usize], speed_ports: &[(usize, f64)], torque_ports: &[(usize, f64)]) -> Solved {
+    solve_with(
+        rig,
+        ports,
+        speed_ports,
+        torque_ports,
+        |k, torque, speed| rig.meshes[k].1 * torque * speed,
+        |_| Vec::new(),
+    )
+}
+
+fn close(value: f64, printed: f64, scale: f64) {
+    assert!(
+        (value - printed).abs() <= 1e-7 * scale.abs().max(printed.abs()),
+        "{value} against {printed}"
+    );
+}
+
+fn rpm(n: f64) -> f64 {
+    n * std::f64::consts::PI / 30.0
+}

@@ -1,0 +1,208 @@
+//! What one solve needs and leaves: its space, its state towards the loss models, its outcome.
+
+use super::Flow;
+
+/// Which gear of a mesh drives in the carrier's frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Drive {
+    /// The first gear.
+    #[default]
+    First,
+    /// The second gear.
+    Second,
+    /// No torque, so neither.
+    Neither,
+}
+
+/// How well loads and losses must agree.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Remaining change of any power over the largest internal power.
+    pub power: f64,
+    /// The most passes.
+    pub passes: usize,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self {
+            power: 1e-9,
+            passes: 60,
+        }
+    }
+}
+
+/// Torques at one pass, and where the caller writes the losses that follow from them.
+#[derive(Debug)]
+pub struct FlowState<'a> {
+    /// Speeds of all columns. \[rad/s\]
+    pub speeds: &'a [f64],
+    /// Multipliers of the rows as written. \[Nm per coefficient\]
+    pub multipliers: &'a [f64],
+    /// Which gear drives, by mesh.
+    pub drives: &'a [Drive],
+    /// Torques on all columns from ports. \[Nm\]
+    pub ports: &'a [f64],
+    /// Loss of each mesh, all copies together, to be written. \[W\]
+    pub mesh_loss: &'a mut [f64],
+    /// Torques on all columns from drags, to be written; they oppose motion. \[Nm\]
+    pub drags: &'a mut [f64],
+}
+
+/// How the loop ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// Loads and losses agree.
+    Converged {
+        /// Passes over the loss models.
+        passes: usize,
+    },
+    /// No pattern of drivers is consistent; [`Work::doubtful`] names the meshes.
+    SelfLocking,
+    /// The most passes were not enough; [`Work::mismatch`] says what was left.
+    NoConvergence,
+}
+
+/// Losses in the form in which they enter equilibrium: shares of rolling power of the meshes, then losses of meshes as
+/// constant powers, then torques of drags by column.
+#[derive(Debug, Clone)]
+pub(super) struct Losses {
+    pub values: Vec<f64>,
+    meshes: usize,
+}
+
+impl Losses {
+    fn new(meshes: usize, columns: usize) -> Self {
+        Self {
+            values: vec![0.0; 2 * meshes + columns],
+            meshes,
+        }
+    }
+    pub fn share(&self, mesh: usize) -> f64 {
+        self.values[mesh]
+    }
+    pub fn constant(&self, mesh: usize) -> f64 {
+        self.values[self.meshes + mesh]
+    }
+    pub fn drags(&self) -> &[f64] {
+        &self.values[2 * self.meshes..]
+    }
+    pub fn drags_mut(&mut self) -> &mut [f64] {
+        &mut self.values[2 * self.meshes..]
+    }
+    /// Writes the loss of a mesh as a share of its rolling power, or as a constant where it is no small share.
+    pub fn set_mesh(&mut self, mesh: usize, loss: f64, rolling: f64) {
+        let proportional = loss > 0.0 && loss < 0.5 * rolling;
+        self.values[mesh] = if proportional { loss / rolling } else { 0.0 };
+        self.values[self.meshes + mesh] = if proportional { 0.0 } else { loss.max(0.0) };
+    }
+    pub fn copy(&mut self, other: &Self) {
+        self.values.copy_from_slice(&other.values);
+    }
+}
+
+/// Space for one solve; made once, used for every point.
+#[derive(Debug, Clone)]
+pub struct Work {
+    /// Multipliers of the rows as written.
+    pub multipliers: Vec<f64>,
+    /// Torques of ports on all columns.
+    pub ports: Vec<f64>,
+    /// Torques of drags on all columns.
+    pub drags: Vec<f64>,
+    /// Loss of each mesh as used in the accepted solve. \[W\]
+    pub mesh_loss: Vec<f64>,
+    /// Power that the first gear puts into each mesh, in the carrier's frame. \[W\]
+    pub rolling: Vec<f64>,
+    /// Which gear drives, by mesh.
+    pub drives: Vec<Drive>,
+    /// Largest internal power of the accepted solve. \[W\]
+    pub largest: f64,
+    /// Largest difference of power between the losses used last and those that the models answered. \[W\]
+    pub mismatch: f64,
+    /// What the models answered for the meshes. \[W\]
+    pub(super) asked: Vec<f64>,
+    /// Losses in the last solve, before it, and what the models answered to each.
+    pub(super) used: Losses,
+    pub(super) used_before: Losses,
+    pub(super) answer: Losses,
+    pub(super) answer_before: Losses,
+    /// Power per unit of each entry of the losses.
+    pub(super) weights: Vec<f64>,
+    /// How often the driver of each mesh turned.
+    pub(super) turned: Vec<u8>,
+    pub(super) ideal: Vec<Drive>,
+    pub(super) right: Vec<f64>,
+    pub(super) residual: Vec<f64>,
+    pub(super) unknown: Vec<f64>,
+    pub(super) step: Vec<f64>,
+    /// The small system of the meshes with friction.
+    pub(super) active: Vec<usize>,
+    pub(super) small: Vec<f64>,
+    pub(super) order: Vec<usize>,
+    pub(super) shares: Vec<f64>,
+}
+
+impl Work {
+    /// Asks for the losses of an ideal flow; they change no torque.
+    pub fn once(&mut self, speeds: &[f64], mut losses: impl FnMut(&mut FlowState<'_>)) {
+        losses(&mut FlowState {
+            speeds,
+            multipliers: &self.multipliers,
+            drives: &self.drives,
+            ports: &self.ports,
+            mesh_loss: &mut self.asked,
+            drags: &mut self.drags,
+        });
+        self.mesh_loss.copy_from_slice(&self.asked);
+        self.drags.fill(0.0);
+    }
+
+    /// Meshes whose driver turned in the last solve; with [`Outcome::SelfLocking`] the ones that lock.
+    pub fn doubtful(&self) -> impl Iterator<Item = usize> + '_ {
+        self.turned
+            .iter()
+            .enumerate()
+            .filter(|(_, turned)| **turned > 0)
+            .map(|(mesh, _)| mesh)
+    }
+}
+
+impl Flow {
+    /// Number of columns: members and differences.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Space for solving this flow.
+    pub fn work(&self) -> Work {
+        let (n, s, k) = (self.columns, self.size, self.meshes.len());
+        let losses = Losses::new(k, n);
+        Work {
+            multipliers: vec![0.0; self.rows],
+            ports: vec![0.0; n],
+            drags: vec![0.0; n],
+            mesh_loss: vec![0.0; k],
+            rolling: vec![0.0; k],
+            drives: vec![Drive::Neither; k],
+            largest: 0.0,
+            mismatch: 0.0,
+            asked: vec![0.0; k],
+            used: losses.clone(),
+            used_before: losses.clone(),
+            answer: losses.clone(),
+            weights: vec![0.0; losses.values.len()],
+            answer_before: losses,
+            turned: vec![0; k],
+            ideal: vec![Drive::Neither; k],
+            right: vec![0.0; s],
+            residual: vec![0.0; s],
+            unknown: vec![0.0; s],
+            step: vec![0.0; s],
+            active: Vec::with_capacity(k),
+            small: vec![0.0; k * k],
+            order: vec![0; k],
+            shares: vec![0.0; k],
+        }
+    }
+}

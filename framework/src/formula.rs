@@ -1,0 +1,447 @@
+//! Formulas that users write: text to a stack program.
+//!
+//! Powers bind tighter than a sign and to the right: `-2^2` is -4, `2^3^2` is 512. A comparison is 1 or 0; `if(c, a, b)`
+//! takes a where c is not 0.
+
+use crate::document::{did_you_mean, number_length};
+use crate::loss::Undefined;
+
+/// The deepest stack that a formula may need.
+const DEEPEST: usize = 32;
+
+/// What is wrong with a formula.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FormulaFault {
+    /// Column from one, in characters.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub mend: Option<String>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Op {
+    Number(f64),
+    Input(u8),
+    Negate,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    Less,
+    Greater,
+    LessEqual,
+    GreaterEqual,
+    Call1(fn(f64) -> f64),
+    Call2(fn(f64, f64) -> f64),
+    If,
+}
+
+const ONE: [(&str, fn(f64) -> f64); 12] = [
+    ("sqrt", f64::sqrt),
+    ("exp", f64::exp),
+    ("ln", f64::ln),
+    ("log10", f64::log10),
+    ("abs", f64::abs),
+    ("sin", f64::sin),
+    ("cos", f64::cos),
+    ("tan", f64::tan),
+    ("tanh", f64::tanh),
+    ("atan", f64::atan),
+    ("floor", f64::floor),
+    ("sign", sign),
+];
+
+const TWO: [(&str, fn(f64, f64) -> f64); 3] = [("min", f64::min), ("max", f64::max), ("pow", f64::powf)];
+
+fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
+/// A compiled formula.
+#[derive(Debug, Clone)]
+pub struct Formula {
+    program: Vec<Op>,
+}
+
+impl Formula {
+    /// Compiles a formula over named quantities.
+    ///
+    /// # Errors
+    /// With the column, what is wrong and how to mend it.
+    pub fn compile(text: &str, names: &[&str]) -> Result<Self, FormulaFault> {
+        let mut parser = Parser {
+            text,
+            at: 0,
+            names,
+            program: Vec::new(),
+            nested: 0,
+        };
+        parser.comparison()?;
+        parser.space();
+        if parser.at < text.len() {
+            return Err(parser.fault(format!("`{}` is left over", parser.rest_word()), None));
+        }
+        let formula = Self {
+            program: parser.program,
+        };
+        if formula.depth() > DEEPEST {
+            return Err(FormulaFault {
+                column: 1,
+                message: "nested too deeply".to_owned(),
+                mend: Some("split the formula".to_owned()),
+            });
+        }
+        Ok(formula)
+    }
+
+    fn depth(&self) -> usize {
+        let (mut now, mut most) = (0_usize, 0);
+        for op in &self.program {
+            match op {
+                Op::Number(_) | Op::Input(_) => now += 1,
+                Op::Negate | Op::Call1(_) => {}
+                Op::If => now -= 2,
+                _ => now -= 1,
+            }
+            most = most.max(now);
+        }
+        most
+    }
+
+    /// The value at the named quantities, in the order of the names.
+    ///
+    /// # Errors
+    /// Where the value is not a finite number.
+    pub fn value(&self, inputs: &[f64]) -> Result<f64, Undefined> {
+        let mut stack = [0.0_f64; DEEPEST];
+        let mut top = 0;
+        for op in &self.program {
+            match *op {
+                Op::Number(x) => {
+                    stack[top] = x;
+                    top += 1;
+                }
+                Op::Input(i) => {
+                    stack[top] = inputs[i as usize];
+                    top += 1;
+                }
+                Op::Negate => stack[top - 1] = -stack[top - 1],
+                Op::Call1(f) => stack[top - 1] = f(stack[top - 1]),
+                Op::If => {
+                    top -= 2;
+                    stack[top - 1] = if stack[top - 1] == 0.0 {
+                        stack[top + 1]
+                    } else {
+                        stack[top]
+                    };
+                }
+                two => {
+                    top -= 1;
+                    let (a, b) = (stack[top - 1], stack[top]);
+                    stack[top - 1] = match two {
+                        Op::Add => a + b,
+                        Op::Subtract => a - b,
+                        Op::Multiply => a * b,
+                        Op::Divide => a / b,
+                        Op::Power => a.powf(b),
+                        Op::Less => f64::from(u8::from(a < b)),
+                        Op::Greater => f64::from(u8::from(a > b)),
+                        Op::LessEqual => f64::from(u8::from(a <= b)),
+                        Op::GreaterEqual => f64::from(u8::from(a >= b)),
+                        Op::Call2(f) => f(a, b),
+                        _ => a,
+                    };
+                }
+            }
+        }
+        let value = stack[0];
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(Undefined {
+                what: "value of the formula",
+                value,
+            })
+        }
+    }
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    at: usize,
+    names: &'a [&'a str],
+    program: Vec<Op>,
+    nested: usize,
+}
+
+impl Parser<'_> {
+    fn fault(&self, message: impl Into<String>, mend: Option<String>) -> FormulaFault {
+        FormulaFault {
+            column: self.text[..self.at].chars().count() + 1,
+            message: message.into(),
+            mend,
+        }
+    }
+
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
+    }
+
+    fn rest_word(&self) -> String {
+        self.rest().chars().take(12).collect()
+    }
+
+    fn space(&mut self) {
+        self.at += self.rest().len() - self.rest().trim_start().len();
+    }
+
+    fn take(&mut self, symbol: &str) -> bool {
+        self.space();
+        let taken = self.rest().starts_with(symbol);
+        if taken {
+            self.at += symbol.len();
+        }
+        taken
+    }
+
+    fn comparison(&mut self) -> Result<(), FormulaFault> {
+        self.nested += 1;
+        if self.nested > DEEPEST {
+            return Err(self.fault("nested too deeply", Some("split the formula".to_owned())));
+        }
+        self.sum()?;
+        for (symbol, op) in [
+            ("<=", Op::LessEqual),
+            (">=", Op::GreaterEqual),
+            ("<", Op::Less),
+            (">", Op::Greater),
+        ] {
+            if self.take(symbol) {
+                self.sum()?;
+                self.program.push(op);
+                break;
+            }
+        }
+        self.nested -= 1;
+        Ok(())
+    }
+
+    fn sum(&mut self) -> Result<(), FormulaFault> {
+        self.product()?;
+        loop {
+            let op = if self.take("+") {
+                Op::Add
+            } else if self.take("-") {
+                Op::Subtract
+            } else {
+                return Ok(());
+            };
+            self.product()?;
+            self.program.push(op);
+        }
+    }
+
+    fn product(&mut self) -> Result<(), FormulaFault> {
+        self.signed()?;
+        loop {
+            self.space();
+            let op = if !self.rest().starts_with("**") && self.take("*") {
+                Op::Multiply
+            } else if self.take("/") {
+                Op::Divide
+            } else {
+                return Ok(());
+            };
+            self.signed()?;
+            self.program.push(op);
+        }
+    }
+
+    fn signed(&mut self) -> Result<(), FormulaFault> {
+        let mut negative = false;
+        loop {
+            if self.take("-") {
+                negative = !negative;
+            } else if !self.take("+") {
+                break;
+            }
+        }
+        self.power()?;
+        if negative {
+            self.program.push(Op::Negate);
+        }
+        Ok(())
+    }
+
+    fn power(&mut self) -> Result<(), FormulaFault> {
+        self.atom()?;
+        if self.take("^") {
+            self.nested += 1;
+            if self.nested > DEEPEST {
+                return Err(self.fault("nested too deeply", None));
+            }
+            self.signed()?;
+            self.nested -= 1;
+            self.program.push(Op::Power);
+        } else if self.rest().starts_with("**") {
+            return Err(self.fault("`**` is not a power", Some("write `^`".to_owned())));
+        }
+        Ok(())
+    }
+
+    fn atom(&mut self) -> Result<(), FormulaFault> {
+        self.space();
+        if self.take("(") {
+            self.comparison()?;
+            return if self.take(")") {
+                Ok(())
+            } else {
+                Err(self.fault("a `)` is missing", None))
+            };
+        }
+        let digits = number_length(self.rest());
+        if digits > 0 {
+            let number = self.rest()[..digits].parse().unwrap_or(f64::NAN);
+            self.at += digits;
+            self.program.push(Op::Number(number));
+            return Ok(());
+        }
+        let length = self
+            .rest()
+            .find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
+            .unwrap_or(self.rest().len());
+        if length == 0 {
+            let what = if self.rest().is_empty() {
+                "the formula ends too early".to_owned()
+            } else {
+                format!("`{}` is no value", self.rest_word())
+            };
+            return Err(self.fault(what, None));
+        }
+        let start = self.at;
+        let name = self.rest()[..length].to_owned();
+        self.at += length;
+        if self.take("(") {
+            return self.call(&name, start);
+        }
+        if let Some(i) = self.names.iter().position(|n| *n == name) {
+            self.program.push(Op::Input(i as u8));
+            return Ok(());
+        }
+        if name == "pi" {
+            self.program.push(Op::Number(std::f64::consts::PI));
+            return Ok(());
+        }
+        self.at = start;
+        let mend = did_you_mean(&name, self.names.iter().copied()).map(|close| format!("write `{close}`"));
+        Err(self.fault(format!("unknown quantity `{name}`"), mend))
+    }
+
+    fn call(&mut self, name: &str, start: usize) -> Result<(), FormulaFault> {
+        let (count, op) = if let Some((_, f)) = ONE.iter().find(|(n, _)| *n == name) {
+            (1, Op::Call1(*f))
+        } else if let Some((_, f)) = TWO.iter().find(|(n, _)| *n == name) {
+            (2, Op::Call2(*f))
+        } else if name == "if" {
+            (3, Op::If)
+        } else {
+            self.at = start;
+            let known = ONE
+                .iter()
+                .map(|(n, _)| *n)
+                .chain(TWO.iter().map(|(n, _)| *n))
+                .chain(["if"]);
+            let mend = did_you_mean(name, known.clone());
+            let list: Vec<&str> = known.collect();
+            let mend = mend.map_or_else(
+                || format!("functions: {}", list.join(", ")),
+                |close| format!("write `{close}(`"),
+            );
+            return Err(self.fault(format!("unknown function `{name}`"), Some(mend)));
+        };
+        for i in 0..count {
+            self.comparison()?;
+            let more = i + 1 < count;
+            if !self.take(if more { "," } else { ")" }) {
+                let plural = if count == 1 { "" } else { "s" };
+                return Err(self.fault(format!("`{name}` takes {count} argument{plural}"), None));
+            }
+        }
+        self.program.push(op);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use proptest::prelude::*;
+
+    fn value(text: &str) -> f64 {
+        Formula::compile(text, &["speed", "nu"])
+            .unwrap()
+            .value(&[3.0, 10.0])
+            .unwrap()
+    }
+
+    #[test]
+    fn engineers_arithmetic() {
+        for (text, expected) in [
+            ("-2^2", -4.0),
+            ("2^3^2", 512.0),
+            ("2^-1", 0.5),
+            ("1e-3 * 2", 2e-3),
+            ("10 - 4 - 3", 3.0),
+            ("8 / 4 / 2", 1.0),
+            ("speed * nu + 1", 31.0),
+            ("if(speed > 2, 1, 0)", 1.0),
+            ("max(1, min(5, nu))", 5.0),
+            ("log10(1000) + ln(exp(2))", 5.0),
+            ("--3", 3.0),
+            ("2 * (1 + pi/pi)", 4.0),
+        ] {
+            assert!((value(text) - expected).abs() < 1e-12, "{text}: {}", value(text));
+        }
+    }
+
+    #[test]
+    fn faults_have_a_column_and_a_way_out() {
+        let fault = |text: &str| Formula::compile(text, &["speed", "nu"]).unwrap_err();
+        assert_eq!(
+            (fault("1 + sped").column, fault("1 + sped").mend.unwrap()),
+            (5, "write `speed`".to_owned())
+        );
+        assert_eq!(fault("2 ** 3").mend.unwrap(), "write `^`");
+        assert!(fault("sqr(2)").mend.unwrap().contains("sqrt"));
+        assert!(fault("(1 + 2").message.contains("missing"));
+        assert!(fault("1 2").message.contains("left over"));
+        assert!(fault("").message.contains("too early"));
+        assert!(fault(&"(".repeat(5000)).message.contains("deeply"));
+    }
+
+    #[test]
+    fn what_has_no_value_is_undefined() {
+        for text in ["ln(0)", "sqrt(-1)", "1/0", "(-1)^0.5"] {
+            assert!(Formula::compile(text, &[]).unwrap().value(&[]).is_err(), "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_makes_it_panic(text in "[-+*/^()<>=,. 0-9a-z]{0,40}") {
+            if let Ok(formula) = Formula::compile(&text, &["a", "b"]) {
+                let _ = formula.value(&[1.0, 2.0]);
+            }
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! From a file to a transmission: read, walk, resolve, build; findings with their places.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::document::{Diagnostic, Node, Places, Severity, Sources, read_yaml};
+use crate::language::{DRAGS, Language, MESHES};
+use crate::registry::Files;
+use crate::resolve::{Came, Choice, Resolved, resolve};
+use crate::transmission::Transmission;
+
+/// The most files that may extend each other.
+const LONGEST_CHAIN: usize = 8;
+
+/// The most findings that are printed.
+const MOST_SHOWN: usize = 100;
+
+/// A gearbox as read and walked. Resolving and building are repeated for every choice of models and overrides.
+pub struct Gearbox {
+    /// The walked description, SI.
+    pub value: Value,
+    /// Where everything was written.
+    pub places: Places,
+    /// The texts.
+    pub sources: Sources,
+    /// Files that the description names.
+    pub files: Files,
+}
+
+/// Findings with the texts that they point into.
+pub struct Findings {
+    /// What was found.
+    pub list: Vec<Diagnostic>,
+    /// The texts.
+    pub sources: Sources,
+}
+
+impl Findings {
+    /// All findings rendered, with their number at the end.
+    pub fn render(&self) -> String {
+        let mut text = String::new();
+        for finding in self.list.iter().take(MOST_SHOWN) {
+            text.push_str(&self.sources.render(finding));
+            text.push_str("\n\n");
+        }
+        if self.list.len() > MOST_SHOWN {
+            text.push_str(&format!("... and {} more\n", self.list.len() - MOST_SHOWN));
+        }
+        let errors = self.list.iter().filter(|d| d.severity == Severity::Error).count();
+        let plural = if errors == 1 { "" } else { "s" };
+        text.push_str(&format!("{errors} error{plural}\n"));
+        text
+    }
+}
+
+impl std::fmt::Debug for Findings {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.render())
+    }
+}
+
+impl Gearbox {
+    /// Reads a gearbox file and what it extends.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
+        let mut sources = Sources::default();
+        let text = match std::fs::read_to_string(file) {
+            Ok(text) => text,
+            Err(e) => {
+                let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
+                    .mend("check the name of the file");
+                return Err(Findings {
+                    list: vec![error],
+                    sources,
+                });
+            }
+        };
+        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
+        Self::parse(language, &text, &file.display().to_string(), folder, &mut sources)
+            .map_err(|list| Findings { list, sources })
+    }
+
+    /// Reads a gearbox from a text; `folder` is where the files that it names lie.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn of_text(language: &Language, text: &str, name: &str, folder: impl Into<PathBuf>) -> Result<Self, Findings> {
+        let mut sources = Sources::default();
+        Self::parse(language, text, name, folder.into(), &mut sources).map_err(|list| Findings { list, sources })
+    }
+
+    fn parse(
+        language: &Language,
+        text: &str,
+        name: &str,
+        folder: PathBuf,
+        sources: &mut Sources,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        let node = chain(text, name, &folder, sources, &mut found, &mut Vec::new());
+        let Some(node) = node.filter(|_| found.is_empty()) else {
+            return Err(found);
+        };
+        let walked = language.walk_gearbox(&node);
+        if !walked.findings.is_empty() {
+            return Err(walked.findings);
+        }
+        Ok(Self {
+            value: walked.value,
+            places: walked.places,
+            sources: sources.clone(),
+            files: Files::beside(folder),
+        })
+    }
+
+    /// Resolves the description with a choice of models and overrides.
+    ///
+    /// # Errors
+    /// Everything that resolving finds, with places.
+    pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
+        resolve(language, &self.files, &self.value, choice).map_err(|list| self.findings(list))
+    }
+
+    /// Builds the transmission of a resolved description.
+    ///
+    /// # Errors
+    /// Everything that building finds, with places.
+    pub fn build(&self, language: &Language, resolved: &Resolved) -> Result<Transmission, Findings> {
+        let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
+            self.findings(
+                list.into_iter()
+                    .map(|d| self.inherited(language, resolved, d))
+                    .collect(),
+            )
+        })?;
+        built.warnings = built.warnings.into_iter().map(|d| self.places.place(d)).collect();
+        Ok(built)
+    }
+
+    /// A finding about a model that a component takes from `models` also shows where that is written.
+    fn inherited(&self, language: &Language, resolved: &Resolved, finding: Diagnostic) -> Diagnostic {
+        if *resolved.came(&finding.path) != Came::Models {
+            return finding;
+        }
+        let mut keys = finding.path.split('.');
+        let section = keys.next().unwrap_or_default();
+        let written = match (section, keys.nth(1), keys.next()) {
+            (_, Some("drag"), Some(slot)) => format!("models.{DRAGS}.{slot}"),
+            ("meshes", ..) => format!("models.{MESHES}"),
+            _ => match language.registry().sections().find(|(_, s)| s.name == section) {
+                Some((mechanism, _)) => format!("models.{}", mechanism.key),
+                None => return finding,
+            },
+        };
+        match (self.places.locate(&finding.path), self.places.get(&written)) {
+            (Some(component), Some(model)) => finding.at(component).label(model.value, "the model comes from here"),
+            _ => finding,
+        }
+    }
+
+    /// Resolves and builds.
+    ///
+    /// # Errors
+    /// Everything that either finds.
+    pub fn transmission(&self, language: &Language, choice: &Choice) -> Result<Transmission, Findings> {
+        self.build(language, &self.resolve(language, choice)?)
+    }
+
+    /// Findings with the places of their paths.
+    pub fn findings(&self, list: Vec<Diagnostic>) -> Findings {
+        Findings {
+            list: list.into_iter().map(|d| self.places.place(d)).collect(),
+            sources: self.sources.clone(),
+        }
+    }
+}
+
+/// A document laid over what it extends.
+fn chain(
+    text: &str,
+    name: &str,
+    folder: &Path,
+    sources: &mut Sources,
+    found: &mut Vec<Diagnostic>,
+    seen: &mut Vec<PathBuf>,
+) -> Option<Node> {
+    let source = sources.add(name, text);
+    let read = read_yaml(source, text);
+    if !read.findings.is_empty() {
+        found.extend(read.findings);
+        return None;
+    }
+    let Some(base) = read.node.get("extends").and_then(Node::text) else {
+        return Some(read.node);
+    };
+    let span = read.node.get("extends").map(|n| n.span);
+    let error = |message: String| {
+        let error = Diagnostic::error("extends", message).mend("name a gearbox file, relative to this one");
+        if let Some(span) = span { error.at(span) } else { error }
+    };
+    let file = folder.join(base);
+    if seen.contains(&file) || seen.len() >= LONGEST_CHAIN {
+        found.push(error(
+            "files extend each other in a circle, or too many of them".to_owned(),
+        ));
+        return None;
+    }
+    seen.push(file.clone());
+    match std::fs::read_to_string(&file) {
+        Err(e) => {
+            found.push(error(format!("cannot read {}: {e}", file.display())));
+            None
+        }
+        Ok(text) => {
+            let inner = file.parent().unwrap_or(Path::new("")).to_path_buf();
+            let base = chain(&text, &file.display().to_string(), &inner, sources, found, seen)?;
+            Some(read.node.over(base))
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! Involute geometry of pairs: working angles, diameters, the path of contact, load sharing, loss factors.
+
+mod factors;
+mod gauss;
+mod involute;
+mod pair;
+mod path;
+
+pub use involute::{inverse_involute, involute};
+pub use pair::{Pair, PairFault, PairSpec};
+pub use path::{LoadSharing, PathPoint};

@@ -1,0 +1,36 @@
+//! Tooth loss factors: the share of the transmitted power that one unit of friction would cost.
+
+use super::pair::Pair;
+use super::path::LoadSharing;
+
+impl Pair {
+    fn factor(&self) -> f64 {
+        let u = self.ratio();
+        std::f64::consts::PI * (u + self.sign()) / (f64::from(self.z[0]) * u * self.base_helix.cos())
+    }
+
+    /// Ohlendorf 1958: exact for halved load in double contact and constant friction, with one to two pairs in contact.
+    pub fn loss_factor_ohlendorf(&self) -> f64 {
+        let [e1, e2] = self.addendum_ratio;
+        self.factor() * (1.0 - self.contact_ratio + e1 * e1 + e2 * e2)
+    }
+
+    /// Evenly spread load: the limit of helical gears with a large overlap ratio.
+    pub fn loss_factor_uniform(&self) -> f64 {
+        let [e1, e2] = self.addendum_ratio;
+        self.factor() * (e1 * e1 + e2 * e2) / self.contact_ratio
+    }
+
+    /// Wimmer 2006: the local loss factor for any load sharing.
+    pub fn loss_factor_local(&self, sharing: LoadSharing) -> f64 {
+        let integral: f64 = self
+            .path(sharing, 4)
+            .iter()
+            .map(|p| p.weight * p.share * self.sliding(p.x))
+            .sum();
+        integral / (self.base_pitch * self.base_helix.cos() * self.base_radius[0])
+    }
+}
+
+#[cfg(test)]
+mod tests;

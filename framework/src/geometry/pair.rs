@@ -1,0 +1,370 @@
+//! One pair of cylindrical involute gears.
+//!
+//! Sources: ISO 21771; points on the line of action as in DIN 3990: T1, T2 tangent points, A first contact, E last contact
+//! when the first gear drives, B and D ends of double contact, C pitch point.
+
+use super::involute::{inverse_involute, involute};
+
+/// What describes a pair. SI; angles in rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairSpec {
+    /// Numbers of teeth, positive for a ring, too.
+    pub z: [u32; 2],
+    /// The second gear is a ring.
+    pub internal: bool,
+    /// Normal module. \[m\]
+    pub normal_module: f64,
+    /// Normal pressure angle. \[rad\]
+    pub pressure_angle: f64,
+    /// Helix angle at the reference circle, magnitude. \[rad\]
+    pub helix_angle: f64,
+    /// Working centre distance; absent, that of the profile shifts. \[m\]
+    pub centre_distance: Option<f64>,
+    /// Profile shift coefficients; absent ones close the centre distance.
+    pub profile_shift: [Option<f64>; 2],
+    /// Tip diameters; absent ones follow from the reference tooth; required for a ring. \[m\]
+    pub tip_diameter: [Option<f64>; 2],
+    /// Root diameters; absent ones follow from the reference tooth. \[m\]
+    pub root_diameter: [Option<f64>; 2],
+    /// Effective face width. \[m\]
+    pub facewidth: f64,
+    /// Shortens the tips of shifted external gears to keep the tip clearance.
+    pub tip_shortening: bool,
+}
+
+/// Why a pair is impossible. Lengths in m.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PairFault {
+    /// Centre distance and profile shifts disagree.
+    Shifts {
+        /// As given.
+        centre_distance: f64,
+        /// As it follows from the shifts.
+        from_shifts: f64,
+        /// The sum of shifts that the centre distance needs.
+        sum: f64,
+    },
+    /// The centre distance is below the sum (external) or difference (internal) of the base radii.
+    TooClose {
+        /// As given.
+        centre_distance: f64,
+        /// The least possible.
+        least: f64,
+    },
+    /// A ring needs its tip diameter.
+    RingTip,
+    /// A ring must have more teeth than its mate.
+    RingTeeth,
+    /// A tip circle is inside its base circle, or a ring's tip circle does not reach the path of contact.
+    Tip {
+        /// Number of the gear, 0 or 1.
+        gear: usize,
+        /// Its tip diameter.
+        diameter: f64,
+        /// Its base diameter.
+        base: f64,
+    },
+    /// Contact would begin below the base circle of a gear.
+    BelowBase {
+        /// Number of the gear whose flank is used below its base circle.
+        gear: usize,
+    },
+    /// The transverse contact ratio is below one.
+    ContactRatio {
+        /// The ratio.
+        ratio: f64,
+    },
+}
+
+impl std::fmt::Display for PairFault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let name = |gear: usize| if gear == 0 { "first" } else { "second" };
+        match self {
+            Self::Shifts {
+                centre_distance,
+                from_shifts,
+                sum,
+            } => write!(
+                f,
+                "the centre distance is {:.4} mm, but the profile shifts give {:.4} mm; it needs a sum of {sum:.4}",
+                centre_distance * 1e3,
+                from_shifts * 1e3
+            ),
+            Self::TooClose { centre_distance, least } => write!(
+                f,
+                "the centre distance {:.4} mm is not above {:.4} mm, where the base circles leave no line of action",
+                centre_distance * 1e3,
+                least * 1e3
+            ),
+            Self::RingTip => write!(f, "a ring needs its tip diameter"),
+            Self::RingTeeth => write!(f, "a ring needs more teeth than its mate"),
+            Self::Tip { gear, diameter, base } => write!(
+                f,
+                "the tip diameter {:.3} mm of the {} gear is not above its base diameter {:.3} mm",
+                diameter * 1e3,
+                name(*gear),
+                base * 1e3
+            ),
+            Self::BelowBase { gear } => {
+                write!(
+                    f,
+                    "contact begins below the base circle of the {} gear: its mate's tip is too high",
+                    name(*gear)
+                )
+            }
+            Self::ContactRatio { ratio } => write!(f, "the transverse contact ratio is {ratio:.3}, below one"),
+        }
+    }
+}
+
+/// A pair with its geometry solved. SI; angles in rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// Numbers of teeth.
+    pub z: [u32; 2],
+    /// The second gear is a ring.
+    pub internal: bool,
+    /// Normal module. \[m\]
+    pub normal_module: f64,
+    /// Normal pressure angle. \[rad\]
+    pub pressure_angle: f64,
+    /// Helix angle at the reference circle. \[rad\]
+    pub helix_angle: f64,
+    /// Transverse pressure angle. \[rad\]
+    pub transverse_angle: f64,
+    /// Working transverse pressure angle. \[rad\]
+    pub working_angle: f64,
+    /// Base helix angle. \[rad\]
+    pub base_helix: f64,
+    /// Helix angle at the working pitch cylinder. \[rad\]
+    pub working_helix: f64,
+    /// Reference centre distance. \[m\]
+    pub reference_distance: f64,
+    /// Working centre distance. \[m\]
+    pub centre_distance: f64,
+    /// Profile shift coefficients.
+    pub profile_shift: [f64; 2],
+    /// Tip shortening coefficient, zero or negative.
+    pub shortening: f64,
+    /// Reference diameters. \[m\]
+    pub reference_diameter: [f64; 2],
+    /// Base radii. \[m\]
+    pub base_radius: [f64; 2],
+    /// Working pitch radii. \[m\]
+    pub working_radius: [f64; 2],
+    /// Tip diameters. \[m\]
+    pub tip_diameter: [f64; 2],
+    /// Root diameters. \[m\]
+    pub root_diameter: [f64; 2],
+    /// Transverse base pitch. \[m\]
+    pub base_pitch: f64,
+    /// Distance T1T2 along the line of action. \[m\]
+    pub tangent_length: f64,
+    /// Distances T1A, T1B, T1C, T1D, T1E. \[m\]
+    pub points: [f64; 5],
+    /// Transverse contact ratio.
+    pub contact_ratio: f64,
+    /// Addendum contact ratios of both gears.
+    pub addendum_ratio: [f64; 2],
+    /// Overlap ratio.
+    pub overlap_ratio: f64,
+    /// Effective face width. \[m\]
+    pub facewidth: f64,
+    /// Radius of relative curvature at the pitch point in the normal plane. \[m\]
+    pub pitch_radius: f64,
+}
+
+impl Pair {
+    /// Solves the geometry.
+    ///
+    /// # Errors
+    /// Every fault that makes the pair impossible.
+    pub fn new(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
+        let s = if spec.internal { -1.0 } else { 1.0 };
+        let [z1, z2] = spec.z.map(f64::from);
+        if spec.internal && z2 <= z1 {
+            return Err(vec![PairFault::RingTeeth]);
+        }
+        if spec.internal && spec.tip_diameter[1].is_none() {
+            return Err(vec![PairFault::RingTip]);
+        }
+        let (m, alpha_n, beta) = (spec.normal_module, spec.pressure_angle, spec.helix_angle);
+        let module_t = m / beta.cos();
+        let alpha_t = (alpha_n.tan() / beta.cos()).atan();
+        let base_helix = (beta.sin() * alpha_n.cos()).asin();
+        let teeth = z2 + s * z1;
+        let a = 0.5 * module_t * teeth;
+        // The sum that counts is x1 + x2 for external pairs, x2 - x1 for internal ones.
+        let distance_of = |sum: f64| {
+            let working = inverse_involute(involute(alpha_t) + 2.0 * alpha_n.tan() * sum / teeth);
+            a * alpha_t.cos() / working.cos()
+        };
+        let sum_of = |working: f64| (involute(working) - involute(alpha_t)) * teeth / (2.0 * alpha_n.tan());
+        let both = match spec.profile_shift {
+            [Some(x1), Some(x2)] => Some(x2 + s * x1),
+            _ => None,
+        };
+        let centre_distance = match (spec.centre_distance, both) {
+            (Some(distance), Some(sum)) => {
+                let from_shifts = distance_of(sum);
+                if (from_shifts / distance - 1.0).abs() > 1e-4 {
+                    let cos = (a * alpha_t.cos() / distance).min(1.0);
+                    return Err(vec![PairFault::Shifts {
+                        centre_distance: distance,
+                        from_shifts,
+                        sum: sum_of(cos.acos()),
+                    }]);
+                }
+                distance
+            }
+            (Some(distance), None) => distance,
+            (None, Some(sum)) => distance_of(sum),
+            (None, None) => {
+                distance_of(spec.profile_shift[1].unwrap_or(0.0) + s * spec.profile_shift[0].unwrap_or(0.0))
+            }
+        };
+        let least = a * alpha_t.cos();
+        if centre_distance <= least {
+            return Err(vec![PairFault::TooClose { centre_distance, least }]);
+        }
+        let working_angle = (least / centre_distance).acos();
+        let sum = sum_of(working_angle);
+        let profile_shift = match spec.profile_shift {
+            [Some(x1), Some(x2)] => [x1, x2],
+            [Some(x1), None] => [x1, sum - s * x1],
+            [None, Some(x2)] => [s * (sum - x2), x2],
+            [None, None] if spec.internal => [0.0, sum],
+            [None, None] => [0.5 * sum, 0.5 * sum],
+        };
+        let shortening = if spec.internal || !spec.tip_shortening {
+            0.0
+        } else {
+            ((centre_distance - a) / m - (profile_shift[0] + profile_shift[1])).min(0.0)
+        };
+        let reference_diameter = [module_t * z1, module_t * z2];
+        let base_radius = reference_diameter.map(|d| 0.5 * d * alpha_t.cos());
+        let tip = |i: usize| {
+            spec.tip_diameter[i].unwrap_or(reference_diameter[i] + 2.0 * m * (1.0 + profile_shift[i] + shortening))
+        };
+        let tip_diameter = [tip(0), tip(1)];
+        let root = |i: usize| {
+            spec.root_diameter[i].unwrap_or(if spec.internal && i == 1 {
+                tip_diameter[1] + 4.5 * m
+            } else {
+                reference_diameter[i] - 2.0 * m * (1.25 - profile_shift[i])
+            })
+        };
+        let root_diameter = [root(0), root(1)];
+        let mut faults = Vec::new();
+        for i in 0..2 {
+            if tip_diameter[i] <= 2.0 * base_radius[i] {
+                faults.push(PairFault::Tip {
+                    gear: i,
+                    diameter: tip_diameter[i],
+                    base: 2.0 * base_radius[i],
+                });
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let tangent_length = centre_distance * working_angle.sin();
+        let reach = |i: usize| ((0.5 * tip_diameter[i]).powi(2) - base_radius[i].powi(2)).sqrt();
+        let start = s * (tangent_length - reach(1));
+        let end = reach(0);
+        let pitch = base_radius[0] * working_angle.tan();
+        let base_pitch = std::f64::consts::PI * module_t * alpha_t.cos();
+        let contact_ratio = (end - start) / base_pitch;
+        if start < 0.0 {
+            faults.push(PairFault::BelowBase { gear: 0 });
+        }
+        if !spec.internal && end > tangent_length {
+            faults.push(PairFault::BelowBase { gear: 1 });
+        }
+        if contact_ratio < 1.0 {
+            faults.push(PairFault::ContactRatio { ratio: contact_ratio });
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let working_radius = [centre_distance * z1 / teeth, centre_distance * z2 / teeth];
+        let mut pair = Self {
+            z: spec.z,
+            internal: spec.internal,
+            normal_module: m,
+            pressure_angle: alpha_n,
+            helix_angle: beta,
+            transverse_angle: alpha_t,
+            working_angle,
+            base_helix,
+            working_helix: (beta.tan() * alpha_t.cos() / working_angle.cos()).atan(),
+            reference_distance: a,
+            centre_distance,
+            profile_shift,
+            shortening,
+            reference_diameter,
+            base_radius,
+            working_radius,
+            tip_diameter,
+            root_diameter,
+            base_pitch,
+            tangent_length,
+            points: [start, end - base_pitch, pitch, start + base_pitch, end],
+            contact_ratio,
+            addendum_ratio: [(end - pitch) / base_pitch, (pitch - start) / base_pitch],
+            overlap_ratio: spec.facewidth * beta.sin() / (std::f64::consts::PI * m),
+            facewidth: spec.facewidth,
+            pitch_radius: 0.0,
+        };
+        pair.pitch_radius = pair.relative_radius(pitch);
+        Ok(pair)
+    }
+
+    /// Plus one for external pairs, minus one for internal ones.
+    pub fn sign(&self) -> f64 {
+        if self.internal { -1.0 } else { 1.0 }
+    }
+
+    /// Gear ratio z2/z1.
+    pub fn ratio(&self) -> f64 {
+        f64::from(self.z[1]) / f64::from(self.z[0])
+    }
+
+    /// Radii of curvature of both flanks at a distance from T1 along the line of action, transverse. \[m\]
+    pub fn curvature(&self, x: f64) -> [f64; 2] {
+        [x, self.tangent_length - self.sign() * x]
+    }
+
+    /// Radius of relative curvature in the normal plane. \[m\]
+    pub fn relative_radius(&self, x: f64) -> f64 {
+        let [rho1, rho2] = self.curvature(x);
+        rho1 * rho2 / (rho2 + self.sign() * rho1) / self.base_helix.cos()
+    }
+
+    /// Sliding speed per speed of the first gear. \[m\]
+    pub fn sliding(&self, x: f64) -> f64 {
+        (1.0 + self.sign() / self.ratio()) * (x - self.points[2]).abs()
+    }
+
+    /// Sum of the surface speeds per speed of the first gear. \[m\]
+    pub fn sum_speed(&self, x: f64) -> f64 {
+        let [rho1, rho2] = self.curvature(x);
+        rho1 + rho2 / self.ratio()
+    }
+
+    /// Normal tooth width at the tip of an external gear. \[m\]
+    pub fn tip_width(&self, gear: usize) -> f64 {
+        let d = self.reference_diameter[gear];
+        let tip = self.tip_diameter[gear];
+        let at_tip = (2.0 * self.base_radius[gear] / tip).acos();
+        let thickness = 0.5 * std::f64::consts::PI + 2.0 * self.profile_shift[gear] * self.pressure_angle.tan();
+        let angle = thickness / f64::from(self.z[gear]) + involute(self.transverse_angle) - involute(at_tip);
+        let helix = (self.helix_angle.tan() * tip / d).atan();
+        tip * angle * helix.cos()
+    }
+
+    /// Clearance between a tip and the mate's root of an external pair. \[m\]
+    pub fn tip_clearance(&self, gear: usize) -> f64 {
+        self.centre_distance - 0.5 * (self.tip_diameter[gear] + self.root_diameter[1 - gear])
+    }
+}

@@ -1,0 +1,128 @@
+//! Speeds of all members: homogeneous constraint rows, degrees of freedom, and who is guilty when a state cannot move.
+//!
+//! Rows are exact statements of kinematics (Willis); nothing here depends on the kind of gearbox.
+
+mod eliminate;
+
+pub use eliminate::Fault;
+use eliminate::Reduced;
+
+/// One constraint: the sum of coefficient times speed over columns is zero. Columns may repeat; their coefficients add.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Column and coefficient. The housing has no column.
+    pub terms: Vec<(usize, f64)>,
+}
+
+impl Row {
+    /// Gears 1 and 2 of a mesh on a carrier: `z1 (w1 - wc) + s z2 (w2 - wc) = 0`. An absent column stands still.
+    pub fn mesh(first: Option<usize>, z1: f64, second: Option<usize>, sz2: f64, carrier: Option<usize>) -> Self {
+        let terms = [(first, z1), (second, sz2), (carrier, -(z1 + sz2))];
+        Self {
+            terms: terms
+                .into_iter()
+                .filter_map(|(column, z)| column.map(|c| (c, z)))
+                .collect(),
+        }
+    }
+
+    /// Two columns of one speed; an absent one is the housing.
+    pub fn joined(a: Option<usize>, b: Option<usize>) -> Self {
+        Self {
+            terms: a.map(|a| (a, 1.0)).into_iter().chain(b.map(|b| (b, -1.0))).collect(),
+        }
+    }
+
+    /// A column that is the difference of two others.
+    pub fn difference(left: usize, right: usize, difference: usize) -> Self {
+        Self {
+            terms: vec![(left, 1.0), (right, -1.0), (difference, -1.0)],
+        }
+    }
+
+    /// Coefficients over all columns.
+    pub fn dense(&self, columns: usize) -> Vec<f64> {
+        let mut dense = vec![0.0; columns];
+        for (column, value) in &self.terms {
+            dense[*column] += value;
+        }
+        dense
+    }
+}
+
+/// The columns and rows of one gear state.
+#[derive(Debug, Clone, Default)]
+pub struct Train {
+    /// Number of columns: members, and differences that may be prescribed.
+    pub columns: usize,
+    /// Constraints.
+    pub rows: Vec<Row>,
+}
+
+/// Speeds as a linear map of the prescribed ones. Made once per state and set of prescribed ports.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    columns: usize,
+    ports: usize,
+    /// Column by column of the map, `columns` numbers for each prescribed port.
+    map: Vec<f64>,
+    /// Number of independent rows.
+    pub rank: usize,
+    /// Rows of each redundant loop.
+    pub loops: Vec<Vec<usize>>,
+}
+
+impl Motion {
+    /// The motion of a train whose speeds are prescribed at some columns. `ports` are all columns at which speeds could be
+    /// prescribed.
+    ///
+    /// # Errors
+    /// Every fault of the state for this prescription; redundant loops are no fault here.
+    pub fn new(train: &Train, ports: &[usize], prescribed: &[usize]) -> Result<Self, Vec<Fault>> {
+        let reduced = Reduced::new(train, ports, prescribed);
+        let faults = reduced.faults(ports, prescribed);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let mut map = vec![0.0; train.columns * prescribed.len()];
+        for (k, port) in prescribed.iter().enumerate() {
+            for (column, value) in reduced.null_vector(*port).into_iter().enumerate() {
+                map[k * train.columns + column] = value;
+            }
+        }
+        Ok(Self {
+            columns: train.columns,
+            ports: prescribed.len(),
+            map,
+            rank: reduced.rank(),
+            loops: reduced.loops(),
+        })
+    }
+
+    /// Degrees of freedom of a train.
+    pub fn freedom(train: &Train) -> usize {
+        train.columns - Reduced::new(train, &[], &[]).rank()
+    }
+
+    /// Speeds of all columns from those of the prescribed ports.
+    pub fn speeds(&self, prescribed: &[f64], speeds: &mut [f64]) {
+        speeds[..self.columns].fill(0.0);
+        for k in 0..self.ports {
+            for (speed, factor) in speeds
+                .iter_mut()
+                .zip(&self.map[k * self.columns..(k + 1) * self.columns])
+            {
+                *speed += factor * prescribed[k];
+            }
+        }
+        let fastest = speeds[..self.columns].iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+        for speed in &mut speeds[..self.columns] {
+            if speed.abs() <= 1e-12 * fastest {
+                *speed = 0.0;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,210 @@
+//! The language of documents: what the linked mechanisms and models allow to be written, composed once per program.
+
+mod compose;
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use crate::document::{Diagnostic, Node, Schema, Walked, read_yaml, walk, walk_at};
+use crate::mechanism::Mechanism;
+use crate::mechanism::gear_drag::{GearDrag, Scope};
+use crate::mechanism::gear_mesh::GearMesh;
+use crate::registry::{Entry, Registry};
+use crate::resolve::CatalogueTable;
+
+/// Key of the mechanism that meshes hold.
+pub const MESHES: &str = GearMesh::KEY;
+/// Key of the mechanism that gears and meshes hold by name.
+pub const DRAGS: &str = GearDrag::KEY;
+
+/// Kind of a document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A gearbox.
+    Gearbox,
+    /// A study.
+    Study,
+    /// Input of `eval`, which depends on the mechanism.
+    Eval,
+}
+
+/// Registry, schemas and catalogues of one program. Made once; everything that reads documents borrows it.
+pub struct Language {
+    registry: Registry,
+    published: BTreeMap<&'static str, Value>,
+    gearbox: Schema,
+    study: Schema,
+    catalogues: BTreeMap<&'static str, CatalogueTable>,
+    sets: BTreeMap<String, Value>,
+}
+
+impl Language {
+    /// The language of a registry.
+    ///
+    /// # Errors
+    /// Every construct of a schema that the walk cannot check, with mechanism, model and field; every fault of a linked
+    /// catalogue or set.
+    pub fn new(registry: Registry) -> Result<Self, Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        let gearbox_schema = compose::gearbox(&registry);
+        let study_schema = compose::study(&registry);
+        let gearbox = compiled(&gearbox_schema, &mut found);
+        let study = compiled(&study_schema, &mut found);
+        let mut catalogues: BTreeMap<&'static str, CatalogueTable> = BTreeMap::new();
+        for (_, section) in registry.sections() {
+            for catalogue in registry.catalogues(section.name) {
+                match CatalogueTable::from_csv(catalogue.csv) {
+                    Ok(table) => catalogues.entry(section.name).or_default().extend(table),
+                    Err(reason) => found.push(
+                        Diagnostic::error("", format!("catalogue of {}: {reason}", section.name))
+                            .note(format!("registered at {}", catalogue.origin)),
+                    ),
+                }
+            }
+        }
+        let (Some(gearbox), Some(study)) = (gearbox, study) else {
+            return Err(found);
+        };
+        let published = BTreeMap::from([("gearbox", gearbox_schema), ("study", study_schema)]);
+        let mut language = Self {
+            registry,
+            published,
+            gearbox,
+            study,
+            catalogues,
+            sets: BTreeMap::new(),
+        };
+        for set in language.registry.shipped_sets().to_vec() {
+            match language.part_of_document(set.yaml, &format!("model_sets.{}", set.name)) {
+                Ok(value) => {
+                    language.sets.insert(set.name.to_owned(), value);
+                }
+                Err(more) => found.extend(
+                    more.into_iter()
+                        .map(|d| d.note(format!("in the set registered at {}", set.origin))),
+                ),
+            }
+        }
+        if found.is_empty() { Ok(language) } else { Err(found) }
+    }
+
+    /// The registry.
+    pub fn registry(&self) -> &Registry {
+        &self.registry
+    }
+
+    /// The published JSON Schema (draft-07) of a kind of document; for `eval` of one mechanism.
+    pub fn published(&self, kind: Kind) -> Value {
+        match kind {
+            Kind::Gearbox => self.published["gearbox"].clone(),
+            Kind::Study => self.published["study"].clone(),
+            Kind::Eval => compose::eval(&self.registry),
+        }
+    }
+
+    /// Walks a gearbox.
+    pub fn walk_gearbox(&self, node: &Node) -> Walked {
+        walk(node, &self.gearbox)
+    }
+
+    /// Walks a study.
+    pub fn walk_study(&self, node: &Node) -> Walked {
+        walk(node, &self.study)
+    }
+
+    /// Walks the input of `eval` for one mechanism: `model`, `part` and `at`.
+    ///
+    /// # Errors
+    /// If the schema of the mechanism cannot be compiled.
+    pub fn walk_eval(&self, mechanism: &str, node: &Node) -> Result<Walked, Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        match compiled(&compose::eval_of(&self.registry, mechanism), &mut found) {
+            Some(schema) => Ok(walk(node, &schema)),
+            None => Err(found),
+        }
+    }
+
+    /// Checks a value against the gearbox schema at a path; the value SI with defaults filled. Quantities may be texts with
+    /// a unit or numbers in the documented unit.
+    ///
+    /// # Errors
+    /// What the walk finds.
+    pub fn checked(&self, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
+        fine(walk_at(&Node::from_json(value), &self.gearbox, path))
+    }
+
+    /// A piece of YAML checked against the gearbox schema at a path.
+    ///
+    /// # Errors
+    /// What reading and the walk find.
+    pub fn part_of_document(&self, yaml: &str, path: &str) -> Result<Value, Vec<Diagnostic>> {
+        let read = read_yaml(0, yaml);
+        if !read.findings.is_empty() {
+            return Err(read.findings);
+        }
+        fine(walk_at(&read.node, &self.gearbox, path))
+    }
+
+    /// The resolved example of a model and the resolved example part of its mechanism.
+    ///
+    /// # Errors
+    /// What reading and the walk find in either.
+    pub fn example_of(&self, entry: &Entry) -> Result<(Value, Value), Vec<Diagnostic>> {
+        let mechanism = self.registry.mechanism(entry.mechanism);
+        let part = mechanism.map_or("{}", |m| m.example);
+        let indented = part
+            .trim()
+            .lines()
+            .fold(String::new(), |text, line| text + "\n  " + line);
+        let yaml = format!("model: {}\npart:{indented}\n", entry.example);
+        let read = read_yaml(0, &yaml);
+        if !read.findings.is_empty() {
+            return Err(read.findings);
+        }
+        let value = fine(self.walk_eval(entry.mechanism, &read.node)?)?;
+        Ok((value["model"].clone(), value["part"].clone()))
+    }
+
+    /// The catalogue of a section.
+    pub fn catalogue(&self, section: &str) -> Option<&CatalogueTable> {
+        self.catalogues.get(section)
+    }
+
+    /// The sets of models that linked crates ship, walked.
+    pub fn shipped_sets(&self) -> &BTreeMap<String, Value> {
+        &self.sets
+    }
+
+    /// True where a drag model, as data, belongs to `gears` or to `meshes` by its scope.
+    pub fn fits_scope(&self, section: &str, model: &Value) -> bool {
+        let name = model.as_str().or_else(|| model["type"].as_str()).unwrap_or("none");
+        match self.registry.model(DRAGS, name).map(|entry| entry.scope) {
+            Some(Scope::Gear) => section == "gears",
+            Some(Scope::Mesh) => section == "meshes",
+            None => true,
+        }
+    }
+}
+
+fn compiled(schema: &Value, found: &mut Vec<Diagnostic>) -> Option<Schema> {
+    match Schema::compile(schema) {
+        Ok(schema) => Some(schema),
+        Err(unsupported) => {
+            found.extend(
+                unsupported
+                    .into_iter()
+                    .map(|u| Diagnostic::error("", format!("schema: {u}"))),
+            );
+            None
+        }
+    }
+}
+
+fn fine(walked: Walked) -> Result<Value, Vec<Diagnostic>> {
+    if walked.findings.is_empty() {
+        Ok(walked.value)
+    } else {
+        Err(walked.findings)
+    }
+}

@@ -1,0 +1,31 @@
+//! Loads of supports from tooth forces, weights, outside forces and preload.
+//!
+//! Radial reactions are linear in the tangential force of each mesh and in its magnitude, so unit cases are solved once;
+//! a point costs a few multiplications. Thrust switches with its sense and is distributed at every point.
+
+mod beam;
+mod layout;
+mod shaft_loads;
+mod statics;
+mod thrust;
+
+pub use beam::{Beam, BeamFault, BeamLoad, BeamSupport};
+pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
+pub use shaft_loads::ShaftLoads;
+pub use thrust::Taking;
+
+/// Load of one support at one point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SupportLoad {
+    /// Radial load. \[N\]
+    pub radial: f64,
+    /// Axial load. \[N\]
+    pub axial: f64,
+    /// Tilting moment. \[Nm\]
+    pub tilting: f64,
+    /// Thrust that nothing on the member takes, signed towards +x; zero when all is well. \[N\]
+    pub untaken: f64,
+}
+
+#[cfg(test)]
+mod tests;

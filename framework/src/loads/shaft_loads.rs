@@ -1,0 +1,360 @@
+//! Loads of all supports: unit cases solved once, combined at every point.
+
+use super::SupportLoad;
+use super::layout::{Layout, LoadFault, MemberLayout, SupportLayout};
+use super::statics::{Action, Reaction, Statics};
+use super::thrust::Taking;
+
+/// The most supports of one member that share its thrust.
+const MOST_SUPPORTS: usize = 16;
+
+/// Loads of all supports as a function of the tangential force of each mesh.
+#[derive(Debug, Clone)]
+pub struct ShaftLoads {
+    supports: usize,
+    meshes: usize,
+    /// For each support: reaction to what always acts, then for each mesh to one newton of tangential force and of its
+    /// magnitude, then for each planet body to its centrifugal force per squared speed of the carrier.
+    cases: Vec<Vec<Reaction>>,
+    planets: Vec<(usize, f64)>,
+    /// Members from the carried to the carrying.
+    order: Vec<Axially>,
+}
+
+#[derive(Debug, Clone)]
+struct Axially {
+    /// Thrust that always acts. \[N\]
+    always: f64,
+    /// Mesh and thrust per newton of its tangential force.
+    meshes: Vec<(usize, f64)>,
+    taking: Taking,
+    /// True where one support without thrust face lets the thrust through to the member that carries it.
+    passes: bool,
+    /// Place in the order of the member that takes a thrust which passes through, with the number of copies.
+    carrier: Option<(usize, f64)>,
+}
+
+impl ShaftLoads {
+    /// Solves the unit cases.
+    ///
+    /// # Errors
+    /// Every fault of the arrangement.
+    pub fn new(layout: &Layout) -> Result<Self, Vec<LoadFault>> {
+        let n = layout.members.len();
+        let mut own: Vec<Vec<(usize, SupportLayout)>> = vec![Vec::new(); n];
+        let mut carrier_of: Vec<Vec<usize>> = vec![Vec::new(); n];
+        for (i, support) in layout.supports.iter().enumerate() {
+            let (carried, carrier) = carried(layout, support);
+            // Thrust of a shaft to the right is thrust of what it carries to the left.
+            let turned = carried != support.inner;
+            own[carried].push((
+                i,
+                SupportLayout {
+                    outer: carrier,
+                    inner: carried,
+                    axial: if turned {
+                        support.axial.opposite()
+                    } else {
+                        support.axial
+                    },
+                    spring: if turned { -support.spring } else { support.spring },
+                    ..*support
+                },
+            ));
+            carrier_of[carried].extend(carrier);
+        }
+        let order = sort(&carrier_of).map_err(|members| vec![LoadFault::Cycle { members }])?;
+        let mut faults = Vec::new();
+        let mut statics = vec![Statics::None; n];
+        for &m in &order {
+            let mut places: Vec<f64> = layout.members[m].forces.iter().map(|f| f.0).collect();
+            places.extend(layout.members[m].moments.iter().map(|f| f.0));
+            places.extend(
+                layout
+                    .meshes
+                    .iter()
+                    .filter(|mesh| mesh.members.contains(&m))
+                    .map(|mesh| mesh.at),
+            );
+            places.extend(
+                layout
+                    .supports
+                    .iter()
+                    .filter(|s| carried(layout, s).1 == Some(m))
+                    .map(|s| s.at),
+            );
+            if layout.members[m].planet.is_some() && !own[m].is_empty() {
+                places.push(middle(&own[m]));
+            }
+            match Statics::new(m, &layout.members[m], &own[m], &places) {
+                Ok(found) => statics[m] = found,
+                Err(fault) => faults.push(fault),
+            }
+            let taking = Taking {
+                supports: own[m].clone(),
+            };
+            for right in [true, false] {
+                if let Some(supports) = taking.indeterminate(right) {
+                    faults.push(LoadFault::AxialIndeterminate {
+                        member: m,
+                        supports,
+                        right,
+                    });
+                }
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let mut cases: Vec<Vec<Reaction>> = vec![Vec::new(); layout.supports.len()];
+        let mut run = |actions: Vec<Vec<Action>>| {
+            for (support, reaction) in solve(layout, &order, &own, &statics, actions).into_iter().enumerate() {
+                cases[support].push(reaction);
+            }
+        };
+        run(layout.members.iter().map(always).collect());
+        for mesh in &layout.meshes {
+            for unit in 0..2 {
+                let mut actions = vec![Vec::new(); n];
+                for gear in 0..2 {
+                    if !mesh.central[gear] {
+                        let action = Action {
+                            at: mesh.at,
+                            arm: mesh.arm(gear),
+                            force: mesh.forces(gear)[unit],
+                            moment: [0.0; 2],
+                        };
+                        actions[mesh.members[gear]].push(action);
+                    }
+                }
+                run(actions);
+            }
+        }
+        let mut planets = Vec::new();
+        for (m, member) in layout.members.iter().enumerate() {
+            let Some(planet) = member.planet else { continue };
+            let at = middle(&own[m]);
+            let mut actions = vec![Vec::new(); n];
+            actions[m].push(Action {
+                at,
+                force: [0.0, planet.mass * planet.orbit, 0.0],
+                ..Action::default()
+            });
+            planets.push((planet.carrier, 1.0));
+            run(actions);
+        }
+        let order = order.iter().map(|&m| axially(layout, m, &own[m], &order)).collect();
+        Ok(Self {
+            supports: layout.supports.len(),
+            meshes: layout.meshes.len(),
+            cases,
+            planets,
+            order,
+        })
+    }
+
+    /// Length of the scratch of [`ShaftLoads::evaluate`].
+    pub fn scratch_len(&self) -> usize {
+        2 * self.order.len()
+    }
+
+    /// Writes the loads of all supports. `tangential` is the signed tangential force of one copy of each mesh (N), `speeds`
+    /// are those of all members (rad/s), `passed` is as long as [`ShaftLoads::scratch_len`].
+    pub fn evaluate(&self, tangential: &[f64], speeds: &[f64], passed: &mut [f64], loads: &mut [SupportLoad]) {
+        for support in 0..self.supports {
+            let cases = &self.cases[support];
+            let mut sum = cases[0];
+            for m in 0..self.meshes {
+                add(&mut sum, &cases[1 + 2 * m], tangential[m]);
+                add(&mut sum, &cases[2 + 2 * m], tangential[m].abs());
+            }
+            for (k, (carrier, factor)) in self.planets.iter().enumerate() {
+                add(
+                    &mut sum,
+                    &cases[1 + 2 * self.meshes + k],
+                    factor * speeds[*carrier].powi(2),
+                );
+            }
+            loads[support] = SupportLoad {
+                radial: length(sum.force),
+                axial: 0.0,
+                tilting: length(sum.couple),
+                untaken: 0.0,
+            };
+        }
+        // Thrust that members pass on, and the size of the forces that it is the sum of.
+        let (passed, sizes) = passed.split_at_mut(self.order.len());
+        passed.fill(0.0);
+        sizes.fill(0.0);
+        for (place, member) in self.order.iter().enumerate() {
+            let mut thrust = member.always + passed[place];
+            let mut scale = member.always.abs() + sizes[place];
+            for (mesh, factor) in &member.meshes {
+                thrust += factor * tangential[*mesh];
+                scale += (factor * tangential[*mesh]).abs();
+            }
+            if let (true, Some((carrier, copies))) = (member.passes, member.carrier) {
+                passed[carrier] += thrust * copies;
+                sizes[carrier] += scale * copies;
+                continue;
+            }
+            let mut taken = [(0_usize, 0.0_f64); MOST_SUPPORTS];
+            let mut count = 0;
+            let untaken = member.taking.share(
+                thrust,
+                scale,
+                |i| loads[i].radial,
+                |i, load| {
+                    if count < MOST_SUPPORTS {
+                        taken[count] = (i, load);
+                        count += 1;
+                    }
+                },
+            );
+            for (i, load) in &taken[..count] {
+                loads[*i].axial += load;
+            }
+            for (i, _) in &member.taking.supports {
+                loads[*i].untaken = untaken;
+            }
+            // However the supports share it among themselves, the net thrust goes to the member behind them.
+            if let Some((carrier, copies)) = member.carrier {
+                passed[carrier] += (thrust - untaken) * copies;
+                sizes[carrier] += scale * copies;
+            }
+        }
+    }
+
+    /// The force of each support on the member that it carries, y and z, for given tangential forces at rest. \[N\]
+    pub fn vectors(&self, tangential: &[f64]) -> Vec<[f64; 2]> {
+        (0..self.supports)
+            .map(|support| {
+                let cases = &self.cases[support];
+                let mut sum = cases[0];
+                for m in 0..self.meshes {
+                    add(&mut sum, &cases[1 + 2 * m], tangential[m]);
+                    add(&mut sum, &cases[2 + 2 * m], tangential[m].abs());
+                }
+                sum.force
+            })
+            .collect()
+    }
+}
+
+/// Middle of the supports of a planet, where its centrifugal force acts.
+fn middle(supports: &[(usize, SupportLayout)]) -> f64 {
+    supports.iter().map(|s| s.1.at).sum::<f64>() / supports.len().max(1) as f64
+}
+
+/// Length of a vector; forces are far from the ends of the range of numbers, where `hypot` would earn its time.
+fn length([y, z]: [f64; 2]) -> f64 {
+    (y * y + z * z).sqrt()
+}
+
+fn add(sum: &mut Reaction, case: &Reaction, factor: f64) {
+    sum.force[0] += factor * case.force[0];
+    sum.force[1] += factor * case.force[1];
+    sum.couple[0] += factor * case.couple[0];
+    sum.couple[1] += factor * case.couple[1];
+}
+
+/// Who is carried by a support, and by whom: loose gears and planets by what they share it with, else the inner by the
+/// outer.
+fn carried(layout: &Layout, support: &SupportLayout) -> (usize, Option<usize>) {
+    match support.outer {
+        Some(outer) if layout.members[outer].loose || layout.members[outer].planet.is_some() => {
+            (outer, Some(support.inner))
+        }
+        outer => (support.inner, outer),
+    }
+}
+
+/// Members from the carried to the carrying, or those in a circle.
+fn sort(carrier_of: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
+    let n = carrier_of.len();
+    let mut waiting: Vec<usize> = vec![0; n];
+    for carriers in carrier_of {
+        for &c in carriers {
+            waiting[c] += 1;
+        }
+    }
+    let mut order = Vec::new();
+    let mut done = vec![false; n];
+    while order.len() < n {
+        let Some(next) = (0..n).find(|m| !done[*m] && waiting[*m] == 0) else {
+            return Err((0..n).filter(|m| !done[*m]).collect());
+        };
+        done[next] = true;
+        order.push(next);
+        for &c in &carrier_of[next] {
+            waiting[c] -= 1;
+        }
+    }
+    Ok(order)
+}
+
+fn always(member: &MemberLayout) -> Vec<Action> {
+    let forces = member.forces.iter().map(|(at, force)| Action {
+        at: *at,
+        force: *force,
+        ..Action::default()
+    });
+    let moments = member.moments.iter().map(|(at, moment)| Action {
+        at: *at,
+        moment: *moment,
+        ..Action::default()
+    });
+    forces.chain(moments).collect()
+}
+
+fn solve(
+    layout: &Layout,
+    order: &[usize],
+    own: &[Vec<(usize, SupportLayout)>],
+    statics: &[Statics],
+    mut actions: Vec<Vec<Action>>,
+) -> Vec<Reaction> {
+    let mut reactions = vec![Reaction::default(); layout.supports.len()];
+    for &m in order {
+        let found = statics[m].reactions(&actions[m]);
+        for ((support, seat), reaction) in own[m].iter().zip(found) {
+            reactions[*support] = reaction;
+            // Planets of one set balance each other on their carrier.
+            if let (Some(carrier), None) = (seat.outer, layout.members[m].planet) {
+                actions[carrier].push(Action {
+                    at: seat.at,
+                    arm: [0.0; 2],
+                    force: [0.0, -reaction.force[0], -reaction.force[1]],
+                    moment: [-reaction.couple[0], -reaction.couple[1]],
+                });
+            }
+        }
+    }
+    reactions
+}
+
+fn axially(layout: &Layout, m: usize, own: &[(usize, SupportLayout)], order: &[usize]) -> Axially {
+    let mut meshes = Vec::new();
+    for (i, mesh) in layout.meshes.iter().enumerate() {
+        for gear in 0..2 {
+            if mesh.members[gear] == m && mesh.hand_tan_beta != 0.0 {
+                let copies = if mesh.central[gear] { mesh.count } else { 1.0 };
+                meshes.push((i, mesh.forces(gear)[0][0] * copies));
+            }
+        }
+    }
+    let carrier = own.iter().find_map(|(_, s)| s.outer);
+    let copies = layout.members[m].planet.map_or(1.0, |p| p.count);
+    let place = |member: usize| order.iter().position(|o| *o == member);
+    let passes = carrier.is_some()
+        && own
+            .iter()
+            .all(|(_, s)| s.axial == crate::attach::Axial::None && s.spring == 0.0);
+    Axially {
+        always: layout.members[m].forces.iter().map(|f| f.1[0]).sum(),
+        meshes,
+        taking: Taking { supports: own.to_vec() },
+        passes,
+        carrier: carrier.and_then(place).map(|place| (place, copies)),
+    }
+}

@@ -1,0 +1,343 @@
+//! Friction of rolling bearings.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::attach::{Support, SupportSite};
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::mechanism::{Component, Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum Bearing {}
+
+/// Friction of one rolling bearing. A model answers with moments about the bearing's axis.
+pub trait BearingModel: Send + Sync {
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined>;
+}
+
+/// Kind of a rolling bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BearingKind {
+    /// Deep groove ball bearing, single row.
+    DeepGrooveBall,
+    /// Deep groove ball bearing, double row.
+    DeepGrooveBallDoubleRow,
+    /// Self-aligning ball bearing.
+    SelfAligningBall,
+    /// Angular contact ball bearing, single row.
+    AngularContactBall,
+    /// Angular contact ball bearing, double row or a matched pair.
+    AngularContactBallDoubleRow,
+    /// Four-point contact ball bearing.
+    FourPointContactBall,
+    /// Thrust ball bearing.
+    ThrustBall,
+    /// Cylindrical roller bearing with a cage.
+    CylindricalRoller,
+    /// Cylindrical roller bearing, full complement.
+    CylindricalRollerFullComplement,
+    /// Needle roller and cage assembly or needle roller bearing.
+    NeedleCage,
+    /// Tapered roller bearing.
+    TaperedRoller,
+    /// Spherical roller bearing.
+    SphericalRoller,
+    /// Cylindrical roller thrust bearing.
+    CylindricalRollerThrust,
+    /// Needle roller thrust bearing.
+    NeedleRollerThrust,
+    /// Spherical roller thrust bearing.
+    SphericalRollerThrust,
+}
+
+impl BearingKind {
+    /// True for balls, false for rollers and needles.
+    pub fn is_ball(self) -> bool {
+        matches!(
+            self,
+            Self::DeepGrooveBall
+                | Self::DeepGrooveBallDoubleRow
+                | Self::SelfAligningBall
+                | Self::AngularContactBall
+                | Self::AngularContactBallDoubleRow
+                | Self::FourPointContactBall
+                | Self::ThrustBall
+        )
+    }
+}
+
+/// How oil or grease reaches a bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Lubrication {
+    /// Oil bath: the level comes from the housing's oil or from `oil_height`.
+    #[default]
+    Bath,
+    /// Oil jet.
+    Jet,
+    /// Oil and air, oil spot or oil mist.
+    OilAir,
+    /// Grease.
+    Grease,
+}
+
+/// A rolling bearing as written; absent keys come from the catalogue by `designation`.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+pub struct BearingEntry {
+    /// Designation in a bearing catalogue; fills the keys that are not written.
+    pub designation: Option<String>,
+    /// Kind of the bearing.
+    pub kind: Option<BearingKind>,
+    /// Dimension series, as the tables of the loss models name it.
+    pub series: Option<String>,
+    /// Bore diameter; inside diameter of the rolling elements' track for a needle cage. [mm]
+    #[schemars(range(min = 0.5, max = 3000.0))]
+    pub bore: Option<f64>,
+    /// Outside diameter; outside diameter of the track for a needle cage. [mm]
+    #[schemars(range(min = 1.0, max = 5000.0))]
+    pub outside: Option<f64>,
+    /// Width; total width of a tapered roller bearing. [mm]
+    #[schemars(range(min = 0.5, max = 2000.0))]
+    pub width: Option<f64>,
+    /// Basic static load rating. [N]
+    #[schemars(range(min = 1.0, max = 1e9))]
+    pub c0: Option<f64>,
+    /// Basic dynamic load rating. [N]
+    #[schemars(range(min = 1.0, max = 1e9))]
+    pub c: Option<f64>,
+    /// Limit of the ratio of axial to radial load. [-]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub e: Option<f64>,
+    /// Axial factor of the dynamic equivalent load. [-]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub y: Option<f64>,
+    /// Axial factor of the static equivalent load. [-]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub y0: Option<f64>,
+    /// Radius of the lowest point of the outer raceway. [mm]
+    #[schemars(range(min = 0.5, max = 2500.0))]
+    pub raceway: Option<f64>,
+    /// Height of the oil above the lowest point of the outer raceway, where the bearing has a pocket of its own. [mm]
+    #[schemars(range(min = 0.0, max = 2000.0))]
+    pub oil_height: Option<f64>,
+    /// How oil or grease reaches the bearing.
+    #[serde(default)]
+    pub lubrication: Lubrication,
+}
+
+/// A rolling bearing, complete. Lengths in m, loads in N.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(try_from = "BearingEntry")]
+pub struct BearingPart {
+    /// Designation, if any.
+    pub designation: Option<String>,
+    /// Kind.
+    pub kind: BearingKind,
+    /// Dimension series, if known.
+    pub series: Option<String>,
+    /// Bore diameter d. \[m\]
+    pub bore: f64,
+    /// Outside diameter D. \[m\]
+    pub outside: f64,
+    /// Width B. \[m\]
+    pub width: Option<f64>,
+    /// Static load rating. \[N\]
+    pub c0: Option<f64>,
+    /// Dynamic load rating. \[N\]
+    pub c: Option<f64>,
+    /// Limit of Fa/Fr.
+    pub e: Option<f64>,
+    /// Axial factor Y.
+    pub y: Option<f64>,
+    /// Axial factor Y0.
+    pub y0: Option<f64>,
+    /// Radius of the lowest point of the outer raceway. \[m\]
+    pub raceway: f64,
+    /// Own oil height above the raceway's lowest point. \[m\]
+    pub oil_height: Option<f64>,
+    /// How oil or grease reaches the bearing.
+    pub lubrication: Lubrication,
+}
+
+impl BearingPart {
+    /// Mean diameter d_m = (d + D)/2. \[m\]
+    pub fn mean_diameter(&self) -> f64 {
+        0.5 * (self.bore + self.outside)
+    }
+}
+
+impl JsonSchema for BearingPart {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        BearingEntry::schema_name()
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        BearingEntry::json_schema(generator)
+    }
+}
+
+impl TryFrom<BearingEntry> for BearingPart {
+    type Error = String;
+
+    fn try_from(entry: BearingEntry) -> Result<Self, String> {
+        let missing = |what: &str| {
+            format!("`{what}` is missing: give `designation` of a catalogue, or `kind`, `bore` and `outside`")
+        };
+        let kind = entry.kind.ok_or_else(|| missing("kind"))?;
+        let bore = entry.bore.ok_or_else(|| missing("bore"))?;
+        let outside = entry.outside.ok_or_else(|| missing("outside"))?;
+        if outside <= bore {
+            return Err(format!(
+                "outside {} mm is not greater than bore {} mm: exchange them or correct one",
+                outside * 1e3,
+                bore * 1e3
+            ));
+        }
+        // Without the catalogue's shoulder diameters: balls fill about 0.3 of the section (D - d), so the raceway's
+        // lowest point lies at (d_m + D_w)/2; rollers run on half the outside diameter for tapered and needle bearings.
+        let raceway = entry.raceway.unwrap_or(match kind {
+            BearingKind::TaperedRoller | BearingKind::NeedleCage => 0.5 * outside,
+            _ => 0.25 * (bore + outside) + 0.15 * (outside - bore),
+        });
+        Ok(Self {
+            designation: entry.designation,
+            kind,
+            series: entry.series,
+            bore,
+            outside,
+            width: entry.width,
+            c0: entry.c0,
+            c: entry.c,
+            e: entry.e,
+            y: entry.y,
+            y0: entry.y0,
+            raceway,
+            oil_height: entry.oil_height,
+            lubrication: entry.lubrication,
+        })
+    }
+}
+
+context! {
+    /// All that a bearing model may look at.
+    pub struct BearingAt of Bearing {
+        /// Speed of the inner ring relative to the outer ring, signed. [rpm]
+        speed: 3000.0 in -30000.0..=30000.0,
+        /// Speed of the outer ring, signed; zero in the housing. [rpm]
+        outer_speed: 0.0 in -30000.0..=30000.0,
+        /// Radial load. [N]
+        radial: 1000.0 in 0.0..=100000.0,
+        /// Axial load. [N]
+        axial: 300.0 in 0.0..=50000.0,
+        /// Tilting moment. [Nm]
+        tilting: 0.0 in 0.0..=1000.0,
+        /// Temperature of the oil at the bearing. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Kinematic viscosity of the oil at the bearing. [mm2/s]
+        nu: 10.0 in 1.0..=10000.0,
+        /// Density of the oil at the bearing. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0,
+        /// Height of the oil above the lowest point of the outer raceway; zero when dry. [mm]
+        oil_height: 5.0 in 0.0..=500.0,
+        /// Coefficient of boundary friction that the oil states; zero where it states none. [-]
+        mu_bl: 0.0 in 0.0..=0.3,
+        /// Coefficient of full-film friction of ball bearings that the oil states. [-]
+        mu_ehl: 0.05 in 0.001..=0.2,
+    }
+}
+
+impl Mechanism for Bearing {
+    const KEY: &'static str = "bearing";
+    const MEANING: &'static str = "Friction of a rolling bearing.";
+    const ANSWER: &'static str = "Friction moment. [Nm]";
+    const EXAMPLE: &'static str = "{ kind: deep_groove_ball, series: \"63\", bore: 40 mm, outside: 90 mm, width: 23 mm, c0: 24000 N, c: 42300 N }";
+    const QUANTITIES: &'static [Quantity<Self>] = BearingAt::QUANTITIES;
+    const TOTAL: Term = Term::load(0, "total");
+    type Part = BearingPart;
+    type At<'a> = BearingAt<'a>;
+    type Answer = Loss;
+    type Model = dyn BearingModel;
+
+    fn usual<'a>(part: &'a BearingPart, notes: Notes<'a>) -> BearingAt<'a> {
+        BearingAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &BearingAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl Component for Bearing {
+    const SECTION: &'static str = "bearings";
+    type Attachment = Support;
+
+    fn at<'a>(part: &'a BearingPart, site: SupportSite<'a>, notes: Notes<'a>) -> BearingAt<'a> {
+        let oil = site.oil;
+        BearingAt {
+            part,
+            speed: site.speed,
+            outer_speed: site.outer_speed,
+            radial: site.radial,
+            axial: site.axial,
+            tilting: site.tilting,
+            temperature: oil.temperature,
+            nu: oil.nu,
+            rho: oil.rho,
+            oil_height: part.oil_height.unwrap_or_else(|| (site.level + part.raceway).max(0.0)),
+            mu_bl: oil.mu_bl,
+            mu_ehl: oil.mu_ehl,
+            notes,
+        }
+    }
+}
+
+impl BearingModel for Scalar<Bearing> {
+    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
+        self.moment(at)
+    }
+}
+
+crate::register_component!(Bearing);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn the_raceway_of_a_6205_lies_near_23_2_mm() {
+        let entry = BearingEntry {
+            kind: Some(BearingKind::DeepGrooveBall),
+            bore: Some(0.025),
+            outside: Some(0.052),
+            ..BearingEntry::default()
+        };
+        let part = BearingPart::try_from(entry).unwrap();
+        assert!((part.raceway - 23.3e-3).abs() < 0.05e-3, "{}", part.raceway);
+    }
+
+    #[test]
+    fn a_bearing_inside_out_is_refused() {
+        let entry = BearingEntry {
+            kind: Some(BearingKind::DeepGrooveBall),
+            bore: Some(0.052),
+            outside: Some(0.025),
+            ..BearingEntry::default()
+        };
+        assert!(BearingPart::try_from(entry).unwrap_err().contains("exchange"));
+    }
+}

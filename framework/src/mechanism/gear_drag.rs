@@ -1,0 +1,180 @@
+//! Drag of gears in oil and air: churning, squeezing, windage.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::{Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum GearDrag {}
+
+/// What a model is asked for once, as its registration says: a gear, or a mesh with both of its gears.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scope {
+    /// Once for each gear.
+    Gear,
+    /// Once for each mesh, with both gears.
+    Mesh,
+}
+
+/// Which of the three causes a model counts. Counting one twice in one gearbox is an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Covers {
+    /// Moving oil that the gear dips into.
+    pub churning: bool,
+    /// Pressing oil out of the mesh.
+    pub squeezing: bool,
+    /// Moving air or oil mist.
+    pub windage: bool,
+}
+
+/// Drag of one gear or of one pair, by the model's scope. A model answers with moments about the speed of the gear, or of
+/// the first gear of a pair, or with powers.
+pub trait GearDragModel: Send + Sync {
+    /// The causes that the model counts; absent where the name of its slot says it.
+    fn covers(&self) -> Option<Covers>;
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined>;
+}
+
+/// The body of one gear, as churning and windage models see it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GearBody {
+    /// Number of teeth. [-]
+    #[schemars(range(min = 1, max = 2000))]
+    pub z: u32,
+    /// Normal module. [mm]
+    #[schemars(range(min = 0.05, max = 100.0))]
+    pub normal_module: f64,
+    /// Normal pressure angle. [deg]
+    #[schemars(range(min = 10.0, max = 35.0))]
+    pub pressure_angle: f64,
+    /// Helix angle at the reference circle. [deg]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 60.0))]
+    pub helix_angle: f64,
+    /// Face width. [mm]
+    #[schemars(range(min = 0.1, max = 2000.0))]
+    pub facewidth: f64,
+    /// Reference diameter. [mm]
+    #[schemars(range(min = 1.0, max = 10000.0))]
+    pub reference_diameter: f64,
+    /// Diameter of the working pitch circle. [mm]
+    #[schemars(range(min = 1.0, max = 10000.0))]
+    pub working_diameter: f64,
+    /// Tip diameter. [mm]
+    #[schemars(range(min = 1.0, max = 10000.0))]
+    pub tip_diameter: f64,
+    /// Root diameter. [mm]
+    #[schemars(range(min = 1.0, max = 10000.0))]
+    pub root_diameter: f64,
+    /// Height of the pitch point above the lowest point of the gear's tip circle. [mm]
+    #[schemars(range(min = 0.0, max = 10000.0))]
+    pub contact_height: f64,
+}
+
+/// One gear or one pair in its housing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DragPart {
+    /// The gear, or the first gear of the pair.
+    pub gear: GearBody,
+    /// The second gear of a pair.
+    pub mate: Option<GearBody>,
+    /// Volume of the oil in the housing. [l]
+    #[schemars(range(min = 0.001, max = 10000.0))]
+    pub oil_volume: Option<f64>,
+    /// Area of the gear case in a section across the shafts. [cm2]
+    #[schemars(range(min = 0.1, max = 1e7))]
+    pub section_area: Option<f64>,
+    /// Perimeter of the gear case in that section. [cm]
+    #[schemars(range(min = 0.1, max = 1e5))]
+    pub section_perimeter: Option<f64>,
+    /// Gap between gear and housing, radially. [mm]
+    #[schemars(range(min = 0.1, max = 10000.0))]
+    pub radial_clearance: Option<f64>,
+    /// Gap between gear and housing, axially. [mm]
+    #[schemars(range(min = 0.1, max = 10000.0))]
+    pub axial_clearance: Option<f64>,
+}
+
+context! {
+    /// All that a drag model may look at. Quantities that end in `_2` belong to the second gear of a pair.
+    pub struct GearDragAt of GearDrag {
+        /// Speed of the gear, or of the first gear, signed. [rpm]
+        speed: 1500.0 in -30000.0..=30000.0,
+        /// Speed of the second gear, signed. [rpm]
+        speed_2: -500.0 in -30000.0..=30000.0,
+        /// Depth of the tip circle in the oil. [mm]
+        tip_dip: 20.0 in 0.0..=5000.0,
+        /// Depth of the reference circle in the oil. [mm]
+        dip: 18.0 in 0.0..=5000.0,
+        /// Depth of the second gear's tip circle in the oil. [mm]
+        tip_dip_2: 0.0 in 0.0..=5000.0,
+        /// Depth of the second gear's reference circle in the oil. [mm]
+        dip_2: 0.0 in 0.0..=5000.0,
+        /// One where the gear's lowest point moves towards a mate, zero where it moves away from all of them. [-]
+        towards_mesh: 0.0 in 0.0..=1.0,
+        /// The same for the second gear. [-]
+        towards_mesh_2: 0.0 in 0.0..=1.0,
+        /// Temperature of the oil. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Kinematic viscosity of the oil. [mm2/s]
+        nu: 10.0 in 1.0..=10000.0,
+        /// Dynamic viscosity of the oil. [mPa s]
+        eta: 8.0 in 0.5..=10000.0,
+        /// Density of the oil. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0,
+    }
+}
+
+impl Mechanism for GearDrag {
+    const KEY: &'static str = "gear_drag";
+    const MEANING: &'static str = "Drag of gears in oil and air: churning, squeezing, windage.";
+    const ANSWER: &'static str = "Drag moment on the gear. [Nm]";
+    const EXAMPLE: &'static str = "
+gear: { z: 96, normal_module: 1.6 mm, pressure_angle: 17.5 deg, helix_angle: 27 deg, facewidth: 17 mm, \
+reference_diameter: 172.4 mm, working_diameter: 173.9 mm, tip_diameter: 176.3 mm, root_diameter: 169 mm, contact_height: 90 mm }
+mate: { z: 31, normal_module: 1.6 mm, pressure_angle: 17.5 deg, helix_angle: 27 deg, facewidth: 17 mm, \
+reference_diameter: 55.7 mm, working_diameter: 56.1 mm, tip_diameter: 59.8 mm, root_diameter: 52.6 mm, contact_height: 30 mm }
+oil_volume: 1.3 l
+section_area: 420 cm2
+section_perimeter: 85 cm
+radial_clearance: 8 mm
+axial_clearance: 12 mm
+";
+    const QUANTITIES: &'static [Quantity<Self>] = GearDragAt::QUANTITIES;
+    type Part = DragPart;
+    type At<'a> = GearDragAt<'a>;
+    type Answer = Loss;
+    type Model = dyn GearDragModel;
+
+    fn usual<'a>(part: &'a DragPart, notes: Notes<'a>) -> GearDragAt<'a> {
+        GearDragAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &GearDragAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl GearDragModel for Scalar<GearDrag> {
+    fn covers(&self) -> Option<Covers> {
+        None
+    }
+    fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.moment(at)
+    }
+}
+
+crate::register_mechanism!(GearDrag);

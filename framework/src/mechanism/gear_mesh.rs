@@ -1,0 +1,204 @@
+//! Loss of gear meshes.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::context;
+use crate::generic::Scalar;
+use crate::geometry::{Pair, PairFault, PairSpec};
+use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::mechanism::{Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum GearMesh {}
+
+/// Loss of one pair of gears in mesh. A model answers with powers in the frame of the carrier.
+pub trait GearMeshModel: Send + Sync {
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined>;
+}
+
+/// A pair of gears as written for a model alone; in a gearbox the framework fills it from `gears` and `meshes`.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct PairEntry {
+    /// Numbers of teeth. [-]
+    #[schemars(inner(range(min = 5, max = 2000)))]
+    pub z: [u32; 2],
+    /// The second gear is a ring with internal teeth.
+    #[serde(default)]
+    pub internal: bool,
+    /// Normal module. [mm]
+    #[schemars(range(min = 0.05, max = 100.0))]
+    pub normal_module: f64,
+    /// Normal pressure angle. [deg]
+    #[schemars(range(min = 10.0, max = 35.0))]
+    pub pressure_angle: f64,
+    /// Helix angle at the reference circle. [deg]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 60.0))]
+    pub helix_angle: f64,
+    /// Working centre distance; absent, that of the profile shifts. [mm]
+    #[schemars(range(min = 0.5, max = 1e5))]
+    pub centre_distance: Option<f64>,
+    /// Profile shift coefficients of the first and of the second gear. [-]
+    #[schemars(inner(range(min = -3.0, max = 3.0)))]
+    pub profile_shift: Option<[f64; 2]>,
+    /// Tip diameters; required for an internal pair. [mm]
+    #[schemars(inner(range(min = 1.0, max = 1e4)))]
+    pub tip_diameter: Option<[f64; 2]>,
+    /// Effective face width. [mm]
+    #[schemars(range(min = 0.1, max = 2000.0))]
+    pub facewidth: f64,
+    /// Arithmetic mean roughness of the flanks. [um]
+    #[schemars(inner(range(min = 0.001, max = 50.0)))]
+    pub ra: [f64; 2],
+    /// Root mean square roughness of the flanks. [um]
+    #[schemars(inner(range(min = 0.001, max = 50.0)))]
+    pub rq: [f64; 2],
+    /// Young's modulus of both gears. [GPa]
+    #[serde(default = "steel")]
+    #[schemars(range(min = 0.1, max = 1000.0))]
+    pub elastic_modulus: f64,
+    /// Poisson's ratio of both gears. [-]
+    #[serde(default = "steel_poisson")]
+    #[schemars(range(min = 0.0, max = 0.49))]
+    pub poisson: f64,
+}
+
+/// Young's modulus of steel. \[Pa\]
+pub fn steel() -> f64 {
+    206e9
+}
+
+/// Poisson's ratio of steel.
+pub fn steel_poisson() -> f64 {
+    0.3
+}
+
+/// A pair of gears, complete.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(try_from = "PairEntry")]
+pub struct MeshPart {
+    /// Involute geometry.
+    pub pair: Pair,
+    /// Arithmetic mean roughness, mean of both flanks. \[m\]
+    pub ra: f64,
+    /// Root mean square roughness of both flanks together. \[m\]
+    pub rq: f64,
+    /// Reduced modulus E/(1 - nu^2). \[Pa\]
+    pub modulus: f64,
+}
+
+impl MeshPart {
+    /// A pair with its geometry solved, from roughness of both flanks (m), Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(pair: Pair, ra: [f64; 2], rq: [f64; 2], elastic_modulus: f64, poisson: f64) -> Self {
+        Self {
+            pair,
+            ra: 0.5 * (ra[0] + ra[1]),
+            rq: rq[0].hypot(rq[1]),
+            modulus: elastic_modulus / (1.0 - poisson * poisson),
+        }
+    }
+}
+
+impl JsonSchema for MeshPart {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        PairEntry::schema_name()
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        PairEntry::json_schema(generator)
+    }
+}
+
+impl TryFrom<PairEntry> for MeshPart {
+    type Error = String;
+
+    fn try_from(entry: PairEntry) -> Result<Self, String> {
+        let pair = Pair::new(&PairSpec {
+            z: entry.z,
+            internal: entry.internal,
+            normal_module: entry.normal_module,
+            pressure_angle: entry.pressure_angle,
+            helix_angle: entry.helix_angle,
+            centre_distance: entry.centre_distance,
+            profile_shift: entry.profile_shift.map_or([None, None], |x| x.map(Some)),
+            tip_diameter: entry.tip_diameter.map_or([None, None], |d| d.map(Some)),
+            root_diameter: [None, None],
+            facewidth: entry.facewidth,
+            tip_shortening: true,
+        })
+        .map_err(|faults| faults.iter().map(PairFault::to_string).collect::<Vec<_>>().join("; "))?;
+        Ok(Self::new(
+            pair,
+            entry.ra,
+            entry.rq,
+            entry.elastic_modulus,
+            entry.poisson,
+        ))
+    }
+}
+
+context! {
+    /// All that a mesh model may look at: one mesh, in the frame of its carrier.
+    pub struct GearMeshAt of GearMesh {
+        /// Torque of one mesh on the first gear, magnitude. [Nm]
+        torque: 50.0 in 0.0..=5000.0,
+        /// Speed of the first gear relative to the carrier, signed. [rpm]
+        speed: 3000.0 in -30000.0..=30000.0,
+        /// One where the first gear drives, zero where the second does. [-]
+        first_drives: 1.0 in 0.0..=1.0,
+        /// Temperature of the oil. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Kinematic viscosity of the oil. [mm2/s]
+        nu: 10.0 in 1.0..=10000.0,
+        /// Dynamic viscosity of the oil. [mPa s]
+        eta: 8.0 in 0.5..=10000.0,
+        /// Density of the oil. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0,
+        /// Pressure-viscosity coefficient of the oil. [1/GPa]
+        alpha: 15.0 in 1.0..=60.0,
+        /// Lubricant factor of mean mesh friction that the oil states. [-]
+        x_l: 1.0 in 0.1..=2.0,
+    }
+}
+
+impl Mechanism for GearMesh {
+    const KEY: &'static str = "gear_mesh";
+    const MEANING: &'static str = "Loss of a pair of gears in mesh.";
+    const ANSWER: &'static str = "Power lost in the mesh. [W]";
+    const EXAMPLE: &'static str = "{ z: [16, 24], normal_module: 4.5 mm, pressure_angle: 20 deg, centre_distance: 91.5 mm, \
+facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], rq: [0.5 um, 0.5 um] }";
+    const QUANTITIES: &'static [Quantity<Self>] = GearMeshAt::QUANTITIES;
+    const TOTAL: Term = Term::load(0, "total");
+    type Part = MeshPart;
+    type At<'a> = GearMeshAt<'a>;
+    type Answer = Loss;
+    type Model = dyn GearMeshModel;
+
+    fn usual<'a>(part: &'a MeshPart, notes: Notes<'a>) -> GearMeshAt<'a> {
+        GearMeshAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &GearMeshAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl GearMeshModel for Scalar<GearMesh> {
+    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+        self.power(at)
+    }
+}
+
+crate::register_mechanism!(GearMesh);

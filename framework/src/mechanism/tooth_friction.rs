@@ -1,0 +1,202 @@
+//! Friction between flanks along the path of contact.
+
+use std::sync::Arc;
+
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Notes, Undefined};
+use crate::mechanism::{Mechanism, NoPart, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum ToothFriction {}
+
+/// Coefficient of friction between flanks. A model answers for one contact; one that marches along the path, or shares
+/// work between its nodes, answers for the whole path.
+pub trait ToothFrictionModel: Send + Sync {
+    /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined>;
+
+    /// Coefficients of friction at all nodes of a path, into a slice as long as the path. Pure; must not allocate.
+    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
+        for (node, mu) in path.nodes.iter().zip(mu) {
+            *mu = self.mu(&path.contact(node))?;
+        }
+        Ok(())
+    }
+}
+
+context! {
+    /// All that a friction law may look at in one contact.
+    pub struct ContactAt of ToothFriction {
+        /// Sliding speed, magnitude. [m/s]
+        sliding: 1.0 in 0.0..=30.0,
+        /// Sum of the surface speeds. [m/s]
+        sum_speed: 10.0 in 0.0..=200.0,
+        /// Radius of relative curvature. [mm]
+        radius: 8.0 in 0.1..=500.0,
+        /// Line load. [N/mm]
+        line_load: 200.0 in 0.0..=3000.0,
+        /// Hertz pressure. [GPa]
+        pressure: 0.8 in 0.0..=4.0,
+        /// Arithmetic mean roughness, mean of both flanks. [um]
+        ra: 0.4 in 0.01..=5.0,
+        /// Root mean square roughness of both flanks together. [um]
+        rq: 0.5 in 0.01..=5.0,
+        /// Temperature of the oil that enters the contact. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Kinematic viscosity of that oil. [mm2/s]
+        nu: 10.0 in 1.0..=10000.0,
+        /// Dynamic viscosity of that oil. [mPa s]
+        eta: 8.0 in 0.5..=10000.0,
+        /// Pressure-viscosity coefficient of that oil. [1/GPa]
+        alpha: 15.0 in 1.0..=60.0,
+        /// Lubricant factor of mean mesh friction. [-]
+        x_l: 1.0 in 0.1..=2.0,
+    }
+}
+
+impl ContactAt<'_> {
+    /// Sliding speed over mean rolling speed; zero at standstill. \[-\]
+    #[inline]
+    pub fn slide_roll(&self) -> f64 {
+        if self.sum_speed > 0.0 {
+            2.0 * self.sliding / self.sum_speed
+        } else {
+            0.0
+        }
+    }
+}
+
+/// One place on the path of contact, for one radian per second of the first gear. Prepared once per mesh; logarithms are
+/// kept because a law that is a product of powers needs them at every point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathNode {
+    /// Sliding speed per speed of the first gear. \[m\]
+    pub sliding: f64,
+    /// Sum of the surface speeds per speed of the first gear. \[m\]
+    pub sum_speed: f64,
+    /// Radius of relative curvature in the normal plane. \[m\]
+    pub radius: f64,
+    /// Line load at the node over the mesh's reference line load.
+    pub share: f64,
+    /// Ratio of sliding to mean rolling speed.
+    pub slide_roll: f64,
+    /// Natural logarithm of `slide_roll`; minus infinity at the pitch point.
+    pub ln_slide_roll: f64,
+    /// Natural logarithm of half of `sum_speed`.
+    pub ln_rolling: f64,
+    /// Natural logarithm of `radius`.
+    pub ln_radius: f64,
+    /// Root of `share` over `radius`: Hertz pressure per root of reference line load and reduced modulus over 2 pi.
+    pub root_load: f64,
+    /// Natural logarithm of `root_load`.
+    pub ln_root_load: f64,
+}
+
+impl PathNode {
+    /// A node from sliding and sum speed per speed of the first gear, radius and share; SI.
+    pub fn new(sliding: f64, sum_speed: f64, radius: f64, share: f64) -> Self {
+        let slide_roll = 2.0 * sliding / sum_speed;
+        let root_load = (share / radius).sqrt();
+        Self {
+            sliding,
+            sum_speed,
+            radius,
+            share,
+            slide_roll,
+            ln_slide_roll: slide_roll.ln(),
+            ln_rolling: (0.5 * sum_speed).ln(),
+            ln_radius: radius.ln(),
+            root_load,
+            ln_root_load: root_load.ln(),
+        }
+    }
+}
+
+/// The whole path of contact at one operating point. SI.
+#[derive(Debug, Clone, Copy)]
+pub struct PathAt<'a> {
+    /// The places on the path.
+    pub nodes: &'a [PathNode],
+    /// Speed of the first gear in the carrier's frame, magnitude, above zero. \[rad/s\]
+    pub speed: f64,
+    /// Reference line load, above zero. \[N/m\]
+    pub line_load: f64,
+    /// Reduced modulus E/(1 - nu^2) of equal materials. \[Pa\]
+    pub modulus: f64,
+    /// Arithmetic mean roughness, mean of both flanks. \[m\]
+    pub ra: f64,
+    /// Root mean square roughness of both flanks together. \[m\]
+    pub rq: f64,
+    /// Temperature of the oil. \[degC\]
+    pub temperature: f64,
+    /// Kinematic viscosity. \[m2/s\]
+    pub nu: f64,
+    /// Dynamic viscosity. \[Pa s\]
+    pub eta: f64,
+    /// Pressure-viscosity coefficient. \[1/Pa\]
+    pub alpha: f64,
+    /// Lubricant factor of mean mesh friction.
+    pub x_l: f64,
+    /// Where limits, observed quantities and steps are noted.
+    pub notes: Notes<'a>,
+}
+
+impl<'a> PathAt<'a> {
+    /// Hertz pressure of a node with `root_load` one. \[Pa m^0.5\]
+    #[inline]
+    pub fn unit_pressure(&self) -> f64 {
+        (self.line_load * self.modulus / (2.0 * std::f64::consts::PI)).sqrt()
+    }
+
+    /// One place of the path as a contact.
+    pub fn contact(&self, node: &PathNode) -> ContactAt<'a> {
+        ContactAt {
+            part: &NoPart {},
+            sliding: node.sliding * self.speed,
+            sum_speed: node.sum_speed * self.speed,
+            radius: node.radius,
+            line_load: node.share * self.line_load,
+            pressure: node.root_load * self.unit_pressure(),
+            ra: self.ra,
+            rq: self.rq,
+            temperature: self.temperature,
+            nu: self.nu,
+            eta: self.eta,
+            alpha: self.alpha,
+            x_l: self.x_l,
+            notes: self.notes,
+        }
+    }
+}
+
+impl Mechanism for ToothFriction {
+    const KEY: &'static str = "tooth_friction";
+    const MEANING: &'static str = "Coefficient of friction between flanks along the path of contact.";
+    const ANSWER: &'static str = "Coefficient of friction. [-]";
+    const EXAMPLE: &'static str = "{}";
+    const QUANTITIES: &'static [Quantity<Self>] = ContactAt::QUANTITIES;
+    type Part = NoPart;
+    type At<'a> = ContactAt<'a>;
+    type Answer = f64;
+    type Model = dyn ToothFrictionModel;
+
+    fn usual<'a>(part: &'a NoPart, notes: Notes<'a>) -> ContactAt<'a> {
+        ContactAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        model.mu(at)
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl ToothFrictionModel for Scalar<ToothFriction> {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        self.value(at)
+    }
+}
+
+crate::register_mechanism!(ToothFriction);

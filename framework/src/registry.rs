@@ -1,0 +1,479 @@
+//! The registry: every linked mechanism, model and catalogue, found without a line anywhere else.
+//!
+//! Entries are not generic, because an outside crate could not collect a generic entry for its own mechanism. Each holds an
+//! erased build function, which is downcast once per resolve.
+
+mod build;
+mod placed;
+mod slot;
+
+use std::any::Any;
+
+use schemars::{Schema, SchemaGenerator};
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+pub use build::{Build, Files, Instance};
+pub use placed::{Common, Placed, Section};
+pub use slot::{DragSlots, ModelRef, Slot};
+
+use crate::conformance;
+use crate::document::Diagnostic;
+use crate::eval::{self, Evaluated};
+use crate::generic;
+use crate::loss::{Limit, Observed, Term};
+use crate::mechanism::gear_drag::Scope;
+use crate::mechanism::{Component, Mechanism, QuantityDoc};
+
+pub use inventory;
+
+/// Module and line of a registration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Origin {
+    /// Module path; its first segment is the crate.
+    pub module: &'static str,
+    /// Line in the file of the module.
+    pub line: u32,
+}
+
+impl Origin {
+    /// Name of the crate.
+    pub fn package(&self) -> &'static str {
+        self.module.split("::").next().unwrap_or(self.module)
+    }
+}
+
+impl std::fmt::Display for Origin {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} (line {})", self.module, self.line)
+    }
+}
+
+/// The place of the invocation.
+#[macro_export]
+macro_rules! origin {
+    () => {
+        $crate::registry::Origin {
+            module: module_path!(),
+            line: line!(),
+        }
+    };
+}
+
+/// How well a formula, a default value or an option is known; the weakest comes last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Evidence {
+    /// Several independent sources agree.
+    SeveralSources,
+    /// Derived and checked numerically.
+    Derived,
+    /// One source.
+    OneSource,
+    /// The user's own value.
+    User,
+    /// From memory of a source that was not at hand.
+    Recalled,
+    /// Put together from parts of sources.
+    Reconstructed,
+    /// Sources disagree.
+    Disputed,
+    /// An assumption.
+    Assumed,
+}
+
+impl Evidence {
+    /// Name in documents and options.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SeveralSources => "several_sources",
+            Self::Derived => "derived",
+            Self::OneSource => "one_source",
+            Self::User => "user",
+            Self::Recalled => "recalled",
+            Self::Reconstructed => "reconstructed",
+            Self::Disputed => "disputed",
+            Self::Assumed => "assumed",
+        }
+    }
+
+    /// The grade of a name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        [
+            Self::SeveralSources,
+            Self::Derived,
+            Self::OneSource,
+            Self::User,
+            Self::Recalled,
+            Self::Reconstructed,
+            Self::Disputed,
+            Self::Assumed,
+        ]
+        .into_iter()
+        .find(|grade| grade.name() == name)
+    }
+}
+
+/// The grade of one thing in a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Graded {
+    /// Key of the parameter whose default is graded; empty for the formula itself. A written parameter is graded `user`.
+    pub key: &'static str,
+    /// The grade.
+    pub grade: Evidence,
+    /// What it rests on.
+    pub because: &'static str,
+}
+
+/// Grade of a model's formula.
+pub const fn formula(grade: Evidence, because: &'static str) -> Graded {
+    Graded {
+        key: "",
+        grade,
+        because,
+    }
+}
+
+/// Grade of the default of one parameter.
+pub const fn default_of(key: &'static str, grade: Evidence, because: &'static str) -> Graded {
+    Graded { key, grade, because }
+}
+
+/// An `Arc<M::Model>` in disguise.
+pub type Built = Box<dyn Any + Send + Sync>;
+
+/// One model.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// Key of the mechanism.
+    pub mechanism: &'static str,
+    /// Name in documents.
+    pub name: &'static str,
+    /// What it is, as a sentence.
+    pub meaning: &'static str,
+    /// Primary source.
+    pub source: &'static str,
+    /// A valid `model:` record, in YAML flow style.
+    pub example: &'static str,
+    /// Ranges in which the source states the formula to hold.
+    pub limits: &'static [Limit],
+    /// Named shares of the answer.
+    pub terms: &'static [Term],
+    /// Quantities that the reader may look at.
+    pub observed: &'static [Observed],
+    /// How well formula and defaults are known.
+    pub evidence: &'static [Graded],
+    /// Whether a drag model is asked once for each gear or once for each mesh; without meaning for other mechanisms.
+    pub scope: Scope,
+    /// Where it is registered.
+    pub origin: Origin,
+    /// Schema of the parameters.
+    pub schema: fn(&mut SchemaGenerator) -> Schema,
+    /// Builds the model from the resolved parameters.
+    pub build: fn(&Value, &mut Build<'_>) -> Result<Built, Diagnostic>,
+}
+
+inventory::collect!(Entry);
+
+/// One mechanism, without its types.
+#[derive(Clone, Copy)]
+pub struct MechanismEntry {
+    /// Name in documents.
+    pub key: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// What its models answer, with unit.
+    pub answer: &'static str,
+    /// A part in YAML.
+    pub example: &'static str,
+    /// Where it is registered.
+    pub origin: Origin,
+    /// Section of its parts, where it has one.
+    pub section: Option<Section>,
+    /// The quantities of its context.
+    pub quantities: fn() -> Vec<QuantityDoc>,
+    /// `none`, `constant`, `formula` and `table` for this mechanism.
+    pub generics: fn() -> Vec<Entry>,
+    /// Schema of a part.
+    pub part: fn(&mut SchemaGenerator) -> Schema,
+    /// Evaluates a model alone: resolved model, part and quantities in their documented units.
+    pub eval: fn(&Registry, &Files, &Value, &Value, &Map<String, Value>) -> Result<Evaluated, Diagnostic>,
+    /// What the conformance suite finds wrong with a model on a part.
+    pub conform: fn(&Registry, &Files, &Entry, &Value, &Value) -> Vec<String>,
+}
+
+inventory::collect!(MechanismEntry);
+
+impl MechanismEntry {
+    /// The entry of a mechanism without a section of its own.
+    pub const fn of<M: Mechanism>(origin: Origin) -> Self {
+        Self {
+            key: M::KEY,
+            meaning: M::MEANING,
+            answer: M::ANSWER,
+            example: M::EXAMPLE,
+            origin,
+            section: None,
+            quantities: quantities::<M>,
+            generics: generic::entries::<M>,
+            part: |generator| <M::Part as schemars::JsonSchema>::json_schema(generator),
+            eval: eval::eval::<M>,
+            conform: conformance::conform::<M>,
+        }
+    }
+
+    /// The entry of a mechanism whose parts have a section.
+    pub const fn component<C: Component>(origin: Origin) -> Self {
+        Self {
+            section: Some(Section::of::<C>()),
+            ..Self::of::<C>(origin)
+        }
+    }
+}
+
+fn quantities<M: Mechanism>() -> Vec<QuantityDoc> {
+    M::QUANTITIES
+        .iter()
+        .map(|q| QuantityDoc {
+            name: q.name,
+            doc: q.doc,
+            usual: q.usual,
+            least: q.least,
+            greatest: q.greatest,
+        })
+        .collect()
+}
+
+/// A catalogue: values that fill the absent keys of a component by its designation.
+#[derive(Debug, Clone, Copy)]
+pub struct Catalogue {
+    /// Section whose components it fills.
+    pub section: &'static str,
+    /// CSV text: `designation`, then keys of the section with their unit in the header, then `confidence` and `basis`.
+    pub csv: &'static str,
+    /// Where it comes from and under which licence.
+    pub source: &'static str,
+    /// Where it is registered.
+    pub origin: Origin,
+}
+
+inventory::collect!(Catalogue);
+
+/// A set of models that a crate ships by name.
+#[derive(Debug, Clone, Copy)]
+pub struct ShippedSet {
+    /// Name in `--models` and in studies.
+    pub name: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// The set in YAML, as under `model_sets`.
+    pub yaml: &'static str,
+    /// Where it is registered.
+    pub origin: Origin,
+}
+
+inventory::collect!(ShippedSet);
+
+/// All mechanisms and models at hand, in the order of their names.
+#[derive(Clone)]
+pub struct Registry {
+    mechanisms: Vec<MechanismEntry>,
+    models: Vec<Entry>,
+    catalogues: Vec<Catalogue>,
+    sets: Vec<ShippedSet>,
+}
+
+impl Registry {
+    /// Everything that is linked into the program.
+    ///
+    /// # Errors
+    /// If nothing is linked, or two entries have one name; each error names modules and lines.
+    pub fn linked() -> Result<Self, Vec<Diagnostic>> {
+        Self::of(
+            inventory::iter::<MechanismEntry>().copied(),
+            inventory::iter::<Entry>().copied(),
+            inventory::iter::<Catalogue>().copied(),
+            inventory::iter::<ShippedSet>().copied(),
+        )
+    }
+
+    /// A registry of the given entries, for tests and for programs that choose.
+    ///
+    /// # Errors
+    /// As [`Registry::linked`].
+    pub fn of(
+        mechanisms: impl IntoIterator<Item = MechanismEntry>,
+        models: impl IntoIterator<Item = Entry>,
+        catalogues: impl IntoIterator<Item = Catalogue>,
+        sets: impl IntoIterator<Item = ShippedSet>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mut mechanisms: Vec<_> = mechanisms.into_iter().collect();
+        mechanisms.sort_by_key(|m| (m.key, m.origin.module, m.origin.line));
+        let mut models: Vec<Entry> = models.into_iter().collect();
+        let mut found = Vec::new();
+        if models.is_empty() {
+            found.push(Diagnostic::error("", "no loss model is linked into this program").mend(
+                "add a crate with models to the program, such as gearloss-plugins, and write `use gearloss_plugins as _;` once",
+            ));
+        }
+        for mechanism in &mechanisms {
+            models.extend((mechanism.generics)());
+        }
+        models.sort_by_key(|m| (m.mechanism, m.name, m.origin.module, m.origin.line));
+        for pair in mechanisms.windows(2) {
+            if pair[0].key == pair[1].key {
+                found.push(twice("mechanism", pair[0].key, pair[0].origin, pair[1].origin));
+            }
+        }
+        for pair in models.windows(2) {
+            if (pair[0].mechanism, pair[0].name) == (pair[1].mechanism, pair[1].name) {
+                let what = format!("{} model", pair[0].mechanism);
+                found.push(twice(&what, pair[0].name, pair[0].origin, pair[1].origin));
+            }
+        }
+        for model in &models {
+            if !mechanisms.iter().any(|m| m.key == model.mechanism) {
+                found.push(
+                    Diagnostic::error(
+                        "",
+                        format!(
+                            "model `{}` belongs to the unknown mechanism `{}`",
+                            model.name, model.mechanism
+                        ),
+                    )
+                    .note(format!("registered at {}", model.origin))
+                    .mend("register the mechanism with `register_mechanism!` or `register_component!`"),
+                );
+            }
+        }
+        let mut sets: Vec<_> = sets.into_iter().collect();
+        sets.sort_by_key(|s| s.name);
+        let mut catalogues: Vec<_> = catalogues.into_iter().collect();
+        catalogues.sort_by_key(|c| (c.section, c.origin.module, c.origin.line));
+        if found.is_empty() {
+            Ok(Self {
+                mechanisms,
+                models,
+                catalogues,
+                sets,
+            })
+        } else {
+            Err(found)
+        }
+    }
+
+    /// The mechanisms.
+    pub fn mechanisms(&self) -> &[MechanismEntry] {
+        &self.mechanisms
+    }
+
+    /// One mechanism by its key.
+    pub fn mechanism(&self, key: &str) -> Option<&MechanismEntry> {
+        self.mechanisms.iter().find(|m| m.key == key)
+    }
+
+    /// The models of a mechanism.
+    pub fn models<'a>(&'a self, mechanism: &'a str) -> impl Iterator<Item = &'a Entry> {
+        self.models.iter().filter(move |m| m.mechanism == mechanism)
+    }
+
+    /// One model.
+    pub fn model(&self, mechanism: &str, name: &str) -> Option<&Entry> {
+        self.models.iter().find(|m| m.mechanism == mechanism && m.name == name)
+    }
+
+    /// The mechanisms that have a section of their own.
+    pub fn sections(&self) -> impl Iterator<Item = (&MechanismEntry, &Section)> {
+        self.mechanisms
+            .iter()
+            .filter_map(|m| m.section.as_ref().map(|s| (m, s)))
+    }
+
+    /// The catalogues of a section.
+    pub fn catalogues<'a>(&'a self, section: &'a str) -> impl Iterator<Item = &'a Catalogue> {
+        self.catalogues.iter().filter(move |c| c.section == section)
+    }
+
+    /// The sets of models that linked crates ship.
+    pub fn shipped_sets(&self) -> &[ShippedSet] {
+        &self.sets
+    }
+
+    /// Crates that registered something, in the order of their names.
+    pub fn packages(&self) -> Vec<&'static str> {
+        let mut names: Vec<_> = self
+            .models
+            .iter()
+            .map(|m| m.origin.package())
+            .chain(self.mechanisms.iter().map(|m| m.origin.package()))
+            .collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+}
+
+fn twice(what: &str, name: &str, one: Origin, other: Origin) -> Diagnostic {
+    Diagnostic::error("", format!("two registrations of the {what} `{name}`"))
+        .note(format!("one at {one}, the other at {other}"))
+        .mend("rename one of them")
+}
+
+/// Reads a struct from a resolved value, which cannot fail but for a bug. `type` is the framework's key, not the model's.
+pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json::Error> {
+    let fields = value
+        .as_object()
+        .into_iter()
+        .flatten()
+        .filter(|(key, _)| *key != "type")
+        .map(|(key, value)| (key.as_str(), value));
+    T::deserialize(serde::de::value::MapDeserializer::new(fields))
+}
+
+/// Registers a mechanism that has no section of its own.
+#[macro_export]
+macro_rules! register_mechanism {
+    ($M:ty) => {
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::of::<$M>($crate::origin!()) }
+    };
+}
+
+/// Registers a mechanism with its section.
+#[macro_export]
+macro_rules! register_component {
+    ($C:ty) => {
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::component::<$C>($crate::origin!()) }
+    };
+}
+
+/// Registers a model: mechanism, name in documents, parameters, then its head. Without `prepare` the parameters are the
+/// model; with it, `prepare(parameters, &mut Build)` makes the model.
+#[macro_export]
+macro_rules! register {
+    ($M:ty, $name:literal, $Params:ty,
+        meaning: $meaning:expr, source: $source:expr, example: $example:expr,
+        evidence: [$($graded:expr),* $(,)?]
+        $(, limits: [$($limit:expr),* $(,)?])? $(, terms: [$($term:expr),* $(,)?])? $(, observed: [$($observed:expr),* $(,)?])?
+        $(, scope: $scope:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
+        $crate::registry::inventory::submit! {
+            $crate::registry::Entry {
+                mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, meaning: $meaning, source: $source,
+                example: $example, evidence: &[$($graded),*],
+                limits: &[$($($limit),*)?], terms: &[$($($term),*)?], observed: &[$($($observed),*)?],
+                scope: $crate::register!(@scope $($scope)?),
+                origin: $crate::origin!(),
+                schema: |generator| <$Params as $crate::schemars::JsonSchema>::json_schema(generator),
+                build: |value, cx| {
+                    let params: $Params = cx.params(value)?;
+                    let model = $crate::register!(@model params, cx $(, $prepare)?);
+                    let model: ::std::sync::Arc<<$M as $crate::mechanism::Mechanism>::Model> = ::std::sync::Arc::new(model);
+                    Ok(Box::new(model))
+                },
+            }
+        }
+    };
+    (@scope) => { $crate::mechanism::gear_drag::Scope::Gear };
+    (@scope $scope:expr) => { $scope };
+    (@model $params:ident, $cx:ident) => { $params };
+    (@model $params:ident, $cx:ident, $prepare:expr) => { $prepare($params, $cx)? };
+}

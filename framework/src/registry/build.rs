@@ -1,0 +1,199 @@
+//! What a model sees while it is built.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use super::slot::{ModelRef, Slot};
+use super::{Entry, Registry, from_resolved};
+use crate::document::{Diagnostic, did_you_mean};
+use crate::loss::NoteBase;
+use crate::mechanism::Mechanism;
+
+/// Files that a description names, read once and found relative to the document that names them.
+#[derive(Debug, Default)]
+pub struct Files {
+    folder: Option<PathBuf>,
+    read: Mutex<BTreeMap<PathBuf, Arc<str>>>,
+}
+
+impl Files {
+    /// Files beside a document in this folder.
+    pub fn beside(folder: impl Into<PathBuf>) -> Self {
+        Self {
+            folder: Some(folder.into()),
+            read: Mutex::default(),
+        }
+    }
+
+    /// The text of a file.
+    ///
+    /// # Errors
+    /// The reason why it cannot be read, with the path that was tried.
+    pub fn text(&self, name: &str) -> Result<Arc<str>, String> {
+        let path = self.folder.as_deref().unwrap_or(Path::new("")).join(name);
+        let mut read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if let Some(text) = read.get(&path) {
+            return Ok(Arc::clone(text));
+        }
+        let text: Arc<str> = std::fs::read_to_string(&path)
+            .map_err(|e| format!("cannot read {}: {e}", path.display()))?
+            .into();
+        read.insert(path, Arc::clone(&text));
+        Ok(text)
+    }
+
+    /// Gives a text for a file that need not exist.
+    pub fn put(&self, name: &str, text: &str) {
+        let path = self.folder.as_deref().unwrap_or(Path::new("")).join(name);
+        self.read
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+            .insert(path, text.into());
+    }
+
+    /// All files read so far, with their text.
+    pub fn all(&self) -> Vec<(PathBuf, Arc<str>)> {
+        let read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        read.iter()
+            .map(|(path, text)| (path.clone(), Arc::clone(text)))
+            .collect()
+    }
+}
+
+/// One built model with its place in the document.
+#[derive(Clone)]
+pub struct Instance {
+    /// Resolved path of the model, such as `bearings.B1.model`.
+    pub path: String,
+    /// Its registration.
+    pub entry: Entry,
+    /// Where its notes stand.
+    pub notes: NoteBase,
+}
+
+/// What a model sees while it is built: the registry for nested slots, its part, its path, files. Collects findings.
+pub struct Build<'a> {
+    registry: &'a Registry,
+    files: &'a Files,
+    path: String,
+    part: Option<Arc<dyn Any + Send + Sync>>,
+    instances: Vec<Instance>,
+    cells: usize,
+}
+
+impl<'a> Build<'a> {
+    /// A fresh build.
+    pub fn new(registry: &'a Registry, files: &'a Files) -> Self {
+        Self {
+            registry,
+            files,
+            path: String::new(),
+            part: None,
+            instances: Vec::new(),
+            cells: 0,
+        }
+    }
+
+    /// An error at the place that is being built.
+    pub fn error(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(self.path.clone(), message)
+    }
+
+    /// The path that is being built.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// The part that the model belongs to, where the framework has one of this mechanism.
+    pub fn part<M: Mechanism>(&self) -> Option<&M::Part> {
+        self.part.as_ref().and_then(|part| part.downcast_ref())
+    }
+
+    /// The text of a file that the description names.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn text(&self, file: &str) -> Result<Arc<str>, Diagnostic> {
+        self.files.text(file).map_err(|reason| {
+            self.error(reason)
+                .mend("file names are relative to the gearbox document")
+        })
+    }
+
+    /// The parameters of the model.
+    ///
+    /// # Errors
+    /// What the parameters' own checks find.
+    pub fn params<T: DeserializeOwned>(&self, value: &Value) -> Result<T, Diagnostic> {
+        from_resolved(value).map_err(|e| self.error(e.to_string()))
+    }
+
+    /// Builds the model of a nested slot; `key` is the field's name.
+    ///
+    /// # Errors
+    /// What building the nested model finds.
+    pub fn slot<M: Mechanism>(&mut self, key: &str, slot: &ModelRef<M>) -> Result<Slot<M>, Diagnostic> {
+        let outer = self.path.len();
+        self.path.push('.');
+        self.path.push_str(key);
+        let built = self.slot_here(&slot.value);
+        self.path.truncate(outer);
+        built
+    }
+
+    /// Builds a model at a path for a part.
+    ///
+    /// # Errors
+    /// What building the model finds.
+    pub fn slot_at<M: Mechanism>(
+        &mut self,
+        path: &str,
+        part: &Arc<M::Part>,
+        value: &Value,
+    ) -> Result<Slot<M>, Diagnostic> {
+        path.clone_into(&mut self.path);
+        self.part = Some(Arc::clone(part) as Arc<dyn Any + Send + Sync>);
+        let built = self.slot_here(value);
+        self.part = None;
+        built
+    }
+
+    fn slot_here<M: Mechanism>(&mut self, value: &Value) -> Result<Slot<M>, Diagnostic> {
+        let name = value.as_str().or_else(|| value["type"].as_str()).unwrap_or("none");
+        let Some(entry) = self.registry.model(M::KEY, name).copied() else {
+            let names: Vec<&str> = self.registry.models(M::KEY).map(|m| m.name).collect();
+            let missing = self.error(format!("no {} model is called `{name}`", M::KEY));
+            let missing = missing.note(format!("linked here: {}", names.join(", ")));
+            return Err(match did_you_mean(name, names.iter().copied()) {
+                Some(close) => missing.mend(format!("write `{close}`")),
+                None => missing.mend("choose one of them"),
+            });
+        };
+        let notes = NoteBase {
+            instance: self.instances.len(),
+            limits: self.cells,
+            observed: self.cells + entry.limits.len(),
+        };
+        self.cells = notes.observed + entry.observed.len();
+        self.instances.push(Instance {
+            path: self.path.clone(),
+            entry,
+            notes,
+        });
+        let built = (entry.build)(value, self)?;
+        match built.downcast::<Arc<M::Model>>() {
+            Ok(model) => Ok(Slot::new(*model, notes)),
+            Err(_) => Err(self.error(format!("bug: model `{name}` was built for another mechanism"))),
+        }
+    }
+
+    /// All instances built, and the number of their note cells.
+    pub fn finish(self) -> (Vec<Instance>, usize) {
+        (self.instances, self.cells)
+    }
+}

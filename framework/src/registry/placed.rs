@@ -1,0 +1,124 @@
+//! A component in its seat with its model: what evaluation runs over.
+
+use std::sync::Arc;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::build::Build;
+use super::{Slot, from_resolved};
+use crate::attach::{Attach, Names, Spot, State};
+use crate::document::Diagnostic;
+use crate::loss::{Loss, NoteBase, Notes, Undefined};
+use crate::mechanism::Component;
+
+/// What the framework reads of every component, whatever its mechanism.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+pub struct Common {
+    /// Oil; absent, that of the housing.
+    pub lubricant: Option<String>,
+    /// Temperature of the oil at the component above that of the sump. [K]
+    #[serde(default)]
+    #[schemars(range(min = -200.0, max = 200.0))]
+    pub temperature_offset: f64,
+    /// Number of equal components at this place; each carries the whole load that the place has. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 1000))]
+    pub count: u32,
+}
+
+fn one() -> u32 {
+    1
+}
+
+/// A component in its seat with its model.
+pub trait Placed: Send + Sync {
+    /// Loss of one copy.
+    fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined>;
+    /// The two members that feel the reaction; absent for the housing.
+    fn between(&self) -> [Option<u16>; 2];
+    /// True where the loss may depend on torque or load.
+    fn loaded(&self) -> bool;
+    /// Where its model's notes stand.
+    fn notes(&self) -> NoteBase;
+    /// Number of the support, for components that carry load.
+    fn support(&self) -> Option<u16>;
+}
+
+struct PlacedAs<C: Component> {
+    part: Arc<C::Part>,
+    seat: <C::Attachment as Attach>::Seat,
+    spot: Spot,
+    model: Slot<C>,
+}
+
+impl<C: Component> Placed for PlacedAs<C> {
+    fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+        let site = C::Attachment::site(self.seat, &self.spot, state);
+        C::answer(&self.model, &C::at(&self.part, site, notes.of(self.model.notes)))
+    }
+    fn between(&self) -> [Option<u16>; 2] {
+        C::Attachment::between(self.seat)
+    }
+    fn loaded(&self) -> bool {
+        C::Attachment::LOADED
+    }
+    fn notes(&self) -> NoteBase {
+        self.model.notes
+    }
+    fn support(&self) -> Option<u16> {
+        C::Attachment::support(self.seat)
+    }
+}
+
+/// A mechanism's section of the document.
+#[derive(Clone, Copy)]
+pub struct Section {
+    /// Name of the section.
+    pub name: &'static str,
+    /// Schemas whose fields make up an entry: place, part, what the framework reads of every component.
+    pub schemas: fn(&mut SchemaGenerator) -> Vec<Schema>,
+    /// Seats a component and builds its model. Dangling ids go to the names' findings.
+    pub place: fn(&Value, &mut Names<'_>, &mut Build<'_>) -> Result<Option<Box<dyn Placed>>, Diagnostic>,
+}
+
+impl Section {
+    /// The section of a component.
+    pub(super) const fn of<C: Component>() -> Self {
+        Self {
+            name: C::SECTION,
+            schemas: |generator| {
+                vec![
+                    <C::Attachment as Attach>::Place::json_schema(generator),
+                    C::Part::json_schema(generator),
+                    Common::json_schema(generator),
+                ]
+            },
+            place: place::<C>,
+        }
+    }
+}
+
+fn place<C: Component>(
+    value: &Value,
+    names: &mut Names<'_>,
+    build: &mut Build<'_>,
+) -> Result<Option<Box<dyn Placed>>, Diagnostic> {
+    let path = names.path().to_owned();
+    let read = |e: serde_json::Error| Diagnostic::error(path.clone(), e.to_string());
+    let seat = C::Attachment::seat(&from_resolved(value).map_err(read)?, names);
+    let common: Common = from_resolved(value).map_err(read)?;
+    let part: Arc<C::Part> = Arc::new(from_resolved(value).map_err(read)?);
+    let spot = names.spot(&common);
+    let model = build.slot_at::<C>(&format!("{path}.model"), &part, &value["model"])?;
+    let (Some(seat), Some(spot)) = (seat, spot) else {
+        return Ok(None);
+    };
+    Ok(Some(Box::new(PlacedAs::<C> {
+        part,
+        seat,
+        spot,
+        model,
+    })))
+}

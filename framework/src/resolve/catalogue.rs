@@ -1,0 +1,178 @@
+//! Catalogues: CSV tables that fill absent keys of components by designation.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use super::{Came, absent, entries_mut};
+use crate::document::{Diagnostic, Dimension, Unit, did_you_mean};
+use crate::language::Language;
+use crate::registry::Files;
+
+/// One row of a catalogue.
+#[derive(Debug, Clone)]
+pub struct CatalogueRow {
+    /// Keys of the section and their values, as they would be written.
+    pub values: Vec<(String, Value)>,
+    /// How sure the row is.
+    pub confidence: String,
+}
+
+/// A catalogue as read: rows by designation.
+#[derive(Debug, Clone, Default)]
+pub struct CatalogueTable(pub BTreeMap<String, CatalogueRow>);
+
+impl CatalogueTable {
+    /// Adds the rows of another; the own rows win.
+    pub fn extend(&mut self, other: Self) {
+        for (designation, row) in other.0 {
+            self.0.entry(designation).or_insert(row);
+        }
+    }
+
+    /// Reads a catalogue: `designation`, then keys with their unit in brackets, and if wanted `confidence` and `basis`.
+    /// A column without a unit is text. An empty cell states nothing.
+    ///
+    /// # Errors
+    /// With the line of the file.
+    pub fn from_csv(text: &str) -> Result<Self, String> {
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let header = reader.headers().map_err(|e| e.to_string())?.clone();
+        let mut columns = Vec::new();
+        for name in &header {
+            let (key, unit) = match name.split_once('[') {
+                Some((key, _)) => {
+                    let unit = Unit::of_doc(name).ok_or_else(|| format!("line 1: column `{name}`: unknown unit"))?;
+                    (key.trim().to_owned(), Some(unit))
+                }
+                None => (name.to_owned(), None),
+            };
+            columns.push((key, unit));
+        }
+        let at = columns
+            .iter()
+            .position(|(key, _)| key == "designation")
+            .ok_or("line 1: no column `designation`")?;
+        let mut rows = BTreeMap::new();
+        for record in reader.records() {
+            let record = record.map_err(|e| e.to_string())?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let mut row = CatalogueRow {
+                values: Vec::new(),
+                confidence: "not stated".to_owned(),
+            };
+            for ((key, unit), cell) in columns.iter().zip(&record) {
+                match (key.as_str(), unit) {
+                    ("designation" | "basis", _) => {}
+                    ("confidence", _) => cell.clone_into(&mut row.confidence),
+                    _ if cell.is_empty() => {}
+                    (_, Some(unit)) => {
+                        let number: f64 = cell
+                            .parse()
+                            .ok()
+                            .filter(|x: &f64| x.is_finite())
+                            .ok_or_else(|| format!("line {line}: column `{key}`: `{cell}` is not a number"))?;
+                        let value = if unit.dimension == Dimension::None {
+                            Value::from(number)
+                        } else {
+                            Value::from(format!("{cell} {}", unit.symbol))
+                        };
+                        row.values.push((key.clone(), value));
+                    }
+                    (_, None) => row.values.push((key.clone(), Value::from(cell))),
+                }
+            }
+            let designation = record[at].to_owned();
+            if rows.insert(designation.clone(), row).is_some() {
+                return Err(format!("line {line}: `{designation}` stands twice"));
+            }
+        }
+        Ok(Self(rows))
+    }
+}
+
+/// Fills the absent keys of every component that has a designation.
+pub(super) fn fill(
+    language: &Language,
+    files: &Files,
+    value: &mut Value,
+    came: &mut BTreeMap<String, Came>,
+    found: &mut Vec<Diagnostic>,
+) {
+    let mut own: BTreeMap<String, CatalogueTable> = BTreeMap::new();
+    for (section, file) in value.get("catalogues").and_then(Value::as_object).into_iter().flatten() {
+        let path = format!("catalogues.{section}");
+        let file = file.as_str().unwrap_or_default();
+        match files
+            .text(file)
+            .and_then(|text| CatalogueTable::from_csv(&text).map_err(|e| format!("{file}: {e}")))
+        {
+            Ok(table) if language.registry().sections().any(|(_, s)| s.name == section) => {
+                own.insert(section.clone(), table);
+            }
+            Ok(_) => found.push(Diagnostic::error(
+                path,
+                format!("no section of components is called `{section}`"),
+            )),
+            Err(reason) => found.push(Diagnostic::error(path, reason)),
+        }
+    }
+    let sections: Vec<&str> = language.registry().sections().map(|(_, s)| s.name).collect();
+    for section in sections {
+        let shipped = language.catalogue(section);
+        for (id, entry) in entries_mut(value, section) {
+            let Some(designation) = entry.get("designation").and_then(Value::as_str).map(str::to_owned) else {
+                continue;
+            };
+            let row = own
+                .get(section)
+                .and_then(|t| t.0.get(&designation))
+                .or_else(|| shipped.and_then(|t| t.0.get(&designation)));
+            let Some(row) = row else {
+                // A designation may be a name alone, when everything else is written.
+                if absent(entry, "bore") {
+                    let names: Vec<&str> = shipped
+                        .into_iter()
+                        .chain(own.get(section))
+                        .flat_map(|t| t.0.keys())
+                        .map(String::as_str)
+                        .collect();
+                    let path = format!("{section}.{id}.designation");
+                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`"))
+                        .note(format!("{} designations are known", names.len()));
+                    let close = did_you_mean(&designation, names.iter().copied());
+                    found.push(match close {
+                        Some(close) => error.mend(format!(
+                            "write `{close}`, or state bore, outside, kind and ratings here"
+                        )),
+                        None => {
+                            error.mend("state bore, outside, kind and ratings here, or name a CSV under `catalogues`")
+                        }
+                    });
+                }
+                continue;
+            };
+            for (key, filled) in &row.values {
+                if absent(entry, key) {
+                    let path = format!("{section}.{id}.{key}");
+                    match language.checked(filled, &path) {
+                        Ok(value) => entry.insert(key.clone(), value),
+                        Err(list) => {
+                            let row = format!("in the catalogue row `{designation}`");
+                            found.extend(list.into_iter().map(|d| d.note(row.clone())));
+                            continue;
+                        }
+                    };
+                    let from = Came::Catalogue {
+                        designation: designation.clone(),
+                        confidence: row.confidence.clone(),
+                    };
+                    came.insert(format!("{section}.{id}.{key}"), from);
+                }
+            }
+        }
+    }
+}

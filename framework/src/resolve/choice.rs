@@ -1,0 +1,142 @@
+//! Which models and which overrides a calculation uses.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value};
+
+use crate::document::{Diagnostic, did_you_mean};
+use crate::language::Language;
+
+/// A set of models and overrides of single values.
+#[derive(Debug, Clone, Default)]
+pub struct Choice {
+    /// Name of the set of models; absent, the `models` of the gearbox.
+    pub set: Option<String>,
+    /// Sets of a study; they win over those of the gearbox and over those that crates ship.
+    pub sets: Map<String, Value>,
+    /// Path patterns and values, in the order in which they are applied.
+    pub overrides: Vec<(String, Value)>,
+}
+
+/// A set of models with everything that it extends.
+#[derive(Debug, Clone, Default)]
+pub struct ModelSet {
+    /// Default by mechanism.
+    pub models: Map<String, Value>,
+    /// Models of single components, by path pattern.
+    pub components: Vec<(String, Value)>,
+}
+
+impl ModelSet {
+    /// The model that the set gives to the component at a path; later patterns win.
+    pub fn named(&self, path: &str) -> Option<&Value> {
+        self.components
+            .iter()
+            .rev()
+            .find(|(pattern, _)| fits(pattern, path))
+            .map(|(_, model)| model)
+    }
+}
+
+impl ModelSet {
+    /// Names of the drag slots that the set gives to one gear or mesh.
+    pub(super) fn drag_slots(&self, section: &str, id: &str) -> Vec<String> {
+        let owner = format!("{section}.{id}.drag");
+        let slot = |(pattern, _): &(String, Value)| {
+            let (parent, slot) = pattern.rsplit_once('.')?;
+            fits(parent, &owner).then(|| slot.to_owned())
+        };
+        self.components.iter().filter_map(slot).collect()
+    }
+}
+
+fn fits(pattern: &str, path: &str) -> bool {
+    let (pattern, path): (Vec<_>, Vec<_>) = (pattern.split('.').collect(), path.split('.').collect());
+    pattern.len() == path.len() && pattern.iter().zip(&path).all(|(p, k)| *p == "*" || p == k)
+}
+
+/// All sets at hand by name: shipped ones, those of the gearbox, those of a study; later ones win.
+pub fn sets_of(language: &Language, gearbox: &Value, study: &Map<String, Value>) -> BTreeMap<String, Value> {
+    let mut sets: BTreeMap<String, Value> = language.shipped_sets().clone();
+    for (name, set) in gearbox
+        .get("model_sets")
+        .and_then(Value::as_object)
+        .into_iter()
+        .flatten()
+        .chain(study)
+    {
+        sets.insert(name.clone(), set.clone());
+    }
+    sets
+}
+
+/// Expands a set with everything that it extends.
+///
+/// # Errors
+/// If a name is unknown or sets extend each other in a circle.
+pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet, Diagnostic> {
+    let mut chain: Vec<&str> = Vec::new();
+    let mut next = Some(name);
+    while let Some(name) = next {
+        let Some((known, set)) = sets.get_key_value(name) else {
+            let names: Vec<&str> = sets.keys().map(String::as_str).collect();
+            let path = chain
+                .last()
+                .map_or_else(|| "model_sets".to_owned(), |last| format!("model_sets.{last}.extends"));
+            let error = Diagnostic::error(path, format!("no set of models is called `{name}`"))
+                .note(format!("there are: {}", names.join(", ")));
+            return Err(match did_you_mean(name, names.iter().copied()) {
+                Some(close) => error.mend(format!("write `{close}`")),
+                None => error.mend("name one of them, or add it under `model_sets`"),
+            });
+        };
+        if chain.contains(&known.as_str()) {
+            return Err(Diagnostic::error(
+                format!("model_sets.{known}.extends"),
+                "sets extend each other in a circle",
+            )
+            .note(format!("the circle: {}", chain.join(", ")))
+            .mend("leave one `extends` out"));
+        }
+        chain.push(known);
+        next = set.get("extends").and_then(Value::as_str);
+    }
+    let mut whole = ModelSet::default();
+    for name in chain.iter().rev() {
+        for (key, value) in sets[*name].as_object().into_iter().flatten() {
+            match key.as_str() {
+                "extends" => {}
+                "components" => {
+                    whole.components.extend(
+                        value
+                            .as_object()
+                            .into_iter()
+                            .flatten()
+                            .map(|(k, v)| (k.clone(), v.clone())),
+                    );
+                }
+                _ if value.is_null() => {}
+                _ => {
+                    whole.models.insert(key.clone(), value.clone());
+                }
+            }
+        }
+    }
+    Ok(whole)
+}
+
+pub(super) fn find(
+    language: &Language,
+    gearbox: &Value,
+    study: &Map<String, Value>,
+    name: &str,
+    found: &mut Vec<Diagnostic>,
+) -> Option<ModelSet> {
+    match expand_set(&sets_of(language, gearbox, study), name) {
+        Ok(set) => Some(set),
+        Err(error) => {
+            found.push(error);
+            None
+        }
+    }
+}

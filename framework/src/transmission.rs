@@ -1,0 +1,181 @@
+//! The transmission: immutable, validated, indices in place of names, models built, everything precomputed.
+
+mod build;
+mod case;
+mod drags;
+mod gearing;
+mod members;
+mod oils;
+mod states;
+mod statics;
+
+use std::sync::Arc;
+
+pub use case::Case;
+pub use drags::DragSeat;
+pub use gearing::{GearSeat, MeshSeat};
+pub use oils::{Oils, Surface};
+pub use states::GearState;
+
+use crate::document::Diagnostic;
+use crate::loads::ShaftLoads;
+use crate::loss::NoteBase;
+use crate::mechanism::gear_drag::{DragPart, GearDrag};
+use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
+use crate::registry::{Instance, Placed, Slot};
+
+/// What a part is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PartKind {
+    /// A component of a mechanism's section; its number among the placed components.
+    Component(usize),
+    /// The load-dependent loss of a mesh; its number.
+    Mesh(usize),
+    /// A drag model on a gear or on a mesh; its number.
+    Drag(usize),
+}
+
+/// One part that loses power.
+#[derive(Debug, Clone)]
+pub struct PartInfo {
+    /// Path of the component, such as `bearings.B1`; for drags with the slot, such as `gears.G4.drag.churning`.
+    pub path: String,
+    /// Key of the mechanism.
+    pub mechanism: &'static str,
+    /// What it is.
+    pub kind: PartKind,
+    /// Number of equal copies.
+    pub count: f64,
+    /// Where the notes of its model stand.
+    pub notes: NoteBase,
+}
+
+/// A port.
+#[derive(Debug, Clone)]
+pub struct Port {
+    /// Name.
+    pub name: String,
+    /// Member.
+    pub member: usize,
+}
+
+/// One mesh with its model.
+pub(crate) struct MeshModel {
+    pub seat: MeshSeat,
+    pub part: Arc<MeshPart>,
+    pub model: Slot<GearMesh>,
+    pub oil: u16,
+}
+
+/// One drag model with its seat.
+pub(crate) struct DragModel {
+    pub seat: DragSeat,
+    pub part: Arc<DragPart>,
+    pub model: Slot<GearDrag>,
+    pub oil: u16,
+}
+
+/// A component with its number of copies.
+pub(crate) struct Component {
+    pub placed: Box<dyn Placed>,
+    /// The two members that feel its reaction.
+    pub between: [Option<u16>; 2],
+    /// True where its loss may depend on torque or load.
+    pub loaded: bool,
+    /// Number of its support, where it carries load.
+    pub support: Option<u16>,
+    /// Where the notes of its model stand.
+    pub notes: NoteBase,
+    pub count: f64,
+}
+
+/// A transmission, ready to be evaluated at any number of points from any number of threads.
+pub struct Transmission {
+    pub(crate) title: String,
+    pub(crate) members: Vec<String>,
+    pub(crate) ports: Vec<Port>,
+    pub(crate) states: Vec<GearState>,
+    pub(crate) gears: Vec<GearSeat>,
+    pub(crate) meshes: Vec<MeshModel>,
+    pub(crate) drags: Vec<DragModel>,
+    pub(crate) components: Vec<Component>,
+    pub(crate) parts: Vec<PartInfo>,
+    pub(crate) instances: Vec<Instance>,
+    pub(crate) cells: usize,
+    pub(crate) oils: Oils,
+    pub(crate) loads: ShaftLoads,
+    pub(crate) load_factors: Vec<statics::LoadFactors>,
+    pub(crate) imported: Option<statics::Imported>,
+    pub(crate) supports: Vec<String>,
+    /// Findings that do not keep the transmission from being evaluated.
+    pub warnings: Vec<Diagnostic>,
+    /// Temperature of the oil as described. \[degC\]
+    pub oil_temperature: f64,
+}
+
+impl Transmission {
+    /// Title.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+    /// Names of shafts and loose gears, by number.
+    pub fn members(&self) -> &[String] {
+        &self.members
+    }
+    /// Ports.
+    pub fn ports(&self) -> &[Port] {
+        &self.ports
+    }
+    /// Gear states, neutral included.
+    pub fn states(&self) -> &[GearState] {
+        &self.states
+    }
+    /// Gears with their geometry.
+    pub fn gears(&self) -> &[GearSeat] {
+        &self.gears
+    }
+    /// Every part that may lose power, in the order of the document.
+    pub fn parts(&self) -> &[PartInfo] {
+        &self.parts
+    }
+    /// Every model that was built, with its path.
+    pub fn instances(&self) -> &[Instance] {
+        &self.instances
+    }
+    /// Paths of the supports, by number.
+    pub fn supports(&self) -> &[String] {
+        &self.supports
+    }
+    /// Path, geometry and roughness of every mesh.
+    pub fn meshes(&self) -> impl Iterator<Item = (&str, &MeshPart)> {
+        self.meshes.iter().map(|m| (m.seat.path.as_str(), m.part.as_ref()))
+    }
+    /// Number of the temperature nodes.
+    pub fn nodes(&self) -> usize {
+        1
+    }
+    /// Number of a gear state by its name.
+    ///
+    /// # Errors
+    /// Where there is none, with the names of the others.
+    pub fn state(&self, name: &str) -> Result<usize, Diagnostic> {
+        self.states.iter().position(|s| s.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.states.iter().map(|s| s.name.as_str()).collect();
+            crate::attach::dangling("gear_states", "gear state", name, &names)
+        })
+    }
+    /// Number of a port by its name.
+    ///
+    /// # Errors
+    /// Where there is none, with the names of the others.
+    pub fn port(&self, name: &str) -> Result<usize, Diagnostic> {
+        self.ports.iter().position(|p| p.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();
+            crate::attach::dangling("ports", "port", name, &names)
+        })
+    }
+    /// The port that torque, speed and efficiency refer to: `input`, or the first.
+    pub fn reference_port(&self) -> usize {
+        self.ports.iter().position(|p| p.name == "input").unwrap_or(0)
+    }
+}

@@ -1,0 +1,501 @@
+//! From the resolved description to the transmission; all errors of this stage at once.
+
+use std::sync::Arc;
+
+use super::drags::{DragSeat, body, mates, named, part, twice};
+use super::gearing::{GearSeat, MeshSeat, gearing};
+use super::members::Members;
+use super::oils::OilNumbers;
+use super::states::states;
+use super::statics::{imported, load_factors, shaft_loads};
+use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, Transmission};
+use crate::attach::{Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
+use crate::description::GearboxEntry;
+use crate::document::Diagnostic;
+use crate::language::Language;
+use crate::mechanism::Mechanism;
+use crate::mechanism::gear_drag::{Covers, GearDrag, Scope};
+use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
+use crate::registry::{Build, Common, DragSlots, Files, ModelRef};
+use crate::resolve::Resolved;
+
+impl Transmission {
+    /// Builds the transmission of a resolved description.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, by path.
+    pub fn new(language: &Language, files: &Files, resolved: &Resolved) -> Result<Self, Vec<Diagnostic>> {
+        let entry: GearboxEntry = serde_json::from_value(resolved.value.clone())
+            .map_err(|e| vec![Diagnostic::error("", format!("the description cannot be read: {e}"))])?;
+        let mut found = Vec::new();
+        let mut warnings = Vec::new();
+        let members = Members::new(&entry, &mut found);
+        let ports = ports(&entry, &members, &mut found);
+        let (gears, meshes) = gearing(&entry, &members, &mut found);
+        let mut oils = OilNumbers::new(&entry, &members);
+        let mut build = Build::new(language.registry(), files);
+
+        let Placing {
+            components,
+            mut parts,
+            supports,
+            clearances,
+        } = place(language, resolved, &members, &mut oils, &mut build, &mut found);
+        let mesh_models = mesh_models(&entry, &meshes, &mut oils, &mut build, &mut parts, &mut found);
+        let drags = drags(
+            language, &entry, &gears, &meshes, &mut oils, &mut build, &mut parts, &mut found,
+        );
+
+        let states = if found.is_empty() {
+            states(&entry, &members, &meshes, &clearances, &ports, &mut found)
+        } else {
+            Vec::new()
+        };
+        let loads = shaft_loads(&entry, &members, &meshes, &supports, &mut found, &mut warnings);
+        let load_factors = load_factors(&supports, &ports, &mut found);
+        let imported = match &entry.imported_loads {
+            Some(import) => {
+                let names: Vec<String> = states.iter().map(|s| s.name.clone()).collect();
+                let port = ports.iter().position(|p| p.name == import.port);
+                if port.is_none() {
+                    let known: Vec<&str> = ports.iter().map(|p| p.name.as_str()).collect();
+                    found.push(dangling("imported_loads.port", "port", &import.port, &known));
+                }
+                files
+                    .text(&import.file)
+                    .map_err(|reason| Diagnostic::error("imported_loads.file", reason))
+                    .and_then(|text| imported(&text, &import.file, port.unwrap_or(0), &names, &supports))
+                    .map_err(|error| found.push(error))
+                    .ok()
+            }
+            None => None,
+        };
+        let (oils, more) = oils.finish();
+        found.extend(more);
+        if let (true, Some(loads)) = (found.is_empty(), loads) {
+            let (instances, cells) = build.finish();
+            let order = |path: &str| document_order(resolved, path);
+            parts.sort_by_key(|p| order(&p.path));
+            let mut built = Self {
+                title: entry.title.clone().unwrap_or_default(),
+                members: members.names,
+                ports,
+                states,
+                gears,
+                meshes: mesh_models,
+                drags,
+                components,
+                parts,
+                instances,
+                cells,
+                oils,
+                loads,
+                load_factors,
+                imported,
+                supports: supports.iter().map(|s| s.path.clone()).collect(),
+                warnings,
+                oil_temperature: entry.thermal.oil,
+            };
+            built.check_states()?;
+            if !matches!(built.oils.surface_kind(), super::Surface::Dry) {
+                for (id, _) in entry.planetary_sets.iter() {
+                    built.warnings.push(
+                        Diagnostic::warning(
+                            format!("planetary_sets.{id}"),
+                            "planets orbit, so no oil level is known at them: they count as dry",
+                        )
+                        .mend("state `level` of their gears and bearings, as a mean over the orbit"),
+                    );
+                }
+            }
+            Ok(built)
+        } else {
+            Err(found)
+        }
+    }
+}
+
+impl Transmission {
+    /// Every gear state must find its torques when its usual ports give them.
+    fn check_states(&self) -> Result<(), Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        for (i, state) in self.states.iter().enumerate() {
+            let mut order: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();
+            order.sort_by_key(|name| *name != self.ports[self.reference_port()].name);
+            order.truncate(self.torques_needed(i));
+            found.extend(self.case(&state.name, &[], &order).err().into_iter().flatten());
+        }
+        if found.is_empty() { Ok(()) } else { Err(found) }
+    }
+}
+
+/// Sections in the usual order of a sum: gears, bearings, then the others as written.
+fn document_order(resolved: &Resolved, path: &str) -> (usize, usize) {
+    let section = path.split('.').next().unwrap_or_default();
+    let id = path.split('.').nth(1).unwrap_or_default();
+    let rank = match section {
+        "meshes" => 0,
+        "gears" => 1,
+        "bearings" => 2,
+        other => {
+            3 + resolved
+                .value
+                .as_object()
+                .and_then(|m| m.keys().position(|k| k == other))
+                .unwrap_or(0)
+        }
+    };
+    let place = resolved
+        .value
+        .get(section)
+        .and_then(|s| s.as_object())
+        .and_then(|m| m.keys().position(|k| k == id));
+    (rank, place.unwrap_or(0))
+}
+
+fn ports(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -> Vec<Port> {
+    let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
+    let mut ports: Vec<Port> = Vec::new();
+    for (name, shaft) in entry.ports.iter() {
+        let path = format!("ports.{name}");
+        match ids.iter().position(|m| m == shaft) {
+            None => found.push(dangling(&path, "shaft", shaft, &ids)),
+            Some(member) if ports.iter().any(|p| p.member == member) => {
+                found
+                    .push(Diagnostic::error(path, format!("`{shaft}` is a port already")).mend("name each shaft once"));
+            }
+            Some(member) => ports.push(Port {
+                name: name.to_owned(),
+                member,
+            }),
+        }
+    }
+    if entry.shafts.is_empty() {
+        found.push(
+            Diagnostic::error("shafts", "no shaft is described").mend("add `shafts:`, or `extends:` with a base file"),
+        );
+    }
+    if entry.ports.is_empty() {
+        found.push(
+            Diagnostic::error("ports", "no port is named")
+                .mend("add `ports: { input: SHAFT, output: SHAFT }`, or `extends:` with a base file"),
+        );
+    }
+    ports
+}
+
+struct Placing {
+    components: Vec<Component>,
+    parts: Vec<PartInfo>,
+    supports: Vec<SeatedSupport>,
+    clearances: Vec<SeatedClearance>,
+}
+
+fn place(
+    language: &Language,
+    resolved: &Resolved,
+    members: &Members,
+    oils: &mut OilNumbers<'_>,
+    build: &mut Build<'_>,
+    found: &mut Vec<Diagnostic>,
+) -> Placing {
+    let by_name: Vec<(String, Option<u16>)> = members
+        .names
+        .iter()
+        .enumerate()
+        .map(|(i, name)| (name.clone(), Some(i as u16)))
+        .collect();
+    let mut names = Names::new(&by_name, oils);
+    let mut components = Vec::new();
+    let mut parts = Vec::new();
+    for (mechanism, section) in language.registry().sections() {
+        let entries = resolved.value.get(section.name).and_then(|s| s.as_object());
+        for (id, value) in entries.into_iter().flatten() {
+            names.turn_to(section.name, id);
+            match (section.place)(value, &mut names, build) {
+                Ok(Some(placed)) => {
+                    let copies = |m: Option<u16>| m.and_then(|m| members.planets[m as usize]).map(|p| p.count);
+                    let planets = placed.between().into_iter().find_map(copies).unwrap_or(1.0);
+                    let common = value.get("count").and_then(serde_json::Value::as_f64).unwrap_or(1.0);
+                    let count = planets * common;
+                    parts.push(PartInfo {
+                        path: format!("{}.{id}", section.name),
+                        mechanism: mechanism.key,
+                        kind: PartKind::Component(components.len()),
+                        count,
+                        notes: placed.notes(),
+                    });
+                    components.push(Component {
+                        between: placed.between(),
+                        loaded: placed.loaded(),
+                        support: placed.support(),
+                        notes: placed.notes(),
+                        placed,
+                        count,
+                    });
+                }
+                Ok(None) => {}
+                Err(error) => found.push(error),
+            }
+        }
+    }
+    let (supports, clearances, more) = names.finish();
+    found.extend(more);
+    Placing {
+        components,
+        parts,
+        supports,
+        clearances,
+    }
+}
+
+fn mesh_models(
+    entry: &GearboxEntry,
+    meshes: &[MeshSeat],
+    oils: &mut OilNumbers<'_>,
+    build: &mut Build<'_>,
+    parts: &mut Vec<PartInfo>,
+    found: &mut Vec<Diagnostic>,
+) -> Vec<MeshModel> {
+    let mut models = Vec::new();
+    for (i, seat) in meshes.iter().enumerate() {
+        let Some(written) = seat.path.strip_prefix("meshes.").and_then(|id| entry.meshes.get(id)) else {
+            continue;
+        };
+        let part = MeshPart::new(seat.pair, seat.ra, seat.rq, written.elastic_modulus, written.poisson);
+        let part = Arc::new(part);
+        let none = ModelRef::<GearMesh>::new("none".into());
+        let choice = written.model.as_ref().unwrap_or(&none);
+        let common = Common {
+            lubricant: written.lubricant.clone(),
+            temperature_offset: written.temperature_offset,
+            ..Common::default()
+        };
+        let oil = oils.oil(&seat.path, &common);
+        match build.slot_at::<GearMesh>(&format!("{}.model", seat.path), &part, &choice.value) {
+            Ok(model) => {
+                parts.push(PartInfo {
+                    path: seat.path.clone(),
+                    mechanism: GearMesh::KEY,
+                    kind: PartKind::Mesh(i),
+                    count: seat.count,
+                    notes: model.notes,
+                });
+                models.push(MeshModel {
+                    seat: seat.clone(),
+                    part,
+                    model,
+                    oil: oil.unwrap_or(0),
+                });
+            }
+            Err(error) => found.push(error),
+        }
+    }
+    models
+}
+
+#[allow(clippy::too_many_arguments)]
+fn drags(
+    language: &Language,
+    entry: &GearboxEntry,
+    gears: &[GearSeat],
+    meshes: &[MeshSeat],
+    oils: &mut OilNumbers<'_>,
+    build: &mut Build<'_>,
+    parts: &mut Vec<PartInfo>,
+    found: &mut Vec<Diagnostic>,
+) -> Vec<DragModel> {
+    let common_of = |gear: usize| {
+        let written = &entry.gears.0[gear].1;
+        Common {
+            lubricant: written.lubricant.clone(),
+            temperature_offset: written.temperature_offset,
+            count: 1,
+        }
+    };
+    let levels: Vec<Level> = gears
+        .iter()
+        .enumerate()
+        .map(|(i, g)| {
+            entry.gears.0[i]
+                .1
+                .level
+                .map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
+        })
+        .collect();
+    let mut drags: Vec<DragModel> = Vec::new();
+    let mut covered: Vec<(Vec<usize>, String, Covers)> = Vec::new();
+    let mut add = |slots: Option<&DragSlots<GearDrag>>,
+                   of: &str,
+                   scope: Scope,
+                   seat: DragSeat,
+                   part: crate::mechanism::gear_drag::DragPart,
+                   common: &Common,
+                   own: Vec<usize>,
+                   drags: &mut Vec<DragModel>| {
+        let part = Arc::new(part);
+        for (slot, choice) in slots.into_iter().flat_map(|s| s.0.iter()) {
+            let path = format!("{of}.drag.{slot}");
+            let name = choice
+                .value
+                .as_str()
+                .or_else(|| choice.value["type"].as_str())
+                .unwrap_or("none");
+            if name == "none" {
+                continue;
+            }
+            let fits = language
+                .registry()
+                .model(GearDrag::KEY, name)
+                .is_none_or(|e| e.scope == scope);
+            if !fits {
+                let (where_it_is, section) = if scope == Scope::Gear {
+                    ("a gear", "meshes")
+                } else {
+                    ("a mesh", "gears")
+                };
+                found.push(
+                    Diagnostic::error(path, format!("`{name}` is not asked for {where_it_is}"))
+                        .mend(format!("write it in `{section}` or in `models`")),
+                );
+                continue;
+            }
+            let model = match build.slot_at::<GearDrag>(&path, &part, &choice.value) {
+                Ok(model) => model,
+                Err(error) => {
+                    found.push(error);
+                    continue;
+                }
+            };
+            let covers = model.covers().unwrap_or_else(|| named(slot));
+            for (others, other, already) in &covered {
+                let both = twice(covers, *already);
+                if !both.is_empty() && others.iter().any(|g| own.contains(g)) {
+                    found.push(
+                        Diagnostic::error(
+                            path.clone(),
+                            format!("{} is counted here and by `{other}`", both.join(" and ")),
+                        )
+                        .mend("switch one of them off with `none`"),
+                    );
+                }
+            }
+            // One model for several slots of one gear is compared with itself only once.
+            covered.push((own.clone(), path.clone(), covers));
+            let Some(oil) = oils.oil(of, common) else { continue };
+            parts.push(PartInfo {
+                path: path.clone(),
+                mechanism: GearDrag::KEY,
+                kind: PartKind::Drag(drags.len()),
+                count: seat.count,
+                notes: model.notes,
+            });
+            drags.push(DragModel {
+                seat: DragSeat { path, ..seat.clone() },
+                part: Arc::clone(&part),
+                model,
+                oil,
+            });
+        }
+    };
+    let radii = |gear: usize| [0.5 * gears[gear].diameters[1], 0.5 * gears[gear].diameters[0]];
+    for (i, gear) in gears.iter().enumerate() {
+        let Some(mesh) = meshes.iter().find(|m| m.gears.contains(&i)) else {
+            continue;
+        };
+        let seat = DragSeat {
+            path: String::new(),
+            members: [gear.member, gear.member],
+            pair: false,
+            radii: [radii(i), radii(i)],
+            levels: [levels[i], levels[i]],
+            mates: [mates(i, meshes), Vec::new()],
+            count: if mesh.carrier.is_some_and(|c| c != gear.member) && is_planet(entry, &gear.id) {
+                mesh.count
+            } else {
+                1.0
+            },
+        };
+        let path = format!("gears.{}", gear.id);
+        let slots = entry.gears.0[i].1.drag.as_ref();
+        add(
+            slots,
+            &path,
+            Scope::Gear,
+            seat,
+            part(entry, body(gear, i, mesh), None),
+            &common_of(i),
+            vec![i],
+            &mut drags,
+        );
+    }
+    for (number, mesh) in meshes.iter().enumerate() {
+        let [a, b] = mesh.gears;
+        let Some(written) = mesh.path.strip_prefix("meshes.").and_then(|id| entry.meshes.get(id)) else {
+            continue;
+        };
+        let seat = DragSeat {
+            path: String::new(),
+            members: mesh.members,
+            pair: true,
+            radii: [radii(a), radii(b)],
+            levels: [levels[a], levels[b]],
+            mates: [mates(a, meshes), mates(b, meshes)],
+            count: mesh.count,
+        };
+        let both = part(entry, body(&gears[a], a, mesh), Some(body(&gears[b], b, mesh)));
+        let common = Common {
+            lubricant: written.lubricant.clone(),
+            temperature_offset: written.temperature_offset,
+            ..Common::default()
+        };
+        // A model asked once for each mesh may meet a gear in several meshes without counting it twice: what it covers
+        // belongs to the mesh, numbered behind the gears.
+        add(
+            written.drag.as_ref(),
+            &mesh.path,
+            Scope::Mesh,
+            seat,
+            both,
+            &common,
+            vec![gears.len() + number],
+            &mut drags,
+        );
+    }
+    let is_mesh = |own: &Vec<usize>| own.first().is_some_and(|g| *g >= gears.len());
+    let mesh_covers = covered
+        .iter()
+        .filter(|(own, ..)| is_mesh(own))
+        .cloned()
+        .collect::<Vec<_>>();
+    for (_, mesh_path, mesh_cover) in &mesh_covers {
+        let Some(mesh) = meshes
+            .iter()
+            .find(|m| mesh_path.starts_with(&format!("{}.drag", m.path)))
+        else {
+            continue;
+        };
+        for (own, gear_path, gear_cover) in covered.iter().filter(|(own, ..)| !is_mesh(own)) {
+            let both = twice(*mesh_cover, *gear_cover);
+            if !both.is_empty() && own.iter().any(|g| mesh.gears.contains(g)) {
+                found.push(
+                    Diagnostic::error(
+                        mesh_path.clone(),
+                        format!("{} is counted here and by `{gear_path}`", both.join(" and ")),
+                    )
+                    .mend("switch one of them off with `none`"),
+                );
+            }
+        }
+    }
+    drags
+}
+
+fn is_planet(entry: &GearboxEntry, gear: &str) -> bool {
+    entry.gears.get(gear).is_some_and(|g| {
+        entry
+            .planetary_sets
+            .iter()
+            .any(|(_, set)| set.planets.contains(&g.shaft))
+    })
+}

@@ -1,0 +1,188 @@
+//! What a series of points has in common: gear state, ports with given speed, ports with given torque.
+
+use super::Transmission;
+use super::states::{all_ports, explain, prescribed};
+use crate::document::Diagnostic;
+use crate::flow::{Flow, FlowFault};
+use crate::kinematics::Motion;
+
+/// A gear state with its prescriptions, solved once.
+#[derive(Debug, Clone)]
+pub struct Case {
+    pub(crate) state: usize,
+    pub(crate) motion: Motion,
+    pub(crate) flow: Flow,
+    /// Ports with a given speed, in the order of a point's speeds.
+    pub speed_ports: Vec<usize>,
+    /// Ports with a given torque, in the order of a point's torques.
+    pub torque_ports: Vec<usize>,
+    /// Number of speeds and torques that rules add.
+    pub(crate) ruled_speeds: usize,
+    pub(crate) ruled_torques: usize,
+}
+
+impl Transmission {
+    /// Prepares a gear state for points that give speeds and torques at the named ports.
+    ///
+    /// Empty `speeds` means the state's own choice: as many ports as it has degrees of freedom, `input` first. Torques
+    /// must be as many as ports less degrees of freedom; more are dropped from the end of an automatic choice only by the
+    /// caller.
+    ///
+    /// # Errors
+    /// If ports are unknown, depend on each other, or are too many or too few.
+    pub fn case(&self, gear: &str, speeds: &[&str], torques: &[&str]) -> Result<Case, Vec<Diagnostic>> {
+        let index = self.state(gear).map_err(|e| vec![e])?;
+        let state = &self.states[index];
+        let path = format!("gear_states.{gear}");
+        let mut found = Vec::new();
+        let mut numbers = |names: &[&str]| -> Vec<usize> {
+            names
+                .iter()
+                .filter_map(|name| match self.port(name) {
+                    Ok(port) => Some(port),
+                    Err(error) => {
+                        found.push(error);
+                        None
+                    }
+                })
+                .collect()
+        };
+        let speed_ports = if speeds.is_empty() {
+            state.speed_ports.clone()
+        } else {
+            numbers(speeds)
+        };
+        let torque_ports = numbers(torques);
+        for (ports, what) in [(&speed_ports, "speed"), (&torque_ports, "torque")] {
+            for (i, port) in ports.iter().enumerate() {
+                if ports[..i].contains(port) {
+                    let name = &self.ports[*port].name;
+                    found.push(
+                        Diagnostic::error(path.clone(), format!("the {what} at `{name}` is given twice"))
+                            .mend("give it once"),
+                    );
+                }
+            }
+        }
+        for port in &speed_ports {
+            let member = self.ports[*port].member;
+            if state.standing.contains(&member) {
+                let name = &self.ports[*port].name;
+                found.push(
+                    Diagnostic::error(path.clone(), format!("`{name}` stands still in `{gear}`"))
+                        .mend("give no speed there, or take it out of `standstill`"),
+                );
+            }
+        }
+        if !found.is_empty() {
+            return Err(found);
+        }
+        let columns = all_ports(state, &self.ports);
+        let fixed = prescribed(state, &self.ports, &speed_ports);
+        // Where a point prescribes both sides of a differential, the rule of equal speeds gives way.
+        let (motion, equal) = match Motion::new(&state.train, &columns, &fixed) {
+            Ok(motion) => (motion, state.equal.clone()),
+            Err(faults) => {
+                let bare: Vec<usize> = fixed.iter().copied().filter(|c| !state.equal.contains(c)).collect();
+                let without: Vec<usize> = columns.iter().copied().filter(|c| !state.equal.contains(c)).collect();
+                match Motion::new(&state.train, &without, &bare) {
+                    Ok(motion) if !state.equal.is_empty() => (motion, Vec::new()),
+                    _ => {
+                        return Err(faults
+                            .iter()
+                            .map(|f| explain(f, state, &self.members, &self.ports, &path))
+                            .collect());
+                    }
+                }
+            }
+        };
+        let mut given: Vec<usize> = torque_ports.iter().map(|p| self.ports[*p].member).collect();
+        given.extend(equal.iter().copied());
+        let mut unknown: Vec<usize> = self
+            .ports
+            .iter()
+            .map(|p| p.member)
+            .filter(|m| !given.contains(m))
+            .collect();
+        unknown.extend(state.standing.iter().copied());
+        let flow = Flow::new(
+            &state.train,
+            state.meshes.clone(),
+            // A share counts where its meshes close a loop; in other states they carry torque alone.
+            state
+                .shares
+                .iter()
+                .filter(|s| {
+                    motion
+                        .loops
+                        .iter()
+                        .any(|rows| rows.contains(&s.a.0) && rows.contains(&s.b.0))
+                })
+                .copied()
+                .collect(),
+            &motion.loops,
+            unknown,
+            given,
+        )
+        .map_err(|fault| vec![self.flow_fault(&fault, state, equal.len(), &path)])?;
+        Ok(Case {
+            state: index,
+            motion,
+            flow,
+            ruled_speeds: state.standing.len() + equal.len(),
+            ruled_torques: equal.len(),
+            speed_ports,
+            torque_ports,
+        })
+    }
+
+    /// Number of torques that a point of a gear state must give.
+    pub fn torques_needed(&self, state: usize) -> usize {
+        let state = &self.states[state];
+        self.ports.len().saturating_sub(state.freedom + state.equal.len())
+    }
+
+    fn flow_fault(&self, fault: &FlowFault, state: &super::GearState, ruled: usize, path: &str) -> Diagnostic {
+        let names: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();
+        match fault {
+            FlowFault::Count { needed, given } => {
+                let (needed, given) = (needed.saturating_sub(ruled), given.saturating_sub(ruled));
+                let mend = if needed == 0 {
+                    format!("give no torque in `{}`: the drags decide all of them", state.name)
+                } else {
+                    format!("give {needed} of the torques at {}", names.join(", "))
+                };
+                Diagnostic::error(
+                    path,
+                    format!("`{}` takes {needed} given torques, not {given}", state.name),
+                )
+                .mend(mend)
+            }
+            FlowFault::Redundant { loops } => {
+                let rows: Vec<String> = loops
+                    .iter()
+                    .map(|rows| {
+                        rows.iter()
+                            .filter_map(|r| match state.rows.get(*r) {
+                                Some(super::states::RowName::Path(path)) => Some(path.as_str()),
+                                _ => None,
+                            })
+                            .collect::<Vec<_>>()
+                            .join(", ")
+                    })
+                    .collect();
+                Diagnostic::error(
+                    "torque_shares",
+                    format!("parallel paths share torque in `{}`, and nothing says how", state.name),
+                )
+                .note(format!("the loop: {}", rows.join("; ")))
+                .mend("add `torque_shares: [{ member: ..., meshes: [..., ...], parts: [0.5, 0.5] }]`")
+            }
+            FlowFault::Singular => Diagnostic::error(
+                path,
+                format!("the given torques depend on each other in `{}`", state.name),
+            )
+            .mend("give a torque at another port, or correct the torque shares"),
+        }
+    }
+}

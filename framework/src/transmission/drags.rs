@@ -1,0 +1,99 @@
+//! Drag models on gears and meshes: seats, parts, and that nothing is counted twice.
+
+use super::gearing::{GearSeat, MeshSeat};
+use crate::attach::Level;
+use crate::description::GearboxEntry;
+use crate::mechanism::gear_drag::{Covers, DragPart, GearBody};
+
+/// Where a drag model sits.
+#[derive(Debug, Clone)]
+pub struct DragSeat {
+    /// Path with the slot, such as `gears.G4.drag.churning`.
+    pub path: String,
+    /// Members of the gear or of both gears.
+    pub members: [usize; 2],
+    /// True for a mesh.
+    pub pair: bool,
+    /// Tip and reference radius of each gear. \[m\]
+    pub radii: [[f64; 2]; 2],
+    /// Height of the oil at each gear.
+    pub levels: [Level; 2],
+    /// Vectors from each gear's axis to the mates' side, y components: a gear's lowest point moves towards a mate where
+    /// speed times component is positive.
+    pub mates: [Vec<f64>; 2],
+    /// Number of equal copies.
+    pub count: f64,
+}
+
+/// Sides on which a gear's mates lie, as y components of the unit vectors.
+pub fn mates(gear: usize, meshes: &[MeshSeat]) -> Vec<f64> {
+    meshes
+        .iter()
+        .filter(|m| m.carrier.is_none())
+        .filter_map(|m| match m.gears {
+            [a, _] if a == gear => Some(m.direction[0]),
+            [_, b] if b == gear && !m.pair.internal => Some(-m.direction[0]),
+            _ => None,
+        })
+        .collect()
+}
+
+/// The body of a gear in one mesh.
+pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> GearBody {
+    let pair = &mesh.pair;
+    let side = usize::from(mesh.gears[0] != index);
+    // The pitch point lies at the working radius towards the mate.
+    let upwards = if side == 0 {
+        mesh.direction[1]
+    } else {
+        -pair.sign() * mesh.direction[1]
+    };
+    GearBody {
+        z: gear.z,
+        normal_module: pair.normal_module,
+        pressure_angle: pair.pressure_angle,
+        helix_angle: pair.helix_angle,
+        facewidth: gear.facewidth,
+        reference_diameter: pair.reference_diameter[side],
+        working_diameter: 2.0 * pair.working_radius[side],
+        tip_diameter: pair.tip_diameter[side],
+        root_diameter: pair.root_diameter[side],
+        contact_height: (pair.working_radius[side] * upwards + 0.5 * pair.tip_diameter[side]).max(0.0),
+    }
+}
+
+/// A part from the bodies and the housing.
+pub fn part(entry: &GearboxEntry, gear: GearBody, mate: Option<GearBody>) -> DragPart {
+    let housing = &entry.housing;
+    DragPart {
+        gear,
+        mate,
+        oil_volume: housing.oil.as_ref().and_then(|o| o.volume),
+        section_area: housing.section.map(|s| s.area),
+        section_perimeter: housing.section.map(|s| s.perimeter),
+        radial_clearance: housing.clearance.map(|c| c.radial),
+        axial_clearance: housing.clearance.map(|c| c.axial),
+    }
+}
+
+/// What a slot's name says that its model counts.
+pub fn named(slot: &str) -> Covers {
+    Covers {
+        churning: slot == "churning",
+        squeezing: slot == "squeezing",
+        windage: slot == "windage",
+    }
+}
+
+/// Names of the causes that two models both count.
+pub fn twice(a: Covers, b: Covers) -> Vec<&'static str> {
+    [
+        (a.churning && b.churning, "churning"),
+        (a.squeezing && b.squeezing, "squeezing"),
+        (a.windage && b.windage, "windage"),
+    ]
+    .into_iter()
+    .filter(|(both, _)| *both)
+    .map(|(_, name)| name)
+    .collect()
+}

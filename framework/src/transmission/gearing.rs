@@ -1,0 +1,346 @@
+//! Gears and meshes: geometry of every pair, checked against axes, hands and places.
+
+use super::members::Members;
+use crate::attach::dangling;
+use crate::description::{GearKind, GearboxEntry, gears::Hand};
+use crate::document::Diagnostic;
+use crate::geometry::{Pair, PairSpec};
+
+/// A gear with its geometry; SI.
+#[derive(Debug, Clone)]
+pub struct GearSeat {
+    /// Id.
+    pub id: String,
+    /// Member that it turns with.
+    pub member: usize,
+    /// Middle of the face along the shafts. \[m\]
+    pub at: f64,
+    /// Number of teeth.
+    pub z: u32,
+    /// Face width. \[m\]
+    pub facewidth: f64,
+    /// Internal teeth.
+    pub ring: bool,
+    /// Reference, tip and root diameter; zero without a mesh. \[m\]
+    pub diameters: [f64; 3],
+}
+
+/// A mesh with its members; SI.
+#[derive(Debug, Clone)]
+pub struct MeshSeat {
+    /// Path, such as `meshes.M1`.
+    pub path: String,
+    /// Numbers of both gears.
+    pub gears: [usize; 2],
+    /// Members of both gears.
+    pub members: [usize; 2],
+    /// Member that is the carrier; absent for axes fixed in the housing.
+    pub carrier: Option<usize>,
+    /// Number of equal copies.
+    pub count: f64,
+    /// Geometry.
+    pub pair: Pair,
+    /// Hand of the first gear: one right, minus one left, zero without net thrust.
+    pub hand: f64,
+    /// Unit vector in y and z from the axis of the first gear to the contact.
+    pub direction: [f64; 2],
+    /// Roughness Ra of both flanks. \[m\]
+    pub ra: [f64; 2],
+    /// Roughness Rq of both flanks. \[m\]
+    pub rq: [f64; 2],
+}
+
+/// Roughness of ground flanks that state none: Ra 0.4 um. \[m\]
+const USUAL_RA: f64 = 0.4e-6;
+
+/// Solves the geometry of all pairs.
+pub fn gearing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -> (Vec<GearSeat>, Vec<MeshSeat>) {
+    let mut gears: Vec<GearSeat> = entry
+        .gears
+        .iter()
+        .zip(&members.of_gear)
+        .map(|((id, gear), member)| GearSeat {
+            id: id.to_owned(),
+            member: member.unwrap_or(0),
+            at: gear.at,
+            z: gear.z,
+            facewidth: gear.facewidth,
+            ring: gear.kind == GearKind::Ring,
+            diameters: [0.0; 3],
+        })
+        .collect();
+    let ids: Vec<&str> = entry.gears.ids().collect();
+    let mut shifts: Vec<Option<f64>> = entry.gears.iter().map(|(_, g)| g.profile_shift).collect();
+    let mut hands: Vec<Option<f64>> = entry
+        .gears
+        .iter()
+        .map(|(_, g)| g.hand.map(|hand| if hand == Hand::Right { 1.0 } else { -1.0 }))
+        .collect();
+    let mut tips: Vec<Option<f64>> = entry.gears.iter().map(|(_, g)| g.tip_diameter).collect();
+    let mut pitches: Vec<Option<(f64, String)>> = vec![None; gears.len()];
+    let mut meshes = Vec::new();
+    for (id, mesh) in entry.meshes.iter() {
+        let path = format!("meshes.{id}");
+        let mut pair_of = [0; 2];
+        let mut known = true;
+        for (i, name) in mesh.gears.iter().enumerate() {
+            if let Some(gear) = entry.gears.index(name) {
+                pair_of[i] = gear;
+                known &= members.of_gear[gear].is_some();
+            } else {
+                known = false;
+                found.push(dangling(&format!("{path}.gears.{i}"), "gear", name, &ids));
+            }
+        }
+        if !known {
+            continue;
+        }
+        let [first, second] = pair_of;
+        if first == second {
+            found.push(
+                Diagnostic::error(format!("{path}.gears"), "a gear cannot mesh with itself").mend("name two gears"),
+            );
+            continue;
+        }
+        if gears[first].ring {
+            found.push(
+                Diagnostic::error(
+                    format!("{path}.gears"),
+                    format!("`{}` is a ring and stands first", gears[first].id),
+                )
+                .mend(format!("write gears: [{}, {}]", gears[second].id, gears[first].id)),
+            );
+            continue;
+        }
+        let sign = if gears[second].ring { -1.0 } else { 1.0 };
+        let at = |gear: usize| members.of_gear[gear].unwrap_or(0);
+        let bodies = [at(first), at(second)];
+        let carried = members.planets[bodies[0]].or(members.planets[bodies[1]]);
+        if let (Some(a), Some(b)) = (members.planets[bodies[0]], members.planets[bodies[1]])
+            && a.carrier != b.carrier
+        {
+            found.push(Diagnostic::error(
+                format!("{path}.gears"),
+                "the planets belong to different carriers",
+            ));
+            continue;
+        }
+        // Centre distance: from the axes, given, or from the shifts.
+        let axes = if carried.is_some() {
+            None
+        } else {
+            members.axes[bodies[0]].zip(members.axes[bodies[1]])
+        };
+        let between = axes.map(|(a, b)| [b[0] - a[0], b[1] - a[1]]);
+        let apart = between.map(|v| v[0].hypot(v[1]));
+        if let (Some(apart), Some(given)) = (apart, mesh.centre_distance)
+            && (apart / given - 1.0).abs() > 1e-4
+        {
+            found.push(
+                Diagnostic::error(
+                    format!("{path}.centre_distance"),
+                    format!(
+                        "the centre distance is {:.4} mm, but the axes lie {:.4} mm apart",
+                        given * 1e3,
+                        apart * 1e3
+                    ),
+                )
+                .mend("correct one of them, or leave `centre_distance` out"),
+            );
+            continue;
+        }
+        if carried.is_none() && axes.is_none() {
+            let on_planet = entry.planetary_sets.iter().any(|(_, set)| {
+                [first, second]
+                    .iter()
+                    .any(|g| set.planets.contains(&entry.gears.0[*g].1.shaft))
+            });
+            if on_planet {
+                found.push(
+                    Diagnostic::error(format!("{path}.gears"), "a gear on a planet body cannot be loose").mend(
+                        "leave `mounted: loose` out; a planet that turns on another planet is a shaft of its own",
+                    ),
+                );
+            }
+            continue;
+        }
+        let edge = |gear: &GearSeat, side: f64| gear.at + side * 0.5 * gear.facewidth;
+        let (a, b) = (&gears[first], &gears[second]);
+        let facewidth = edge(a, 1.0).min(edge(b, 1.0)) - edge(a, -1.0).max(edge(b, -1.0));
+        if facewidth <= 0.0 {
+            found.push(
+                Diagnostic::error(
+                    format!("{path}.gears"),
+                    format!(
+                        "`{}` and `{}` do not overlap: they lie {:.3} mm apart along the shafts",
+                        a.id,
+                        b.id,
+                        -facewidth * 1e3
+                    ),
+                )
+                .mend("correct `at` of one of them"),
+            );
+            continue;
+        }
+        let spec = PairSpec {
+            z: [a.z, b.z],
+            internal: sign < 0.0,
+            normal_module: mesh.normal_module,
+            pressure_angle: mesh.pressure_angle,
+            helix_angle: mesh.helix_angle,
+            centre_distance: mesh.centre_distance.or(apart),
+            profile_shift: [shifts[first], shifts[second]],
+            tip_diameter: [tips[first], tips[second]],
+            root_diameter: [first, second].map(|g| entry.gears.0[g].1.root_diameter),
+            facewidth,
+            tip_shortening: mesh.tip_shortening,
+        };
+        let pair = match Pair::new(&spec) {
+            Ok(pair) => pair,
+            Err(faults) => {
+                let mend =
+                    "check teeth, module, angles, centre distance, profile shifts and tip diameters of this pair";
+                found.extend(
+                    faults
+                        .iter()
+                        .map(|fault| Diagnostic::error(path.clone(), fault.to_string()).mend(mend)),
+                );
+                continue;
+            }
+        };
+        for (i, gear) in [first, second].into_iter().enumerate() {
+            shifts[gear] = Some(pair.profile_shift[i]);
+            tips[gear] = Some(pair.tip_diameter[i]);
+            match &pitches[gear] {
+                Some((pitch, other)) if (pair.base_pitch / pitch - 1.0).abs() > 1e-6 => found.push(
+                    Diagnostic::error(
+                        path.clone(),
+                        format!(
+                            "the base pitch is {:.5} mm, but `{other}` gives the same gear `{}` one of {:.5} mm",
+                            pair.base_pitch * 1e3,
+                            gears[gear].id,
+                            pitch * 1e3
+                        ),
+                    )
+                    .mend("give all meshes of a gear one module, pressure angle and helix angle"),
+                ),
+                Some(_) => {}
+                None => pitches[gear] = Some((pair.base_pitch, path.clone())),
+            }
+            gears[gear].diameters = [pair.reference_diameter[i], pair.tip_diameter[i], pair.root_diameter[i]];
+        }
+        let helix = if mesh.double_helical { 0.0 } else { mesh.helix_angle };
+        let hand = match hand_of(&path, helix, sign, [first, second], &gears, &mut hands) {
+            Ok(hand) => hand,
+            Err(error) => {
+                found.push(error);
+                continue;
+            }
+        };
+        let direction = match (between, apart) {
+            (Some(v), Some(apart)) => [sign * v[0] / apart, sign * v[1] / apart],
+            // In the frame of the carrier the planet lies on the y axis; its contact with another planet lies anywhere.
+            _ if sign < 0.0 => [1.0, 0.0],
+            _ => [
+                if members.planets[bodies[0]].is_some() {
+                    -1.0
+                } else {
+                    1.0
+                },
+                0.0,
+            ],
+        };
+        let surface = |gear: usize| entry.gears.0[gear].1.surface;
+        let ra = [first, second].map(|g| surface(g).map_or(USUAL_RA, |s| s.ra));
+        let rq = [first, second].map(|g| surface(g).map_or(1.25 * USUAL_RA, |s| s.rq.unwrap_or(1.25 * s.ra)));
+        meshes.push(MeshSeat {
+            path,
+            gears: [first, second],
+            members: bodies,
+            carrier: carried.map(|c| c.carrier),
+            count: carried.map_or(1.0, |c| c.count),
+            pair,
+            hand,
+            direction,
+            ra,
+            rq,
+        });
+    }
+    orbits(members, &meshes, found);
+    (gears, meshes)
+}
+
+/// The hand of the first gear; both gears of a helical pair get theirs.
+fn hand_of(
+    path: &str,
+    helix: f64,
+    sign: f64,
+    pair: [usize; 2],
+    gears: &[GearSeat],
+    hands: &mut [Option<f64>],
+) -> Result<f64, Diagnostic> {
+    if helix == 0.0 {
+        return Ok(0.0);
+    }
+    let [first, second] = pair;
+    // An external mate has the opposite hand, a ring its pinion's.
+    match (hands[first], hands[second]) {
+        (Some(a), Some(b)) if b != -sign * a => Err(Diagnostic::error(
+            format!("{path}.gears"),
+            format!(
+                "the hands of `{}` and `{}` do not fit",
+                gears[first].id, gears[second].id
+            ),
+        )
+        .mend(if sign > 0.0 {
+            "an external pair has opposite hands"
+        } else {
+            "a ring has the hand of its pinion"
+        })),
+        (Some(a), _) => {
+            hands[second] = Some(-sign * a);
+            Ok(a)
+        }
+        (None, Some(b)) => {
+            hands[first] = Some(-sign * b);
+            Ok(-sign * b)
+        }
+        (None, None) => Err(Diagnostic::error(
+            format!("gears.{}", gears[first].id),
+            "`hand` is missing on a helical gear",
+        )
+        .note(format!(
+            "`{path}` has a helix angle; its thrust goes one way or the other by the hand"
+        ))
+        .mend("add `hand: right` or `hand: left` to one gear of the pair")),
+    }
+}
+
+/// All meshes of a planet body with central gears share one radius of the orbit.
+fn orbits(members: &Members, meshes: &[MeshSeat], found: &mut Vec<Diagnostic>) {
+    for (body, planet) in members.planets.iter().enumerate() {
+        if planet.is_none() {
+            continue;
+        }
+        let mut own = meshes
+            .iter()
+            .filter(|m| m.members.contains(&body) && !m.members.iter().all(|b| members.planets[*b].is_some()))
+            .map(|m| (&m.path, m.pair.centre_distance));
+        let Some((path, distance)) = own.next() else { continue };
+        for (other, more) in own {
+            if (more / distance - 1.0).abs() > 1e-4 {
+                found.push(
+                    Diagnostic::error(
+                        format!("{other}.centre_distance"),
+                        format!(
+                            "the centre distance is {:.4} mm, that of `{path}` is {:.4} mm; a planet has one orbit",
+                            more * 1e3,
+                            distance * 1e3
+                        ),
+                    )
+                    .mend("give both meshes one centre distance; profile shifts close it"),
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Members: shafts and loose gears, with the planets among them.
+
+use crate::attach::dangling;
+use crate::description::{GearboxEntry, Mounting};
+use crate::document::Diagnostic;
+
+/// A planet body on its carrier.
+#[derive(Debug, Clone, Copy)]
+pub struct OnCarrier {
+    pub carrier: usize,
+    pub count: f64,
+}
+
+/// All members by name.
+pub struct Members {
+    /// Shafts in the order of the document, then loose gears.
+    pub names: Vec<String>,
+    /// Axis of each member, where it has one.
+    pub axes: Vec<Option<[f64; 2]>>,
+    /// Set for planet bodies.
+    pub planets: Vec<Option<OnCarrier>>,
+    /// True for loose gears.
+    pub loose: Vec<bool>,
+    /// Member of each gear, where its shaft exists.
+    pub of_gear: Vec<Option<usize>>,
+}
+
+impl Members {
+    pub fn new(entry: &GearboxEntry, found: &mut Vec<Diagnostic>) -> Self {
+        let mut names: Vec<String> = entry.shafts.ids().map(str::to_owned).collect();
+        let mut axes: Vec<Option<[f64; 2]>> = entry.shafts.iter().map(|(_, s)| s.axis).collect();
+        let shafts = names.clone();
+        let ids: Vec<&str> = shafts.iter().map(String::as_str).collect();
+        let mut of_gear = Vec::new();
+        let mut loose = vec![false; names.len()];
+        for (id, gear) in entry.gears.iter() {
+            let shaft = shafts.iter().position(|s| *s == gear.shaft);
+            if shaft.is_none() {
+                found.push(dangling(&format!("gears.{id}.shaft"), "shaft", &gear.shaft, &ids));
+            }
+            if gear.mounted == Mounting::Loose {
+                if shafts.iter().any(|s| s == id) {
+                    found.push(
+                        Diagnostic::error(format!("gears.{id}"), format!("`{id}` is a shaft and a loose gear"))
+                            .mend("rename one of them: both turn on their own"),
+                    );
+                }
+                of_gear.push(Some(names.len()));
+                names.push(id.to_owned());
+                axes.push(shaft.and_then(|s| axes[s]));
+                loose.push(true);
+            } else {
+                of_gear.push(shaft);
+            }
+        }
+        let mut planets = vec![None; names.len()];
+        for (id, set) in entry.planetary_sets.iter() {
+            let path = format!("planetary_sets.{id}");
+            let Some(carrier) = shafts.iter().position(|s| *s == set.carrier) else {
+                found.push(dangling(&format!("{path}.carrier"), "shaft", &set.carrier, &ids));
+                continue;
+            };
+            for planet in &set.planets {
+                match shafts.iter().position(|s| s == planet) {
+                    None => found.push(dangling(&format!("{path}.planets"), "shaft", planet, &ids)),
+                    Some(body) if body == carrier || planets[body].is_some() => found.push(
+                        Diagnostic::error(
+                            format!("{path}.planets"),
+                            format!("`{planet}` is the carrier, or a planet already"),
+                        )
+                        .mend("name each planet body once"),
+                    ),
+                    Some(body) => {
+                        planets[body] = Some(OnCarrier {
+                            carrier,
+                            count: f64::from(set.count),
+                        });
+                    }
+                }
+            }
+        }
+        for (i, name) in shafts.iter().enumerate() {
+            if axes[i].is_none() && planets[i].is_none() {
+                found.push(
+                    Diagnostic::error(format!("shafts.{name}"), "`axis` is missing")
+                        .mend("add `axis: [y, z]`; only a planet body has none, because its axis moves"),
+                );
+            }
+        }
+        Self {
+            names,
+            axes,
+            planets,
+            loose,
+            of_gear,
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Oils by number, and the height of the oil at every place.
+
+use super::members::Members;
+use crate::attach::{Level, Oil, Places, dangling};
+use crate::description::{GearboxEntry, Running};
+use crate::document::Diagnostic;
+use crate::immersion::upward;
+use crate::lubricant::Lubricant;
+use crate::registry::Common;
+use crate::table::clamped;
+
+/// Height of the sump over its datum while turning.
+#[derive(Debug, Clone)]
+pub enum Surface {
+    /// No oil level is stated.
+    Dry,
+    /// One height. \[m\]
+    Fixed(f64),
+    /// Heights over the speed of a member. \[m over rad/s\]
+    Over {
+        /// Member whose speed counts.
+        member: usize,
+        /// Rising speeds. \[rad/s\]
+        speeds: Vec<f64>,
+        /// Heights. \[m\]
+        levels: Vec<f64>,
+    },
+}
+
+/// All oils of a transmission and its sump.
+pub struct Oils {
+    lubricants: Vec<Lubricant>,
+    /// Lubricant, temperature node and offset of each oil.
+    spots: Vec<(usize, usize, f64)>,
+    surface: Surface,
+}
+
+impl Oils {
+    /// Height of the oil above the datum at given speeds. \[m\]
+    pub fn surface(&self, speeds: &[f64]) -> f64 {
+        match &self.surface {
+            Surface::Dry => f64::NEG_INFINITY,
+            Surface::Fixed(height) => *height,
+            Surface::Over {
+                member,
+                speeds: at,
+                levels,
+            } => clamped(at, levels, speeds[*member].abs()),
+        }
+    }
+
+    /// Writes the state of all oils at the temperatures of the nodes. \[degC\]
+    pub fn at(&self, temperatures: &[f64], oils: &mut [Oil]) {
+        for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
+            *oil = self.lubricants[*lubricant].at(temperatures[*node] + offset);
+        }
+    }
+
+    /// How the height of the sump is known.
+    pub fn surface_kind(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Number of oils.
+    pub fn len(&self) -> usize {
+        self.spots.len()
+    }
+
+    /// True without oils.
+    pub fn is_empty(&self) -> bool {
+        self.spots.is_empty()
+    }
+}
+
+/// Numbers oils while components are seated.
+pub struct OilNumbers<'a> {
+    names: Vec<&'a str>,
+    lubricants: Vec<Lubricant>,
+    spots: Vec<(usize, usize, f64)>,
+    default: Option<usize>,
+    /// True where the housing's oil dangles, which is reported once.
+    dangles: bool,
+    surface: Surface,
+    axes: &'a [Option<[f64; 2]>],
+    up: [f64; 3],
+    datum: [f64; 2],
+    pub findings: Vec<Diagnostic>,
+}
+
+impl<'a> OilNumbers<'a> {
+    pub fn new(entry: &'a GearboxEntry, members: &'a Members) -> Self {
+        let mut findings = Vec::new();
+        let names: Vec<&str> = entry.lubricants.ids().collect();
+        let mut lubricants = Vec::new();
+        for (id, lubricant) in entry.lubricants.iter() {
+            match Lubricant::new(lubricant) {
+                Ok(lubricant) => lubricants.push(lubricant),
+                Err((key, message, mend)) => {
+                    findings.push(Diagnostic::error(format!("lubricants.{id}.{key}"), message).mend(mend));
+                }
+            }
+        }
+        let broken = lubricants.len() < names.len();
+        let up = upward(entry.housing.grade, entry.housing.bank);
+        let shafts: Vec<&str> = members.names.iter().map(String::as_str).collect();
+        let mut datum = [0.0; 2];
+        let mut surface = Surface::Dry;
+        let mut default = None;
+        if let Some(oil) = &entry.housing.oil {
+            default = names.iter().position(|n| *n == oil.lubricant);
+            if default.is_none() {
+                findings.push(dangling("housing.oil.lubricant", "lubricant", &oil.lubricant, &names));
+            }
+            if let Some(from) = &oil.measured_from {
+                match shafts.iter().position(|s| s == from) {
+                    Some(member) => datum = members.axes[member].unwrap_or_default(),
+                    None => findings.push(dangling("housing.oil.measured_from", "shaft", from, &shafts)),
+                }
+            }
+            let offset = oil.level_offset;
+            surface = match (&oil.running_level, oil.level) {
+                (Some(Running::Height(height)), _) => Surface::Fixed(height + offset),
+                (Some(Running::Over(over)), _) => {
+                    let path = "housing.oil.running_level";
+                    let member = shafts.iter().position(|s| *s == over.shaft);
+                    if member.is_none() {
+                        findings.push(dangling(&format!("{path}.shaft"), "shaft", &over.shaft, &shafts));
+                    }
+                    if over.speeds.len() != over.levels.len() || over.speeds.windows(2).any(|w| w[1] <= w[0]) {
+                        findings.push(
+                            Diagnostic::error(path, "speeds and levels do not fit")
+                                .mend("give rising speeds and as many levels"),
+                        );
+                        Surface::Dry
+                    } else {
+                        Surface::Over {
+                            member: member.unwrap_or(0),
+                            speeds: over.speeds.clone(),
+                            levels: over.levels.iter().map(|l| l + offset).collect(),
+                        }
+                    }
+                }
+                (None, Some(level)) => Surface::Fixed(level + offset),
+                (None, None) => Surface::Dry,
+            };
+        } else if names.len() == 1 {
+            default = Some(0);
+        }
+        if names.is_empty() {
+            findings
+                .push(Diagnostic::error("lubricants", "no lubricant is described").mend(
+                    "add one, such as `lubricants: { sump: { viscosity: { kv40: 32 mm2/s, kv100: 6 mm2/s } } }`",
+                ));
+        }
+        if broken {
+            lubricants.clear();
+        }
+        Self {
+            names,
+            lubricants,
+            spots: Vec::new(),
+            default,
+            dangles: default.is_none() && entry.housing.oil.is_some(),
+            surface,
+            axes: &members.axes,
+            up,
+            datum,
+            findings,
+        }
+    }
+
+    pub fn finish(self) -> (Oils, Vec<Diagnostic>) {
+        (
+            Oils {
+                lubricants: self.lubricants,
+                spots: self.spots,
+                surface: self.surface,
+            },
+            self.findings,
+        )
+    }
+}
+
+impl Places for OilNumbers<'_> {
+    fn oil(&mut self, path: &str, common: &Common) -> Option<u16> {
+        let lubricant = match &common.lubricant {
+            Some(name) => {
+                let found = self.names.iter().position(|n| n == name);
+                if found.is_none() {
+                    self.findings
+                        .push(dangling(&format!("{path}.lubricant"), "lubricant", name, &self.names));
+                }
+                found?
+            }
+            None => match self.default {
+                Some(default) => default,
+                None if self.dangles => return None,
+                None => {
+                    self.findings.push(
+                        Diagnostic::error(path, "no oil: the housing names none")
+                            .mend("add `housing: { oil: { lubricant: ... } }`, or `lubricant:` here"),
+                    );
+                    return None;
+                }
+            },
+        };
+        let spot = (lubricant, 0, common.temperature_offset);
+        let number = self.spots.iter().position(|s| *s == spot).unwrap_or_else(|| {
+            self.spots.push(spot);
+            self.spots.len() - 1
+        });
+        Some(number as u16)
+    }
+
+    fn level(&self, member: Option<u16>, at: f64) -> Level {
+        if matches!(self.surface, Surface::Dry) {
+            return Level::Dry;
+        }
+        let Some([y, z]) = member.and_then(|m| self.axes[m as usize]) else {
+            return Level::Dry;
+        };
+        let height = self.up[0] * at + self.up[1] * (y - self.datum[0]) + self.up[2] * (z - self.datum[1]);
+        Level::Sump {
+            height,
+            slope: 1.0 / self.up[1].hypot(self.up[2]),
+        }
+    }
+}

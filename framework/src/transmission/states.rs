@@ -1,0 +1,361 @@
+//! Gear states: constraint rows, degrees of freedom, and which ports may prescribe what.
+
+use super::gearing::MeshSeat;
+use super::members::Members;
+use crate::attach::{SeatedClearance, dangling};
+use crate::description::GearboxEntry;
+use crate::document::Diagnostic;
+use crate::flow::{MeshRow, Share};
+use crate::kinematics::{Fault, Motion, Row, Train};
+
+/// What a row is, for messages.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RowName {
+    /// A mesh or a differential, by path.
+    Path(String),
+    /// The rule that both sides of a differential turn at one speed.
+    Equal(String),
+}
+
+/// One gear state.
+#[derive(Debug, Clone)]
+pub struct GearState {
+    /// Name.
+    pub name: String,
+    /// Engaged couplings and clutches.
+    pub engaged: Vec<String>,
+    /// Columns and rows.
+    pub(crate) train: Train,
+    pub(crate) rows: Vec<RowName>,
+    pub(crate) meshes: Vec<MeshRow>,
+    pub(crate) shares: Vec<Share>,
+    /// Columns whose speed is prescribed by a rule, with given torque zero: differences of differentials.
+    pub(crate) equal: Vec<usize>,
+    /// Columns that stand still by rule, with a support torque.
+    pub(crate) standing: Vec<usize>,
+    /// Ports that prescribe the speeds of this state unless a point says otherwise.
+    pub speed_ports: Vec<usize>,
+    /// Degrees of freedom, without those that rules prescribe.
+    pub freedom: usize,
+}
+
+/// Builds and checks every gear state.
+pub fn states(
+    entry: &GearboxEntry,
+    members: &Members,
+    meshes: &[MeshSeat],
+    clearances: &[SeatedClearance],
+    ports: &[super::Port],
+    found: &mut Vec<Diagnostic>,
+) -> Vec<GearState> {
+    let mut base = Train {
+        columns: members.names.len(),
+        rows: Vec::new(),
+    };
+    let mut names = Vec::new();
+    let mut mesh_rows = Vec::new();
+    for mesh in meshes {
+        let [z1, z2] = mesh.pair.z.map(f64::from);
+        let row = MeshRow {
+            row: base.rows.len(),
+            first: Some(mesh.members[0]),
+            z1,
+            second: Some(mesh.members[1]),
+            sz2: mesh.pair.sign() * z2,
+            carrier: mesh.carrier,
+        };
+        base.rows
+            .push(Row::mesh(row.first, row.z1, row.second, row.sz2, row.carrier));
+        names.push(RowName::Path(mesh.path.clone()));
+        mesh_rows.push(row);
+    }
+    let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
+    let mut equal = Vec::new();
+    for (id, differential) in entry.differentials.iter() {
+        let path = format!("differentials.{id}");
+        let mut member = |key: &str, name: &str| {
+            let index = ids.iter().position(|m| *m == name);
+            if index.is_none() {
+                found.push(dangling(&format!("{path}.{key}"), "shaft", name, &ids));
+            }
+            index
+        };
+        let case = member("case", &differential.case);
+        let left = member("left", &differential.left);
+        let right = member("right", &differential.right);
+        let (Some(case), Some(left), Some(right)) = (case, left, right) else {
+            continue;
+        };
+        base.rows.push(Row::mesh(Some(left), 1.0, Some(right), 1.0, Some(case)));
+        names.push(RowName::Path(path.clone()));
+        if differential.equal_speeds {
+            let column = base.columns;
+            base.columns += 1;
+            base.rows.push(Row::difference(left, right, column));
+            names.push(RowName::Equal(path));
+            equal.push(column);
+        }
+    }
+    let shares = shares(entry, members, meshes, &mesh_rows, found);
+    let written: Vec<(String, Vec<String>, Vec<String>)> = if entry.gear_states.is_empty() {
+        vec![("only".to_owned(), Vec::new(), Vec::new())]
+    } else {
+        entry
+            .gear_states
+            .iter()
+            .map(|(name, s)| (name.to_owned(), s.engaged().to_vec(), s.standstill().to_vec()))
+            .collect()
+    };
+    let closable: Vec<&str> = clearances.iter().map(|c| c.id.as_str()).collect();
+    let mut states = Vec::new();
+    for (name, engaged, standstill) in written {
+        let path = format!("gear_states.{name}");
+        let before = found.len();
+        let mut state = GearState {
+            name,
+            engaged: engaged.clone(),
+            train: base.clone(),
+            rows: names.clone(),
+            meshes: mesh_rows.clone(),
+            shares: shares.clone(),
+            equal: equal.clone(),
+            standing: Vec::new(),
+            speed_ports: Vec::new(),
+            freedom: 0,
+        };
+        for id in &engaged {
+            match clearances.iter().find(|c| c.id == *id) {
+                Some(clearance) => {
+                    let [a, b] = clearance.between.map(|m| m.map(usize::from));
+                    state.train.rows.push(Row::joined(a, b));
+                    state.rows.push(RowName::Path(clearance.path.clone()));
+                }
+                None => found.push(dangling(&path, "coupling, clutch or brake", id, &closable)),
+            }
+        }
+        for id in &standstill {
+            match ids.iter().position(|m| m == id) {
+                Some(member) => state.standing.push(member),
+                None => found.push(dangling(&format!("{path}.standstill"), "shaft or loose gear", id, &ids)),
+            }
+        }
+        if found.len() == before {
+            choose_ports(&mut state, ports, members, &path, found);
+        }
+        states.push(state);
+    }
+    states
+}
+
+/// Chooses the ports that prescribe speeds: the reference port first, then the others in their order.
+fn choose_ports(
+    state: &mut GearState,
+    ports: &[super::Port],
+    members: &Members,
+    path: &str,
+    found: &mut Vec<Diagnostic>,
+) {
+    let ruled = state.equal.len() + state.standing.len();
+    let freedom = Motion::freedom(&state.train);
+    let columns: Vec<usize> = all_ports(state, ports);
+    let mut order: Vec<usize> = (0..ports.len()).collect();
+    order.sort_by_key(|i| (ports[*i].name != "input", *i));
+    let mut chosen: Vec<usize> = Vec::new();
+    let mut faults = None;
+    let count = freedom.saturating_sub(ruled);
+    for &port in &order {
+        let mut more = chosen.clone();
+        more.push(port);
+        match Motion::new(&state.train, &columns, &prescribed(state, ports, &more)) {
+            Ok(_) => {
+                chosen = more;
+                faults = None;
+                break;
+            }
+            Err(list) => {
+                // A port that the others decide, or that is held, is no choice; a free member may still find its port.
+                let member = ports[port].member;
+                let useless = list.iter().any(|f| match f {
+                    Fault::Tied { .. } => more.len() > 1,
+                    Fault::Locked { port, .. } => *port == member && count > 0,
+                    Fault::Under { .. } => false,
+                });
+                if !useless {
+                    chosen = more;
+                    faults = Some(list);
+                } else if faults.is_none() {
+                    faults = Some(list);
+                }
+            }
+        }
+    }
+    if let Some(list) = faults {
+        let names: Vec<String> = members.names.clone();
+        found.extend(list.iter().map(|fault| explain(fault, state, &names, ports, path)));
+    }
+    state.freedom = count;
+    state.speed_ports = chosen;
+}
+
+/// Columns at which speeds may be prescribed.
+pub(crate) fn all_ports(state: &GearState, ports: &[super::Port]) -> Vec<usize> {
+    ports
+        .iter()
+        .map(|p| p.member)
+        .chain(state.equal.iter().copied())
+        .chain(state.standing.iter().copied())
+        .collect()
+}
+
+/// Columns whose speeds some ports and the rules prescribe.
+pub(crate) fn prescribed(state: &GearState, ports: &[super::Port], chosen: &[usize]) -> Vec<usize> {
+    let mut columns: Vec<usize> = chosen.iter().map(|p| ports[*p].member).collect();
+    columns.extend(state.standing.iter().copied());
+    columns.extend(state.equal.iter().copied());
+    columns
+}
+
+/// A fault of kinematics in words.
+pub(crate) fn explain(
+    fault: &Fault,
+    state: &GearState,
+    members: &[String],
+    ports: &[super::Port],
+    path: &str,
+) -> Diagnostic {
+    let name = |column: &usize| {
+        members
+            .get(*column)
+            .cloned()
+            .unwrap_or_else(|| "a difference of speeds".to_owned())
+    };
+    let list = |columns: &[usize]| columns.iter().map(name).collect::<Vec<_>>().join(", ");
+    let row = |row: &usize| match state.rows.get(*row) {
+        Some(RowName::Path(path)) => path.clone(),
+        Some(RowName::Equal(path)) => format!("equal speeds of {path}"),
+        None => String::new(),
+    };
+    let rows = |rows: &[usize]| rows.iter().map(row).collect::<Vec<_>>().join(", ");
+    let port = |column: &usize| {
+        ports
+            .iter()
+            .find(|p| p.member == *column)
+            .map_or_else(|| name(column), |p| p.name.clone())
+    };
+    match fault {
+        Fault::Under { columns, ports: among } => {
+            let error = Diagnostic::error(
+                path,
+                format!("{} can turn freely against the rest in `{}`", list(columns), state.name),
+            );
+            if among.is_empty() {
+                error.mend(format!(
+                    "engage a coupling, or write `{}: {{ engaged: [...], standstill: [{}] }}`",
+                    state.name,
+                    columns.first().map(name).unwrap_or_default()
+                ))
+            } else {
+                error.mend(format!(
+                    "prescribe the speed of {}, too",
+                    among.iter().map(port).collect::<Vec<_>>().join(" or ")
+                ))
+            }
+        }
+        Fault::Tied {
+            port: tied,
+            others,
+            rows: by,
+        } => {
+            let ratios: Vec<String> = others
+                .iter()
+                .map(|(c, r)| format!("{} (ratio {:.6})", port(c), 1.0 / r))
+                .collect();
+            Diagnostic::error(
+                path,
+                format!(
+                    "the speed of {} follows from that of {} in `{}`",
+                    port(tied),
+                    ratios.join(" and "),
+                    state.name
+                ),
+            )
+            .note(format!("tied by {}", rows(by)))
+            .mend("prescribe one of them")
+        }
+        Fault::Locked { port: locked, rows: by } => {
+            Diagnostic::error(path, format!("{} cannot turn in `{}`", port(locked), state.name))
+                .note(format!("locked by {}", rows(by)))
+                .mend("engage fewer couplings, or correct the tooth numbers of the loop")
+        }
+    }
+}
+
+fn shares(
+    entry: &GearboxEntry,
+    members: &Members,
+    meshes: &[MeshSeat],
+    rows: &[MeshRow],
+    found: &mut Vec<Diagnostic>,
+) -> Vec<Share> {
+    let mut shares = Vec::new();
+    let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
+    let known: Vec<&str> = entry.meshes.ids().collect();
+    for (i, share) in entry.torque_shares.iter().enumerate() {
+        let path = format!("torque_shares.{i}");
+        let Some(member) = ids.iter().position(|m| *m == share.member) else {
+            found.push(dangling(
+                &format!("{path}.member"),
+                "shaft or loose gear",
+                &share.member,
+                &ids,
+            ));
+            continue;
+        };
+        let sum: f64 = share.parts.iter().sum();
+        if share.parts.len() != share.meshes.len() || (sum - 1.0).abs() > 1e-9 || share.parts.iter().any(|p| *p <= 0.0)
+        {
+            found.push(
+                Diagnostic::error(
+                    format!("{path}.parts"),
+                    format!("{} parts with the sum {sum}", share.parts.len()),
+                )
+                .mend("give a part above zero for each mesh; together they are one"),
+            );
+            continue;
+        }
+        let numbers: Vec<Option<usize>> = share
+            .meshes
+            .iter()
+            .map(|name| {
+                let number = meshes.iter().position(|m| m.path == format!("meshes.{name}"));
+                match number {
+                    Some(number) if meshes[number].members.contains(&member) => Some(number),
+                    Some(_) => {
+                        found.push(
+                            Diagnostic::error(
+                                format!("{path}.meshes"),
+                                format!("`{name}` has no gear on `{}`", share.member),
+                            )
+                            .mend("name meshes of this member"),
+                        );
+                        None
+                    }
+                    None => {
+                        found.push(dangling(&format!("{path}.meshes"), "mesh", name, &known));
+                        None
+                    }
+                }
+            })
+            .collect();
+        for k in 1..numbers.len() {
+            if let (Some(a), Some(b)) = (numbers[0], numbers[k]) {
+                shares.push(Share {
+                    member,
+                    a: (rows[a].row, share.parts[0]),
+                    b: (rows[b].row, share.parts[k]),
+                });
+            }
+        }
+    }
+    shares
+}

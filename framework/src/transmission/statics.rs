@@ -1,0 +1,406 @@
+//! From seated supports and meshes to shaft loads; load factors and imported loads.
+
+use std::collections::BTreeMap;
+
+use super::gearing::MeshSeat;
+use super::members::Members;
+use crate::attach::{Axial, Factor, SeatedSupport, dangling};
+use crate::description::GearboxEntry;
+use crate::document::Diagnostic;
+use crate::loads::{
+    Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
+};
+use crate::table::clamped;
+
+/// Gravity. \[m/s2\]
+const GRAVITY: f64 = 9.80665;
+
+/// A factor as a constant or over the torque of a port.
+#[derive(Debug, Clone)]
+pub enum LoadFactor {
+    Constant(f64),
+    Over {
+        port: usize,
+        torques: Vec<f64>,
+        factors: Vec<f64>,
+    },
+}
+
+/// Radial and axial factor of one support.
+#[derive(Debug, Clone)]
+pub struct LoadFactors {
+    pub radial: LoadFactor,
+    pub axial: LoadFactor,
+}
+
+impl LoadFactor {
+    /// The factor at the torques of all ports, by number.
+    pub fn at(&self, torque: impl Fn(usize) -> f64) -> f64 {
+        match self {
+            Self::Constant(factor) => *factor,
+            Self::Over { port, torques, factors } => clamped(torques, factors, torque(*port).abs()),
+        }
+    }
+}
+
+/// Loads of supports from a file, over the torque of a port, by gear state.
+#[derive(Debug, Clone)]
+pub struct Imported {
+    pub port: usize,
+    /// For each gear state and support: rising torques with radial, axial and tilting load.
+    pub tables: Vec<Vec<Option<Vec<(f64, [f64; 3])>>>>,
+}
+
+impl Imported {
+    /// Replaces the load of a support where the file has it.
+    pub fn load(&self, state: usize, support: usize, torque: f64) -> Option<SupportLoad> {
+        let rows = self.tables[state][support].as_ref()?;
+        let value = |k: usize| {
+            let i = rows.partition_point(|r| r.0 <= torque).clamp(1, rows.len() - 1);
+            let ((a, low), (b, high)) = (rows[i - 1], rows[i]);
+            let t = ((torque - a) / (b - a)).clamp(0.0, 1.0);
+            low[k] + t * (high[k] - low[k])
+        };
+        Some(SupportLoad {
+            radial: value(0),
+            axial: value(1),
+            tilting: value(2),
+            untaken: 0.0,
+        })
+    }
+}
+
+/// The layout for statics.
+pub fn shaft_loads(
+    entry: &GearboxEntry,
+    members: &Members,
+    meshes: &[MeshSeat],
+    supports: &[SeatedSupport],
+    found: &mut Vec<Diagnostic>,
+    warnings: &mut Vec<Diagnostic>,
+) -> Option<ShaftLoads> {
+    let mut layout = Layout::default();
+    let up = crate::immersion::upward(entry.housing.grade, entry.housing.bank);
+    for (i, name) in members.names.iter().enumerate() {
+        let mut member = MemberLayout {
+            loose: members.loose[i],
+            ..MemberLayout::default()
+        };
+        if let Some(shaft) = entry.shafts.get(name).filter(|_| !members.loose[i]) {
+            if shaft.mass > 0.0 && members.planets[i].is_none() {
+                match shaft.mass_at {
+                    Some(at) => member.forces.push((at, up.map(|u| -u * shaft.mass * GRAVITY))),
+                    None => found.push(
+                        Diagnostic::error(format!("shafts.{name}"), "a mass without `mass_at`")
+                            .mend("add `mass_at:`, the place of the centre of mass along the shaft"),
+                    ),
+                }
+            }
+            for load in &shaft.loads {
+                member.forces.push((load.at, load.force));
+                member.moments.push((load.at, load.moment));
+            }
+            member.hinges.clone_from(&shaft.hinges);
+            member.shear = shaft.shear_deformation;
+            for (k, s) in shaft.sections.iter().enumerate() {
+                if s.to <= s.from || s.inner >= s.outer {
+                    found.push(
+                        Diagnostic::error(
+                            format!("shafts.{name}.sections.{k}"),
+                            "the section has no length or no wall",
+                        )
+                        .mend("write `from` below `to` and `inner` below `outer`"),
+                    );
+                }
+                member.sections.push(Section {
+                    range: [s.from, s.to],
+                    outer: s.outer,
+                    inner: s.inner,
+                });
+            }
+            if let Some(planet) = members.planets[i] {
+                let orbit = meshes
+                    .iter()
+                    .find(|m| m.members.contains(&i) && !m.members.iter().all(|b| members.planets[*b].is_some()))
+                    .map_or(0.0, |m| m.pair.centre_distance);
+                member.planet = Some(PlanetBody {
+                    carrier: planet.carrier,
+                    orbit,
+                    count: planet.count,
+                    mass: shaft.mass,
+                });
+            }
+        }
+        layout.members.push(member);
+    }
+    for support in supports {
+        let place = &support.place;
+        layout.supports.push(SupportLayout {
+            inner: support.inner as usize,
+            outer: support.outer.map(usize::from),
+            at: place.at,
+            axial: place.axial,
+            share: place.axial_share,
+            spring: place.spring_preload,
+            takes_moment: place.takes_moment,
+            radial_stiffness: place.radial_stiffness,
+            tilting_stiffness: place.tilting_stiffness,
+            induced: place.induced_thrust,
+        });
+        if let Some(outer) = support.outer {
+            let axes = [support.inner as usize, outer as usize].map(|m| members.axes[m]);
+            if let [Some(a), Some(b)] = axes
+                && (a[0] - b[0]).hypot(a[1] - b[1]) > 1e-6
+            {
+                found.push(
+                    Diagnostic::error(
+                        &support.path,
+                        format!(
+                            "`{}` and `{}` do not lie on one axis",
+                            members.names[support.inner as usize], members.names[outer as usize]
+                        ),
+                    )
+                    .mend("give both members one axis"),
+                );
+            }
+        }
+    }
+    for mesh in meshes {
+        let central = mesh
+            .members
+            .map(|m| mesh.carrier.is_some() && members.planets[m].is_none());
+        layout.meshes.push(MeshLayout {
+            members: mesh.members,
+            at: 0.0,
+            radius: mesh.pair.working_radius,
+            sign: mesh.pair.sign(),
+            direction: mesh.direction,
+            tan_alpha: mesh.pair.working_angle.tan(),
+            hand_tan_beta: mesh.hand * mesh.pair.working_helix.tan(),
+            count: mesh.count,
+            central,
+        });
+    }
+    for (mesh, seat) in layout.meshes.iter_mut().zip(meshes) {
+        // The force acts in the middle of the face that both gears share.
+        let [a, b] = seat.gears.map(|g| &entry.gears.0[g].1);
+        let left = (a.at - 0.5 * a.facewidth).max(b.at - 0.5 * b.facewidth);
+        let right = (a.at + 0.5 * a.facewidth).min(b.at + 0.5 * b.facewidth);
+        mesh.at = if (a.at - b.at).abs() < 1e-9 {
+            a.at
+        } else {
+            0.5 * (left + right)
+        };
+    }
+    warn(members, &layout, warnings);
+    match ShaftLoads::new(&layout) {
+        Ok(loads) => Some(loads),
+        Err(faults) => {
+            let path = |s: &usize| supports[*s].path.clone();
+            found.extend(faults.iter().map(|fault| explain(fault, members, &path)));
+            None
+        }
+    }
+}
+
+/// Warns of members that nothing carries and of thrust that nothing takes one way.
+fn warn(members: &Members, layout: &Layout, warnings: &mut Vec<Diagnostic>) {
+    for (i, name) in members.names.iter().enumerate() {
+        let section = if members.loose[i] { "gears" } else { "shafts" };
+        let path = format!("{section}.{name}");
+        let own: Vec<&SupportLayout> = layout
+            .supports
+            .iter()
+            .filter(|s| s.inner == i || s.outer == Some(i))
+            .collect();
+        let loaded = layout
+            .meshes
+            .iter()
+            .enumerate()
+            .filter(|(_, m)| (0..2).any(|g| m.members[g] == i && !m.central[g]))
+            .count();
+        if own.is_empty() && loaded > 0 {
+            warnings.push(
+                Diagnostic::warning(
+                    path,
+                    "no support carries it, so its bearing loads and losses are not counted",
+                )
+                .mend("add its bearings; `model: none` switches their loss off"),
+            );
+            continue;
+        }
+        let helical = layout
+            .meshes
+            .iter()
+            .any(|m| m.members.contains(&i) && m.hand_tan_beta != 0.0);
+        if helical && !members.loose[i] && !own.is_empty() {
+            for (side, words) in [(Axial::Right, "greater"), (Axial::Left, "smaller")] {
+                let taken = own.iter().any(|s| s.axial == side || s.axial == Axial::Both);
+                if !taken {
+                    warnings.push(
+                        Diagnostic::warning(path.clone(), format!("no bearing takes thrust towards {words} places"))
+                            .mend("set `axial:` of a bearing to left, right or both"),
+                    );
+                }
+            }
+        }
+    }
+}
+
+fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String) -> Diagnostic {
+    let name = |m: usize| &members.names[m];
+    let list = |supports: &[usize]| supports.iter().map(path).collect::<Vec<_>>().join(", ");
+    let at = |m: usize| format!("{}.{}", if members.loose[m] { "gears" } else { "shafts" }, name(m));
+    match fault {
+        LoadFault::Cycle { members: circle } => {
+            let names: Vec<&str> = circle.iter().map(|m| name(*m).as_str()).collect();
+            Diagnostic::error("bearings", format!("{} carry each other in a circle", names.join(", ")))
+                .mend("one of them needs a bearing in the housing; exchange `shaft` and `outer` of a bearing")
+        }
+        LoadFault::Mechanism { member, supports } => Diagnostic::error(
+            at(*member),
+            format!(
+                "`{}` can tilt or move on its supports: {}",
+                name(*member),
+                list(supports)
+            ),
+        )
+        .mend("give it two bearings at different places, or one alone with `takes_moment: true`"),
+        LoadFault::AxialIndeterminate {
+            member,
+            supports,
+            right,
+        } => {
+            let words = if *right { "greater" } else { "smaller" };
+            Diagnostic::error(
+                at(*member),
+                format!(
+                    "several bearings of `{}` take thrust towards {words} places: {}",
+                    name(*member),
+                    list(supports)
+                ),
+            )
+            .mend("leave it to one of them by `axial:`, or state `axial_share` of each")
+        }
+        LoadFault::NoSection { member, range } => Diagnostic::error(
+            format!("{}.sections", at(*member)),
+            format!(
+                "no diameters between {:.3} mm and {:.3} mm",
+                range[0] * 1e3,
+                range[1] * 1e3
+            ),
+        )
+        .note(
+            "more than two supports, a hinge or a tilting stiffness: the stiffness of the shaft decides the loads"
+                .to_owned(),
+        )
+        .mend("add `sections: [{ from: ..., to: ..., outer: ... }]`"),
+        LoadFault::MomentAtHinge { member, at: place } => Diagnostic::error(
+            format!("{}.hinges", at(*member)),
+            format!(
+                "a load acts at the hinge at {:.3} mm, where its moment would be ambiguous",
+                place * 1e3
+            ),
+        )
+        .mend("move the hinge or the load"),
+    }
+}
+
+/// Load factors of all supports.
+pub fn load_factors(
+    supports: &[SeatedSupport],
+    ports: &[super::Port],
+    found: &mut Vec<Diagnostic>,
+) -> Vec<LoadFactors> {
+    let names: Vec<&str> = ports.iter().map(|p| p.name.as_str()).collect();
+    let mut read = |path: String, factor: &Factor| match factor {
+        Factor::Constant(factor) => LoadFactor::Constant(*factor),
+        Factor::Over(over) => {
+            let port = names.iter().position(|n| *n == over.port);
+            if port.is_none() {
+                found.push(dangling(&format!("{path}.port"), "port", &over.port, &names));
+            }
+            if over.torques.len() != over.factors.len() || over.torques.windows(2).any(|w| w[1] <= w[0]) {
+                found.push(
+                    Diagnostic::error(path, "torques and factors do not fit")
+                        .mend("give rising torques and as many factors"),
+                );
+                return LoadFactor::Constant(1.0);
+            }
+            LoadFactor::Over {
+                port: port.unwrap_or(0),
+                torques: over.torques.clone(),
+                factors: over.factors.clone(),
+            }
+        }
+    };
+    supports
+        .iter()
+        .map(|s| LoadFactors {
+            radial: read(format!("{}.radial_factor", s.path), &s.place.radial_factor),
+            axial: read(format!("{}.axial_factor", s.path), &s.place.axial_factor),
+        })
+        .collect()
+}
+
+/// Reads imported loads.
+pub fn imported(
+    text: &str,
+    file: &str,
+    port: usize,
+    states: &[String],
+    supports: &[SeatedSupport],
+) -> Result<Imported, Diagnostic> {
+    let fault = |reason: String| Diagnostic::error("imported_loads.file", format!("{file}: {reason}"));
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let header = reader.headers().map_err(|e| fault(e.to_string()))?.clone();
+    let column = |name: &str| header.iter().position(|h| h == name);
+    let need = |name: &str| column(name).ok_or_else(|| fault(format!("line 1: no column `{name}`")));
+    let (gear, component) = (need("gear")?, need("component")?);
+    let (torque, radial, axial) = (need("torque [Nm]")?, need("radial [N]")?, need("axial [N]")?);
+    let tilting = column("tilting [Nm]");
+    let mut rows: BTreeMap<(usize, usize), Vec<(f64, [f64; 3])>> = BTreeMap::new();
+    for record in reader.records() {
+        let record = record.map_err(|e| fault(e.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |i: usize| -> Result<f64, Diagnostic> {
+            let cell = record.get(i).unwrap_or_default();
+            let value = cell.parse::<f64>().ok().filter(|x| x.is_finite());
+            value.ok_or_else(|| {
+                fault(format!(
+                    "line {line}, column `{}`: `{cell}` is not a number",
+                    &header[i]
+                ))
+            })
+        };
+        let name = record.get(gear).unwrap_or_default();
+        let state = states
+            .iter()
+            .position(|s| s == name)
+            .ok_or_else(|| fault(format!("line {line}: no gear state is called `{name}`")))?;
+        let name = record.get(component).unwrap_or_default();
+        let support = supports
+            .iter()
+            .position(|s| s.path.rsplit('.').next() == Some(name))
+            .ok_or_else(|| fault(format!("line {line}: no bearing is called `{name}`")))?;
+        let tilt = tilting.map_or(Ok(0.0), number)?;
+        rows.entry((state, support))
+            .or_default()
+            .push((number(torque)?, [number(radial)?.abs(), number(axial)?.abs(), tilt]));
+    }
+    let mut tables = vec![vec![None; supports.len()]; states.len()];
+    for ((state, support), mut list) in rows {
+        list.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if list.len() < 2 || list.windows(2).any(|w| w[1].0 <= w[0].0) {
+            return Err(fault(format!(
+                "{} in `{}` needs two or more different torques",
+                supports[support].path, states[state]
+            )));
+        }
+        tables[state][support] = Some(list);
+    }
+    Ok(Imported { port, tables })
+}

@@ -1,0 +1,4 @@
+//! Friction of rolling bearings.
+
+pub mod iso14179_2;
+pub mod skf;

@@ -1,0 +1,268 @@
+//! Churning of one gear by flow regimes.
+//!
+//! Source: Changenet, Leprince, Ville, Velex: A note on flow regimes and churning loss modeling, J. Mech. Des. 133 (2011)
+//! 121009: T = 1/2 rho w^2 R^3 S_m C_m; C_m by Reynolds number w R b/nu (4000) and speed parameter w^2 (R b m_n)^(1/3)
+//! (750 and 1250 m/s2, linear in between). Dip at the reference circle; wetted surface of faces, rim and teeth.
+//! Single gear in a roomy case, car sizes (R 40 to 110 mm, module 1.5 to 5 mm, b 14 to 40 mm, to about 7000 rpm).
+//! A pair whose gears swell oil towards the mesh loses more; no trustworthy formula is public, so `swell` is the user's own
+//! share, added where the gear's lowest point moves towards its mate.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::wetted::Wetted;
+
+const CHURNING: Term = Term::no_load(0, "churning");
+const RANGE: &str = "gears of the tests, recalled";
+const RADIUS: Limit = Limit::new(0, "R_p", "mm", 40.0, 110.0, RANGE);
+const MODULE: Limit = Limit::new(1, "m_n", "mm", 1.5, 5.0, RANGE);
+const WIDTH: Limit = Limit::new(2, "b", "mm", 14.0, 40.0, RANGE);
+const SPEED: Limit = Limit::new(3, "n", "1/min", 0.0, 7000.0, RANGE);
+const C_M: Observed = Observed::new(0, "C_m", "-", "Dimensionless churning torque.");
+const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number.");
+
+const GRAVITY: f64 = 9.80665;
+
+/// Churning of one gear by flow regimes.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Changenet {
+    /// Share of the torque that is added where the gear's lowest point moves towards its mate: 0 to 0.5. [-]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 5.0))]
+    pub swell: f64,
+}
+
+/// With the oil volume prepared.
+struct Churning {
+    swell: f64,
+    volume: f64,
+}
+
+fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic> {
+    let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
+    let Some(volume) = part.oil_volume else {
+        return Err(cx
+            .error("changenet_2011 needs the oil volume")
+            .mend("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
+    };
+    Ok(Churning {
+        swell: params.swell,
+        volume,
+    })
+}
+
+/// Dimensionless torque from Reynolds number, speed parameter, Froude number, h/D, V/D^3 and b/D.
+fn c_m(re: f64, gamma: f64, fr: f64, h: f64, v: f64, b: f64) -> f64 {
+    let viscous = re < 4000.0;
+    let slow = || {
+        let front = if viscous { 1.366 * re.powf(-0.21) } else { 0.239 };
+        front * h.powf(0.45) * v.powf(0.1) * fr.powf(-0.6) * b.powf(0.21)
+    };
+    let fast = || {
+        let front = if viscous { 20.797 * re.powf(-0.21) } else { 3.644 };
+        front * h.powf(0.1) * v.powf(-0.35) * fr.powf(-0.88) * b.powf(0.85)
+    };
+    if gamma <= 750.0 {
+        slow()
+    } else if gamma >= 1250.0 {
+        fast()
+    } else {
+        let t = (gamma - 750.0) / 500.0;
+        slow() * (1.0 - t) + fast() * t
+    }
+}
+
+impl GearDragModel for Churning {
+    fn covers(&self) -> Option<Covers> {
+        Some(Covers {
+            churning: true,
+            ..Covers::default()
+        })
+    }
+
+    fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        let gear = &at.part.gear;
+        let omega = at.speed.abs();
+        if at.dip <= 0.0 || omega == 0.0 {
+            at.branch("dry or at rest: no churning");
+            return Ok(Loss::MOMENTS);
+        }
+        let radius = 0.5 * gear.reference_diameter;
+        let (diameter, b) = (gear.reference_diameter, gear.facewidth);
+        at.check(&RADIUS, radius.mm());
+        at.check(&MODULE, gear.normal_module.mm());
+        at.check(&WIDTH, b.mm());
+        at.check(&SPEED, omega.rpm());
+        let height = 0.5 * (gear.tip_diameter - gear.root_diameter).abs();
+        // A gear that is covered dips by its diameter, however deep it lies.
+        let dip = at.show("h", "m", at.dip.min(diameter));
+        let wetted = Wetted::new(
+            radius,
+            dip,
+            b,
+            f64::from(gear.z),
+            height,
+            gear.pressure_angle,
+            gear.helix_angle,
+        )
+        .sum();
+        at.show("S_m", "m2", wetted);
+        let re = at.observe(&REYNOLDS, omega * radius * b / at.nu);
+        let fr = at.show("Fr", "-", omega * omega * radius / GRAVITY);
+        let gamma = at.show(
+            "gamma",
+            "m/s2",
+            omega * omega * (radius * b * gear.normal_module).cbrt(),
+        );
+        let c_m = at.observe(
+            &C_M,
+            c_m(
+                re,
+                gamma,
+                fr,
+                dip / diameter,
+                self.volume / diameter.powi(3),
+                b / diameter,
+            ),
+        );
+        let torque = 0.5 * at.rho * omega * omega * radius.powi(3) * wetted * c_m;
+        let swell = if at.towards_mesh > 0.0 && self.swell > 0.0 {
+            at.branch("the lowest point moves towards the mate: swell is added");
+            1.0 + self.swell
+        } else {
+            1.0
+        };
+        Ok(Loss::MOMENTS.with(&CHURNING, at.show("T", "Nm", torque * swell)))
+    }
+}
+
+register!(GearDrag, "changenet_2011", Changenet,
+    meaning: "Churning of one gear by flow regimes.",
+    source: "Changenet, Leprince, Ville, Velex, J. Mech. Des. 133 (2011) 121009",
+    example: "{ type: changenet_2011 }",
+    evidence: [
+        formula(Evidence::OneSource, "one open transcription; both lines meet at Re 4000, which confirms it"),
+        default_of("swell", Evidence::Assumed, "no public formula"),
+    ],
+    limits: [RADIUS, MODULE, WIDTH, SPEED], terms: [CHURNING], observed: [C_M, REYNOLDS], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::gear_drag::{DragPart, GearBody};
+    use gearloss_framework::registry::{Files, Registry};
+    use std::sync::Arc;
+
+    #[test]
+    fn c9_dimensionless_torque_in_all_regimes() {
+        for (re, gamma, printed) in [
+            (3000.0, 500.0, 0.00777232),
+            (6000.0, 500.0, 0.00730623),
+            (3000.0, 2000.0, 0.0297894),
+            (6000.0, 2000.0, 0.0280437),
+            (6000.0, 1000.0, 0.017675),
+        ] {
+            let value = c_m(re, gamma, 60.0, 0.25, 0.5, 0.2);
+            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
+        }
+    }
+
+    fn wheel() -> DragPart {
+        let diameter = 1.6e-3 / 27.0_f64.to_radians().cos() * 96.0;
+        let gear = GearBody {
+            z: 96,
+            normal_module: 1.6e-3,
+            pressure_angle: 17.5_f64.to_radians(),
+            helix_angle: 27.0_f64.to_radians(),
+            facewidth: 17e-3,
+            reference_diameter: diameter,
+            working_diameter: diameter,
+            tip_diameter: 176.251e-3,
+            root_diameter: 169e-3,
+            contact_height: 0.09,
+        };
+        DragPart {
+            gear,
+            mate: None,
+            oil_volume: Some(1.3e-3),
+            section_area: None,
+            section_perimeter: None,
+            radial_clearance: None,
+            axial_clearance: None,
+        }
+    }
+
+    #[test]
+    fn c9_wheel_of_96_teeth() {
+        let part = wheel();
+        let speed = 1500.0 * std::f64::consts::PI / 30.0;
+        let at = GearDragAt {
+            speed,
+            dip: 0.045,
+            nu: 6.4e-6,
+            rho: 842.0,
+            towards_mesh: 0.0,
+            ..GearDragAt::usual(&part, Notes::MUTED)
+        };
+        let model = Churning {
+            swell: 0.3,
+            volume: 1.3e-3,
+        };
+        let moment = model.loss(&at).unwrap().total_moment(speed);
+        assert!((moment / 0.324885 - 1.0).abs() < 1e-5, "{moment}");
+        assert!((moment * speed / 51.0328 - 1.0).abs() < 1e-5);
+        let swollen = model
+            .loss(&GearDragAt {
+                towards_mesh: 1.0,
+                ..at
+            })
+            .unwrap()
+            .total_moment(speed);
+        assert!((swollen / moment - 1.3).abs() < 1e-12);
+        for still in [GearDragAt { speed: 0.0, ..at }, GearDragAt { dip: 0.0, ..at }] {
+            assert_eq!(model.loss(&still).unwrap().sum(), 0.0);
+        }
+    }
+
+    #[test]
+    fn deeper_than_covered_changes_nothing() {
+        let part = wheel();
+        let model = Churning {
+            swell: 0.0,
+            volume: 1.3e-3,
+        };
+        let at = |dip| GearDragAt {
+            speed: 150.0,
+            dip,
+            nu: 6.4e-6,
+            rho: 842.0,
+            ..GearDragAt::usual(&part, Notes::MUTED)
+        };
+        let covered = model.loss(&at(part.gear.reference_diameter)).unwrap().sum();
+        assert_eq!(model.loss(&at(1.0)).unwrap().sum(), covered);
+        assert!(model.loss(&at(0.1)).unwrap().sum() < covered);
+    }
+
+    #[test]
+    fn the_volume_of_the_oil_is_asked_for() {
+        let registry = Registry::linked().unwrap_or_else(|found| panic!("{found:?}"));
+        let files = Files::default();
+        let part = Arc::new(DragPart {
+            oil_volume: None,
+            ..wheel()
+        });
+        let value = serde_json::json!({ "type": "changenet_2011", "swell": 0.0 });
+        let fault = Build::new(&registry, &files)
+            .slot_at::<GearDrag>("gear_drag.churning", &part, &value)
+            .err();
+        assert!(fault.unwrap().to_string().contains("oil volume"));
+    }
+}

@@ -1,0 +1,229 @@
+//! Splash torque of a dipping gear stage after ISO/TR 14179-2.
+//!
+//! Source: ISO/TR 14179-2:2001: T_H = C_Sp C_1 exp(C_2 v_t/10), C_1 = 0.063 (h_e1 + h_e2)/10 + 0.0128 (b/10)^3,
+//! C_2 = (h_e1 + h_e2)/800 + 0.2, C_Sp = (4 h_max/(3 h_C))^1.5 2 h_C/l_h with l_h = 4 A_G/U_M; lengths in mm, v_t in m/s.
+//! One horizontal stage, dips at the tip circles. The torque does not depend on viscosity and does not vanish with speed.
+//! It has to be multiplied by the speed of one shaft of the pair, and sources differ on which: `speed_of` has no default.
+//! Where the sump supplies the mesh itself (both gears dip) C_Sp is one. Without any dip the b^3 term would remain; the loss
+//! is zero then. Not for face widths far above 100 mm, where that term explodes.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel, Scope};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, formula};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+const SPLASH: Term = Term::no_load(0, "splash");
+const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.0, 60.0, "ISO/TR 14179-2");
+const WIDTH: Limit = Limit::new(1, "b", "mm", 0.0, 100.0, "the b^3 term explodes above");
+const TORQUE: Observed = Observed::new(0, "T_H", "Nm", "Splash torque.");
+
+/// Whose speed the splash torque is multiplied by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SpeedOf {
+    /// The gear with more teeth.
+    Wheel,
+    /// The gear with fewer teeth.
+    Pinion,
+}
+
+/// Splash torque of a dipping gear stage after ISO/TR 14179-2.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Iso14179 {
+    /// Whose speed the splash torque is multiplied by. Sources differ, and the loss differs by the gear ratio.
+    pub speed_of: SpeedOf,
+}
+
+/// With the housing prepared.
+struct Splash {
+    /// Characteristic length of the gear case. \[mm\]
+    l_h: f64,
+    /// True where the first gear's speed counts.
+    first: bool,
+}
+
+fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Splash, Diagnostic> {
+    let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
+    let Some(mate) = &part.mate else {
+        return Err(cx
+            .error("iso14179_2 is asked for a pair")
+            .mend("add `mate:` to the part"));
+    };
+    let (Some(area), Some(perimeter)) = (part.section_area, part.section_perimeter) else {
+        return Err(cx
+            .error("iso14179_2 needs the section of the gear case")
+            .mend("add `housing: { section: { area: 420 cm2, perimeter: 85 cm } }` with your figures"));
+    };
+    let pinion_first = part.gear.z <= mate.z;
+    Ok(Splash {
+        l_h: (4.0 * area / perimeter).mm(),
+        first: (params.speed_of == SpeedOf::Pinion) == pinion_first,
+    })
+}
+
+/// Splash torque from shop units, N m; dips, face width, contact height and case length in mm, speed in m/s.
+fn torque(dips: f64, b: f64, v_t: f64, c_sp: f64) -> f64 {
+    let c_1 = 0.063 * dips / 10.0 + 0.0128 * (b / 10.0).powi(3);
+    let c_2 = dips / 800.0 + 0.2;
+    c_sp * c_1 * (c_2 * v_t / 10.0).exp()
+}
+
+fn splash_factor(deepest: f64, h_c: f64, l_h: f64) -> f64 {
+    (4.0 * deepest / (3.0 * h_c)).powf(1.5) * 2.0 * h_c / l_h
+}
+
+impl GearDragModel for Splash {
+    fn covers(&self) -> Option<Covers> {
+        Some(Covers {
+            churning: true,
+            ..Covers::default()
+        })
+    }
+
+    fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        let part = at.part;
+        let (h_1, h_2) = (at.tip_dip.mm(), at.tip_dip_2.mm());
+        let share = f64::from(u8::from(self.first));
+        if h_1 + h_2 == 0.0 {
+            at.branch("no gear dips: no splash");
+            return Ok(Loss::POWERS.felt_by_first(share));
+        }
+        at.show("h_e1", "mm", h_1);
+        at.show("h_e2", "mm", h_2);
+        let mate = part.mate.as_ref().unwrap_or(&part.gear);
+        let b = at.check(&WIDTH, part.gear.facewidth.min(mate.facewidth).mm());
+        let v_t = at.check(&PITCH_SPEED, at.speed.abs() * 0.5 * part.gear.working_diameter);
+        let c_sp = if h_1 > 0.0 && h_2 > 0.0 {
+            at.branch("both gears dip: C_Sp is one");
+            1.0
+        } else {
+            let (deepest, body) = if h_1 > h_2 { (h_1, &part.gear) } else { (h_2, mate) };
+            let h_c = at.show("h_C", "mm", body.contact_height.mm());
+            if h_c <= 0.0 {
+                return Err(Undefined {
+                    what: "height h_C of the mesh above the gear's lowest point [mm]",
+                    value: h_c,
+                });
+            }
+            splash_factor(deepest, h_c, at.show("l_h", "mm", self.l_h))
+        };
+        at.show("C_Sp", "-", c_sp);
+        let torque = at.observe(&TORQUE, torque(h_1 + h_2, b, v_t, c_sp));
+        let speed = if self.first { at.speed } else { at.speed_2 };
+        Ok(Loss::POWERS
+            .with(&SPLASH, at.show("P", "W", torque * speed.abs()))
+            .felt_by_first(share))
+    }
+}
+
+register!(GearDrag, "iso14179_2", Iso14179,
+    meaning: "Splash torque of a dipping gear stage after ISO/TR 14179-2.",
+    source: "ISO/TR 14179-2:2001",
+    example: "{ type: iso14179_2, speed_of: wheel }",
+    evidence: [formula(Evidence::Disputed, "form printed, constants recalled; sources differ on the shaft")],
+    limits: [PITCH_SPEED, WIDTH], terms: [SPLASH], observed: [TORQUE], scope: Scope::Mesh, prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::gear_drag::{DragPart, GearBody};
+    use gearloss_framework::registry::{Files, Registry};
+    use std::sync::Arc;
+
+    fn pair() -> DragPart {
+        let body = |z, diameter| GearBody {
+            z,
+            normal_module: 1.6e-3,
+            pressure_angle: 0.3,
+            helix_angle: 0.5,
+            facewidth: 17e-3,
+            reference_diameter: diameter,
+            working_diameter: diameter,
+            tip_diameter: diameter + 4e-3,
+            root_diameter: diameter - 4e-3,
+            contact_height: 90e-3,
+        };
+        DragPart {
+            gear: body(31, 0.056),
+            mate: Some(body(96, 0.174)),
+            oil_volume: None,
+            section_area: Some(0.01),
+            section_perimeter: Some(0.2),
+            radial_clearance: None,
+            axial_clearance: None,
+        }
+    }
+
+    fn at(part: &DragPart, dips: [f64; 2]) -> GearDragAt<'_> {
+        // Pitch speed 20 m/s.
+        let speed = 20.0 / 0.028;
+        let speed_2 = -speed * 31.0 / 96.0;
+        GearDragAt {
+            speed,
+            speed_2,
+            tip_dip: dips[0],
+            tip_dip_2: dips[1],
+            ..GearDragAt::usual(part, Notes::MUTED)
+        }
+    }
+
+    #[test]
+    fn c2_splash_torque() {
+        let both = torque(70.0, 30.0, 8.0, 1.0);
+        assert!((both / 0.990015 - 1.0).abs() < 1e-5, "{both}");
+        let c_sp = splash_factor(45.0, 90.0, 200.0);
+        assert!((c_sp / 0.489898 - 1.0).abs() < 1e-5, "{c_sp}");
+        let one = torque(45.0, 17.0, 20.0, c_sp);
+        assert!((one / 0.283297 - 1.0).abs() < 1e-5, "{one}");
+    }
+
+    #[test]
+    fn c2_power_is_felt_by_the_gear_whose_speed_counts() {
+        let part = pair();
+        let at = at(&part, [0.0, 0.045]);
+        // A section of 0.01 m2 and 0.2 m has l_h 200 mm.
+        let l_h = (4.0 * 0.01_f64 / 0.2).mm();
+        let pinion = Splash { l_h, first: true }.loss(&at).unwrap();
+        let wheel = Splash { l_h, first: false }.loss(&at).unwrap();
+        assert!((pinion.sum() / (0.283297 * at.speed) - 1.0).abs() < 1e-5);
+        assert!((pinion.sum() / wheel.sum() - 96.0 / 31.0).abs() < 1e-12);
+        assert_eq!((pinion.first_share(), wheel.first_share()), (1.0, 0.0));
+    }
+
+    #[test]
+    fn dry_gears_and_gears_at_rest_lose_nothing() {
+        let part = pair();
+        let splash = Splash {
+            l_h: 200.0,
+            first: true,
+        };
+        assert_eq!(splash.loss(&at(&part, [0.0, 0.0])).unwrap().sum(), 0.0);
+        let rest = GearDragAt {
+            speed: 0.0,
+            speed_2: 0.0,
+            ..at(&part, [0.0, 0.045])
+        };
+        assert_eq!(splash.loss(&rest).unwrap().sum(), 0.0);
+    }
+
+    #[test]
+    fn the_section_of_the_case_is_asked_for() {
+        let registry = Registry::linked().unwrap_or_else(|found| panic!("{found:?}"));
+        let files = Files::default();
+        let part = Arc::new(DragPart {
+            section_perimeter: None,
+            ..pair()
+        });
+        let value = serde_json::json!({ "type": "iso14179_2", "speed_of": "pinion" });
+        let fault = Build::new(&registry, &files)
+            .slot_at::<GearDrag>("gear_drag.churning", &part, &value)
+            .err();
+        assert!(fault.unwrap().to_string().contains("section"));
+    }
+}

@@ -1,0 +1,3 @@
+//! Friction of shaft seals.
+
+pub mod iso14179_2;

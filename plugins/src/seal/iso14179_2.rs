@@ -1,0 +1,102 @@
+//! Radial lip seals after ISO/TR 14179-2.
+//!
+//! Source: ISO/TR 14179-2:2001, clause on seals: P = [145 - 1.6 T + 350 lg lg(nu40 + 0.8)] d^2 n 1e-7, in W with T in degC,
+//! nu40 in mm2/s, d in mm, n in 1/min. The power is linear in speed, so the moment is constant.
+//! Assumes one lip. The bracket falls with temperature and is held at zero where it would turn negative.
+//! Not for seals without contact, which lose nothing here.
+
+use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const LIP: Term = Term::no_load(0, "lip");
+
+/// Below zero the formula would answer with a gain: beyond about 128 degC with 30 mm2/s at 40 degC, or 157 degC with
+/// 100 mm2/s. The upper end lies above every value that oils reach.
+const BRACKET: Limit = Limit::new(
+    0,
+    "bracket",
+    "-",
+    0.0,
+    1000.0,
+    "below, the power would turn negative; it is held at zero",
+);
+
+/// Radial lip seals after ISO/TR 14179-2.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Iso14179 {}
+
+impl SealModel for Iso14179 {
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        if at.part.kind == SealKind::NonContact {
+            at.branch("seal without contact");
+            return Ok(Loss::MOMENTS);
+        }
+        let lg = (at.nu40.mm2_s() + 0.8).log10().log10();
+        let bracket = 145.0 - 1.6 * at.show("T_oil", "degC", at.temperature) + 350.0 * lg;
+        if bracket < 0.0 {
+            at.branch("the bracket is negative: held at zero");
+        }
+        let bracket = at.check(&BRACKET, bracket).max(0.0);
+        let d = at.show("d", "mm", at.part.diameter.mm());
+        // Power per speed: n in 1/min is 30/pi times the speed in rad/s.
+        let moment = bracket * d * d * 1e-7 * 1.0_f64.rpm();
+        Ok(Loss::MOMENTS.with(&LIP, at.show("M", "Nm", moment)))
+    }
+}
+
+register!(Seal, "iso14179_2", Iso14179,
+    meaning: "Radial lip seals after ISO/TR 14179-2.",
+    source: "ISO/TR 14179-2:2001",
+    example: "{ type: iso14179_2 }",
+    evidence: [formula(Evidence::OneSource, "one printed source, watt level checked against Linke's diagram")],
+    limits: [BRACKET], terms: [LIP]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::seal::SealPart;
+
+    fn watts(temperature: f64, nu40: f64) -> f64 {
+        let part = SealPart {
+            diameter: 0.040,
+            kind: SealKind::RadialLip,
+        };
+        let speed = 3000.0 * std::f64::consts::PI / 30.0;
+        let at = SealAt {
+            speed,
+            temperature,
+            nu40: nu40 * 1e-6,
+            ..SealAt::usual(&part, Notes::MUTED)
+        };
+        Iso14179 {}.loss(&at).map_or(f64::NAN, |loss| loss.total_watts(speed))
+    }
+
+    #[test]
+    fn b1_published_checks() {
+        assert!((watts(70.0, 30.0) / 44.8643 - 1.0).abs() < 1e-5);
+        assert!((watts(60.0, 100.0) / 74.2192 - 1.0).abs() < 1e-5);
+        assert_eq!(watts(150.0, 30.0), 0.0);
+    }
+
+    #[test]
+    fn the_moment_does_not_depend_on_speed_and_a_seal_without_contact_has_none() {
+        let moment = |kind, speed| {
+            let part = SealPart { diameter: 0.040, kind };
+            let at = SealAt {
+                speed,
+                ..SealAt::usual(&part, Notes::MUTED)
+            };
+            Iso14179 {}.loss(&at).map_or(f64::NAN, |loss| loss.total_moment(speed))
+        };
+        // The power is linear in speed, so the moment has a finite limit at rest.
+        assert!(moment(SealKind::RadialLip, 0.0) > 0.0);
+        assert_eq!(moment(SealKind::RadialLip, 0.0), moment(SealKind::RadialLip, -300.0));
+        assert_eq!(moment(SealKind::NonContact, 300.0), 0.0);
+    }
+}

@@ -1,0 +1,154 @@
+//! Drag of open synchronizers: Couette flow in the gap between cones.
+//!
+//! Source: derived from laminar shear flow between two cones, Newtonian oil at oil temperature:
+//! T = z phi pi eta dw (r2^4 - r1^4)/(2 h sin a). The ends of the cone follow from its mean diameter, width and half angle.
+//! Assumes the whole speed difference over one gap (a floating ring would halve it) and a gap filled by the share phi.
+//! Not for turbulent gaps: beyond the stated Reynolds and Taylor numbers the drag is underrated.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::mechanism::synchronizer::{CouplingKind, Synchronizer, SynchronizerAt, SynchronizerModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const SHEAR: Term = Term::no_load(0, "shear");
+const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar gap flow");
+const TAYLOR: Limit = Limit::new(1, "Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
+
+/// Drag of open synchronizers by shear in the cone gap.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct ConeGap {}
+
+/// The oil in the gap of one synchronizer, prepared.
+struct Film {
+    /// Moment per viscosity and speed. \[m3\]
+    factor: f64,
+    radius: f64,
+    gap: f64,
+}
+
+fn prepare(_params: ConeGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
+    let part = cx.part::<Synchronizer>().ok_or_else(|| cx.error("bug: no part"))?;
+    if part.kind != CouplingKind::Synchronizer {
+        return Err(cx
+            .error("cone_gap is for synchronizers")
+            .mend("write `model: { type: ring_gap }` for a ring or a dog clutch with a gap, `model: none` for one without drag"));
+    }
+    let (Some(diameter), Some(width), Some(angle), Some(gap)) =
+        (part.cone_diameter, part.cone_width, part.cone_angle, part.gap)
+    else {
+        return Err(cx
+            .error("cone_gap needs cone_diameter, cone_width, cone_angle and gap")
+            .mend("add them to the coupling"));
+    };
+    let half = 0.5 * width * angle.tan();
+    let (r1, r2) = (0.5 * diameter - half, 0.5 * diameter + half);
+    if r1 < 0.0 {
+        return Err(cx
+            .error("the cone is wider than its tip allows: its small end would have a negative radius")
+            .mend("correct cone_diameter (mean), cone_width (along the axis) or cone_angle (half angle)"));
+    }
+    Ok(Film {
+        factor: part.oil_fill * f64::from(part.cones) * cone(r1, r2, angle, gap),
+        radius: 0.5 * diameter,
+        gap,
+    })
+}
+
+/// Moment per viscosity and speed of one flooded cone between two radii. \[m3\]
+fn cone(r1: f64, r2: f64, angle: f64, gap: f64) -> f64 {
+    std::f64::consts::PI * (r2.powi(4) - r1.powi(4)) / (2.0 * gap * angle.sin())
+}
+
+impl SynchronizerModel for Film {
+    fn loss(&self, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined> {
+        let reynolds = at.rho * at.speed.abs() * self.radius * self.gap / at.eta;
+        at.check(&REYNOLDS, reynolds);
+        at.check(&TAYLOR, reynolds * (self.gap / self.radius).sqrt());
+        at.show("eta", "Pa s", at.eta);
+        let moment = self.factor * at.eta * at.speed.abs();
+        Ok(Loss::MOMENTS.with(&SHEAR, at.show("T_cone", "Nm", moment)))
+    }
+}
+
+register!(Synchronizer, "cone_gap", ConeGap,
+    meaning: "Shear of oil in the gap between the cones of an open synchronizer.",
+    source: "derived: laminar Couette flow between cones",
+    example: "{ type: cone_gap }",
+    evidence: [formula(Evidence::Derived, "shear flow; the filling of the gap is the user's")],
+    limits: [REYNOLDS, TAYLOR], terms: [SHEAR], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::synchronizer::CouplingPart;
+    use gearloss_framework::registry::{Files, Registry, Slot};
+    use std::sync::Arc;
+
+    fn part(json: &str) -> Arc<CouplingPart> {
+        Arc::new(serde_json::from_str(json).unwrap())
+    }
+
+    fn build(part: &Arc<CouplingPart>) -> Result<Slot<Synchronizer>, String> {
+        let registry = Registry::linked().unwrap_or_else(|found| panic!("{found:?}"));
+        let files = Files::default();
+        let value = serde_json::json!({ "type": "cone_gap" });
+        Build::new(&registry, &files)
+            .slot_at("couplings.S1.model", part, &value)
+            .map_err(|fault| fault.to_string())
+    }
+
+    #[test]
+    fn c1_cone_gap() {
+        let speed = 2000.0 * std::f64::consts::PI / 30.0;
+        let flooded = cone(0.030, 0.032, 6.5_f64.to_radians(), 0.15e-3) * 0.012 * speed;
+        assert!((flooded / 0.0554672 - 1.0).abs() < 1e-5, "{flooded}");
+        assert!((0.3 * flooded / 0.0166402 - 1.0).abs() < 1e-5);
+        // With a small angle the cone is a ring of the slant length.
+        let ring =
+            2.0 * std::f64::consts::PI * 0.012 * speed * 0.031_f64.powi(3) * (0.002 / 6.5_f64.to_radians().sin())
+                / 0.15e-3;
+        assert!((ring / 0.0554096 - 1.0).abs() < 1e-5, "{ring}");
+    }
+
+    #[test]
+    fn the_number_of_cones_multiplies() {
+        let cones = |cones: u32| {
+            let json = format!(
+                r#"{{"kind":"synchronizer","cones":{cones},"cone_diameter":0.062,"cone_width":0.008,"cone_angle":0.113,"gap":1.5e-4}}"#
+            );
+            let part = part(&json);
+            let model = build(&part).unwrap();
+            let at = |speed| SynchronizerAt {
+                speed,
+                ..SynchronizerAt::usual(&part, Notes::MUTED)
+            };
+            assert_eq!(model.loss(&at(0.0)).unwrap().sum(), 0.0);
+            assert_eq!(model.loss(&at(-100.0)).unwrap(), model.loss(&at(100.0)).unwrap());
+            model.loss(&at(100.0)).unwrap().sum()
+        };
+        assert!(cones(1) > 0.0 && (cones(3) / cones(1) - 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_missing_or_of_another_kind_is_said() {
+        assert!(
+            build(&part(r#"{"cone_diameter":0.062,"cone_width":0.008,"gap":1.5e-4}"#))
+                .err()
+                .unwrap()
+                .contains("cone_angle")
+        );
+        assert!(
+            build(&part(r#"{"kind":"dog"}"#))
+                .err()
+                .unwrap()
+                .contains("for synchronizers")
+        );
+        let wide = r#"{"cone_diameter":0.01,"cone_width":0.1,"cone_angle":0.5,"gap":1.5e-4}"#;
+        assert!(build(&part(wide)).err().unwrap().contains("negative radius"));
+    }
+}

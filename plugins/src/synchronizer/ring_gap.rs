@@ -1,0 +1,138 @@
+//! Drag of a cylindrical gap: a wheel on a plain shaft, a bush, the ring of a dog clutch.
+//!
+//! Source: derived from laminar shear flow between cylinders: T = phi 2 pi eta dw r^3 L/h (Petroff).
+//! Assumes concentric cylinders, the whole speed difference over one gap, and a gap filled by the share phi. A cone counts as
+//! a cylinder of its mean radius and slant length, about 0.1 % below the cone itself; several cones add up.
+//! Not for turbulent gaps.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::mechanism::synchronizer::{Synchronizer, SynchronizerAt, SynchronizerModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const SHEAR: Term = Term::no_load(0, "shear");
+const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar gap flow");
+const TAYLOR: Limit = Limit::new(1, "Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
+
+/// Drag of a cylindrical gap.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct RingGap {}
+
+/// The oil in the gap, prepared.
+struct Film {
+    /// Moment per viscosity and speed. \[m3\]
+    factor: f64,
+    radius: f64,
+    gap: f64,
+}
+
+fn prepare(_params: RingGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
+    let part = cx.part::<Synchronizer>().ok_or_else(|| cx.error("bug: no part"))?;
+    let (Some(diameter), Some(length), Some(gap)) = (part.cone_diameter, part.cone_width, part.gap) else {
+        return Err(cx
+            .error("ring_gap needs cone_diameter (of the gap), cone_width (its length) and gap")
+            .mend("add them to the coupling"));
+    };
+    let slant = length / part.cone_angle.unwrap_or(0.0).cos();
+    let factor = part.oil_fill * f64::from(part.cones) * ring(0.5 * diameter, slant, gap);
+    Ok(Film {
+        factor,
+        radius: 0.5 * diameter,
+        gap,
+    })
+}
+
+/// Moment per viscosity and speed of a flooded ring. \[m3\]
+fn ring(radius: f64, length: f64, gap: f64) -> f64 {
+    2.0 * std::f64::consts::PI * radius.powi(3) * length / gap
+}
+
+impl SynchronizerModel for Film {
+    fn loss(&self, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined> {
+        let reynolds = at.rho * at.speed.abs() * self.radius * self.gap / at.eta;
+        at.check(&REYNOLDS, reynolds);
+        at.check(&TAYLOR, reynolds * (self.gap / self.radius).sqrt());
+        at.show("eta", "Pa s", at.eta);
+        let moment = self.factor * at.eta * at.speed.abs();
+        Ok(Loss::MOMENTS.with(&SHEAR, at.show("T_ring", "Nm", moment)))
+    }
+}
+
+register!(Synchronizer, "ring_gap", RingGap,
+    meaning: "Shear of oil in a cylindrical gap.",
+    source: "Petroff 1883; derived: laminar Couette flow between cylinders",
+    example: "{ type: ring_gap }",
+    evidence: [formula(Evidence::Derived, "shear flow; the filling of the gap is the user's")],
+    limits: [REYNOLDS, TAYLOR], terms: [SHEAR], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::synchronizer::CouplingPart;
+    use gearloss_framework::registry::{Files, Registry, Slot};
+    use std::sync::Arc;
+
+    fn part(json: &str) -> Arc<CouplingPart> {
+        Arc::new(serde_json::from_str(json).unwrap())
+    }
+
+    fn build(part: &Arc<CouplingPart>) -> Result<Slot<Synchronizer>, String> {
+        let registry = Registry::linked().unwrap_or_else(|found| panic!("{found:?}"));
+        let files = Files::default();
+        let value = serde_json::json!({ "type": "ring_gap" });
+        Build::new(&registry, &files)
+            .slot_at("couplings.S1.model", part, &value)
+            .map_err(|fault| fault.to_string())
+    }
+
+    #[test]
+    fn c1_ring_gap() {
+        let moment = ring(0.030, 0.040, 0.5e-3) * 0.010 * 3000.0 * std::f64::consts::PI / 30.0;
+        assert!((moment / 0.0426367 - 1.0).abs() < 1e-5, "{moment}");
+    }
+
+    #[test]
+    fn drag_is_linear_in_speed_and_filling() {
+        let loss = |fill: f64, speed: f64| {
+            let json =
+                format!(r#"{{"kind":"ring","cone_diameter":0.06,"cone_width":0.04,"gap":5e-4,"oil_fill":{fill}}}"#);
+            let part = part(&json);
+            let at = SynchronizerAt {
+                speed,
+                ..SynchronizerAt::usual(&part, Notes::MUTED)
+            };
+            build(&part).unwrap().loss(&at).unwrap().sum()
+        };
+        assert_eq!((loss(1.0, 0.0), loss(0.0, 100.0)), (0.0, 0.0));
+        assert!((loss(0.5, 200.0) / loss(1.0, 100.0) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn c1_cone_as_a_ring_of_its_slant_length() {
+        let angle = 6.5_f64.to_radians();
+        let width = 0.002 / angle.tan();
+        let json = format!(
+            r#"{{"cones":2,"cone_diameter":0.062,"cone_width":{width},"cone_angle":{angle},"gap":1.5e-4,"oil_fill":0.5}}"#
+        );
+        let part = part(&json);
+        let speed = 2000.0 * std::f64::consts::PI / 30.0;
+        let at = SynchronizerAt {
+            speed,
+            eta: 0.012,
+            ..SynchronizerAt::usual(&part, Notes::MUTED)
+        };
+        // Two cones, each half filled, are one that is flooded.
+        let moment = build(&part).unwrap().loss(&at).unwrap().sum();
+        assert!((moment / 0.0554096 - 1.0).abs() < 1e-5, "{moment}");
+    }
+
+    #[test]
+    fn a_gap_is_asked_for() {
+        assert!(build(&part(r#"{"kind":"dog"}"#)).err().unwrap().contains("gap"));
+    }
+}

@@ -1,0 +1,3 @@
+//! Local friction between flanks.
+
+pub mod xu;

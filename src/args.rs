@@ -1,0 +1,182 @@
+//! Arguments of the commands.
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+
+/// Power losses, efficiency and operating temperature of transmissions.
+#[derive(Debug, Parser)]
+#[command(name = "gearloss", version, about)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Checks gearbox and study files: reads, resolves and builds them.
+    Check(CheckArgs),
+    /// Solves one operating point.
+    Solve(SolveArgs),
+    /// Shows every step of the loss of one component at one operating point.
+    Explain(ExplainArgs),
+    /// Runs a study and writes its results.
+    Run(RunArgs),
+    /// Lists mechanisms and models, or what a gearbox lacks for them.
+    Models(ModelsArgs),
+    /// Evaluates one model alone.
+    Eval(EvalArgs),
+    /// Prints a JSON Schema for editors.
+    Schema(SchemaArgs),
+}
+
+/// Models and overrides.
+#[derive(Debug, Clone, Default, ClapArgs)]
+pub struct ChoiceArgs {
+    /// Set of models: one of the gearbox's `model_sets`, or one that a linked crate ships.
+    #[arg(long, value_name = "SET")]
+    pub models: Option<String>,
+    /// Changes a value of the resolved document; may be given several times. `*` stands for one key.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, ClapArgs)]
+pub struct CheckArgs {
+    /// Gearbox or study files.
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub choice: ChoiceArgs,
+    /// Prints the resolved document of a gearbox: every default, catalogue value and model in its place.
+    #[arg(long)]
+    pub resolved: bool,
+    /// Makes it a finding to rest on evidence of this grade or a weaker one, such as `recalled`.
+    #[arg(long, value_name = "GRADE")]
+    pub deny: Option<String>,
+}
+
+/// The operating point.
+#[derive(Debug, Clone, ClapArgs)]
+pub struct PointArgs {
+    /// Gear state; not needed where there is only one.
+    #[arg(long)]
+    pub gear: Option<String>,
+    /// Torque that a port applies: `"10 Nm"` at `input`, or `"output=-200 Nm"`.
+    #[arg(long, value_name = "[PORT=]TORQUE", allow_hyphen_values = true)]
+    pub torque: Vec<String>,
+    /// Speed of a port: `"8000 rpm"` at `input`, or `"output=300 rpm"`.
+    #[arg(long, value_name = "[PORT=]SPEED", allow_hyphen_values = true)]
+    pub speed: Vec<String>,
+    /// Temperature of the oil, such as `"80 degC"`; else that of the gearbox.
+    #[arg(long, value_name = "TEMPERATURE", allow_hyphen_values = true)]
+    pub oil_temperature: Option<String>,
+    /// Whether losses change the torques of what comes after them.
+    #[arg(long, value_enum, default_value_t = FlowArg::Real)]
+    pub power_flow: FlowArg,
+}
+
+/// Real or ideal flow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FlowArg {
+    /// Torque after a stage is reduced by the losses before it.
+    Real,
+    /// Torques without losses.
+    Ideal,
+}
+
+/// How to print.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// A table to read.
+    Table,
+    /// JSON to process.
+    Json,
+}
+
+/// Arguments of `solve`.
+#[derive(Debug, ClapArgs)]
+pub struct SolveArgs {
+    /// Gearbox file.
+    pub gearbox: PathBuf,
+    #[command(flatten)]
+    pub point: PointArgs,
+    #[command(flatten)]
+    pub choice: ChoiceArgs,
+    /// How to print.
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub format: Format,
+    /// Makes it a finding to leave the stated range of a model: `extrapolation`, or to rest on a grade of evidence.
+    #[arg(long, value_name = "WHAT")]
+    pub deny: Vec<String>,
+}
+
+/// Arguments of `explain`.
+#[derive(Debug, ClapArgs)]
+pub struct ExplainArgs {
+    /// Gearbox file.
+    pub gearbox: PathBuf,
+    /// Component: an id such as `B1`, or a path such as `meshes.M1`.
+    pub component: String,
+    #[command(flatten)]
+    pub point: PointArgs,
+    #[command(flatten)]
+    pub choice: ChoiceArgs,
+}
+
+/// Arguments of `run`.
+#[derive(Debug, ClapArgs)]
+pub struct RunArgs {
+    /// Study file.
+    pub study: PathBuf,
+    /// Folder for the results; absent, `results` beside the study.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+}
+
+/// Arguments of `models`.
+#[derive(Debug, ClapArgs)]
+pub struct ModelsArgs {
+    /// Mechanism, such as `bearing`.
+    pub mechanism: Option<String>,
+    /// Model, such as `skf`.
+    pub model: Option<String>,
+    /// Says for each model which inputs it needs and whether this gearbox has them.
+    #[arg(long, value_name = "GEARBOX")]
+    pub needs: Option<PathBuf>,
+}
+
+/// Arguments of `eval`.
+#[derive(Debug, ClapArgs)]
+pub struct EvalArgs {
+    /// Mechanism and model, such as `bearing/skf`.
+    pub model: String,
+    /// YAML file with `part`, `at` and, if wanted, `model`; absent, the mechanism's example at its usual point.
+    #[arg(long, value_name = "FILE")]
+    pub input: Option<PathBuf>,
+    /// How to print.
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub format: Format,
+}
+
+/// Arguments of `schema`.
+#[derive(Debug, ClapArgs)]
+pub struct SchemaArgs {
+    /// Kind of document.
+    #[arg(value_enum)]
+    pub kind: KindArg,
+}
+
+/// Kind of document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum KindArg {
+    /// A gearbox.
+    Gearbox,
+    /// A study.
+    Study,
+    /// Input of `eval`.
+    Eval,
+}

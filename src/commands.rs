@@ -1,0 +1,61 @@
+//! The commands, one file each.
+
+pub mod check;
+pub mod eval;
+pub mod explain;
+pub mod models;
+mod needs;
+mod point;
+pub mod run;
+pub mod schema;
+pub mod solve;
+mod study_files;
+
+use gearloss_framework::document::{Diagnostic, Sources, read_yaml};
+use gearloss_framework::gearbox::Findings;
+use gearloss_framework::language::Language;
+use gearloss_framework::registry::Registry;
+use gearloss_framework::resolve::Choice;
+
+use crate::args::ChoiceArgs;
+use crate::output::Failure;
+
+/// The language of everything that is linked into this program.
+fn language() -> Result<Language, Failure> {
+    let failed = |list: Vec<Diagnostic>| {
+        Failure::from(Findings {
+            list,
+            sources: Sources::default(),
+        })
+    };
+    Language::new(Registry::linked().map_err(failed)?).map_err(failed)
+}
+
+/// Models and overrides from the arguments.
+fn choice(args: &ChoiceArgs) -> Result<Choice, Failure> {
+    let mut overrides = Vec::new();
+    for text in &args.set {
+        let Some((path, value)) = text.split_once('=') else {
+            return Err(Failure::input(
+                format!("--set {text}: no `=`"),
+                "write --set PATH=VALUE",
+            ));
+        };
+        let mut sources = Sources::default();
+        let source = sources.add(format!("--set {path}"), value);
+        let read = read_yaml(source, value.trim());
+        if !read.findings.is_empty() {
+            return Err(Findings {
+                list: read.findings,
+                sources,
+            }
+            .into());
+        }
+        overrides.push((path.trim().to_owned(), read.node.to_json()));
+    }
+    Ok(Choice {
+        set: args.models.clone(),
+        overrides,
+        ..Choice::default()
+    })
+}

@@ -1,0 +1,149 @@
+//! `explain`: every step of the loss of one component, in the source's symbols and units.
+
+use gearloss_framework::document::did_you_mean;
+use gearloss_framework::evaluate::Point;
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::loss::Step;
+use gearloss_framework::resolve::{Came, Resolved, lookup};
+use gearloss_framework::transmission::{PartInfo, Transmission};
+use serde_json::Value;
+
+use super::point::prepare;
+use super::solve::{RPM, heading};
+use super::{choice, language};
+use crate::args::ExplainArgs;
+use crate::output::{End, Failure, Out, significant};
+
+pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
+    let language = language()?;
+    let gearbox = Gearbox::read(&language, &args.gearbox)?;
+    let resolved = gearbox.resolve(&language, &choice(&args.choice)?)?;
+    let transmission = gearbox.build(&language, &resolved)?;
+    let chosen = parts_of(&transmission, &args.component)?;
+    let prepared = prepare(&args.point, &gearbox, &transmission)?;
+    let mut scratch = transmission.scratch(&prepared.case);
+    let temperatures = vec![prepared.temperature; transmission.nodes()];
+    let point = Point {
+        speeds: &prepared.speeds,
+        torques: &prepared.torques,
+        flow: prepared.flow,
+        tolerance: Tolerance::default(),
+    };
+    let solution = transmission.evaluate(&prepared.case, &point, &temperatures, &mut scratch);
+    out.text(&heading(&transmission, &solution, &prepared))?;
+    for part in chosen {
+        let info = &transmission.parts()[part];
+        let (loss, trace) = solution.explain(part);
+        out.text(&source(&transmission, info))?;
+        out.line(format!(
+            "relative speed {} rpm, {} copies",
+            significant(loss.speed * RPM),
+            significant(info.count)
+        ))?;
+        let mut last = usize::MAX;
+        for step in trace.into_steps() {
+            if step.instance() != last {
+                last = step.instance();
+                let instance = &transmission.instances()[last];
+                out.line(format!("  {} ({})", instance.path, instance.entry.name))?;
+            }
+            match step {
+                Step::Value {
+                    symbol, unit, value, ..
+                } => {
+                    let unit = if unit == "-" { "" } else { unit };
+                    out.line(format!("    {symbol} = {} {unit}", significant(value)).trim_end())?;
+                }
+                Step::Branch { taken, .. } => out.line(format!("    branch: {taken}"))?,
+            }
+        }
+        match loss.result {
+            Ok(_) => {
+                for term in transmission.instances()[info.notes.instance].entry.terms {
+                    out.line(format!(
+                        "  {}: {} W",
+                        term.name,
+                        significant(loss.term_watts(term.index))
+                    ))?;
+                }
+                let moment = loss.moment().unwrap_or(0.0);
+                out.line(format!(
+                    "  together: {} W, {} Nm for one copy",
+                    significant(loss.watts()),
+                    significant(moment)
+                ))?;
+            }
+            Err(undefined) => out.line(format!("  {undefined}"))?,
+        }
+        out.line("  inputs (SI, temperatures in degC):")?;
+        let base = base_path(info);
+        if let Some(entry) = lookup(&resolved.value, base) {
+            inputs(base, entry, &gearbox, &resolved, out)?;
+        }
+        out.line("")?;
+    }
+    Ok(End::Fine)
+}
+
+/// Path of the component that a part belongs to; a drag belongs to its slot.
+fn base_path(info: &PartInfo) -> &str {
+    &info.path
+}
+
+fn source(transmission: &Transmission, info: &PartInfo) -> String {
+    let entry = &transmission.instances()[info.notes.instance].entry;
+    format!(
+        "{}: {} `{}`\n  {}\n  source: {}\n",
+        info.path, info.mechanism, entry.name, entry.meaning, entry.source
+    )
+}
+
+/// Every written, filled or default value below a path, with where it came from.
+fn inputs(path: &str, value: &Value, gearbox: &Gearbox, resolved: &Resolved, out: &mut Out) -> Result<(), Failure> {
+    match value {
+        Value::Object(map) => {
+            for (key, inner) in map {
+                inputs(&format!("{path}.{key}"), inner, gearbox, resolved, out)?;
+            }
+        }
+        Value::Null => {}
+        leaf => {
+            let from = match resolved.came(path) {
+                Came::Override => "override".to_owned(),
+                Came::Catalogue {
+                    designation,
+                    confidence,
+                } => format!("catalogue {designation}, confidence {confidence}"),
+                Came::Models => "models".to_owned(),
+                Came::Set(name) => format!("set {name}"),
+                Came::Surface => "surface".to_owned(),
+                Came::Document => match gearbox.places.get(path).and_then(|p| gearbox.sources.locate(p.value)) {
+                    Some((file, line, column)) => format!("{file}:{line}:{column}"),
+                    None => "default".to_owned(),
+                },
+            };
+            out.line(format!("    {path} = {leaf} ({from})"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Parts of a component: by path, by id, or everything below a path.
+fn parts_of(transmission: &Transmission, name: &str) -> Result<Vec<usize>, Failure> {
+    let fits =
+        |path: &str| path == name || path.starts_with(&format!("{name}.")) || path.split('.').nth(1) == Some(name);
+    let found: Vec<usize> = (0..transmission.parts().len())
+        .filter(|i| fits(&transmission.parts()[*i].path))
+        .collect();
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    let paths: Vec<&str> = transmission.parts().iter().map(|p| p.path.as_str()).collect();
+    let ids: Vec<&str> = paths.iter().filter_map(|p| p.split('.').nth(1)).collect();
+    let mend = match did_you_mean(name, paths.iter().chain(&ids).copied()) {
+        Some(close) => format!("write {close}"),
+        None => format!("name one of {}", paths.join(", ")),
+    };
+    Err(Failure::input(format!("no part is called `{name}`"), mend))
+}

@@ -1,0 +1,194 @@
+//! `models`: what is linked into this program.
+
+use gearloss_framework::document::did_you_mean;
+use gearloss_framework::language::Language;
+use gearloss_framework::registry::{Entry, MechanismEntry};
+use serde_json::Value;
+
+use super::{language, needs};
+use crate::args::ModelsArgs;
+use crate::output::{End, Failure, Out, Table, significant};
+
+pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
+    let language = language()?;
+    if let Some(file) = &args.needs {
+        return needs::run(&language, file, args.mechanism.as_deref(), out);
+    }
+    match (&args.mechanism, &args.model) {
+        (None, _) => all(&language, out)?,
+        (Some(mechanism), None) => {
+            let entry = language
+                .registry()
+                .mechanism(mechanism)
+                .ok_or_else(|| no_mechanism(&language, mechanism))?;
+            one_mechanism(&language, entry, out)?;
+        }
+        (Some(mechanism), Some(model)) => {
+            language
+                .registry()
+                .mechanism(mechanism)
+                .ok_or_else(|| no_mechanism(&language, mechanism))?;
+            let entry = language
+                .registry()
+                .model(mechanism, model)
+                .ok_or_else(|| no_model(&language, mechanism, model))?;
+            one_model(&language, entry, out)?;
+        }
+    }
+    Ok(End::Fine)
+}
+
+/// The error for an unknown mechanism.
+pub fn no_mechanism(language: &Language, name: &str) -> Failure {
+    let names: Vec<&str> = language.registry().mechanisms().iter().map(|m| m.key).collect();
+    let mend = did_you_mean(name, names.iter().copied()).map_or_else(
+        || format!("name one of {}", names.join(", ")),
+        |close| format!("write {close}"),
+    );
+    Failure::input(format!("no mechanism is called `{name}`"), mend)
+}
+
+/// The error for an unknown model.
+pub fn no_model(language: &Language, mechanism: &str, name: &str) -> Failure {
+    let names: Vec<&str> = language.registry().models(mechanism).map(|m| m.name).collect();
+    let mend = did_you_mean(name, names.iter().copied()).map_or_else(
+        || format!("name one of {}", names.join(", ")),
+        |close| format!("write {close}"),
+    );
+    Failure::input(format!("no {mechanism} model is called `{name}`"), mend)
+}
+
+fn all(language: &Language, out: &mut Out) -> Result<(), Failure> {
+    let mut table = Table::new(&["mechanism", "model", "crate", "evidence", "what it is"]);
+    for mechanism in language.registry().mechanisms() {
+        for model in language.registry().models(mechanism.key) {
+            let grade = model
+                .evidence
+                .iter()
+                .find(|g| g.key.is_empty())
+                .map_or("", |g| g.grade.name());
+            table.row(vec![
+                mechanism.key.to_owned(),
+                model.name.to_owned(),
+                model.origin.package().to_owned(),
+                grade.to_owned(),
+                model.meaning.to_owned(),
+            ]);
+        }
+    }
+    out.text(&table.render())?;
+    out.line("")?;
+    for set in language.registry().shipped_sets() {
+        out.line(format!("set {}: {} ({})", set.name, set.meaning, set.origin.package()))?;
+    }
+    Ok(())
+}
+
+fn one_mechanism(language: &Language, mechanism: &MechanismEntry, out: &mut Out) -> Result<(), Failure> {
+    out.line(format!("{}: {}", mechanism.key, mechanism.meaning))?;
+    out.line(format!("answer: {}", mechanism.answer))?;
+    if let Some(section) = &mechanism.section {
+        out.line(format!("section: {}", section.name))?;
+    }
+    out.line(format!("registered at {}", mechanism.origin))?;
+    out.line("")?;
+    let mut quantities = Table::new(&["quantity", "usual", "least", "greatest", "what it is"]);
+    for q in (mechanism.quantities)() {
+        quantities.row(vec![
+            q.name.to_owned(),
+            significant(q.usual),
+            significant(q.least),
+            significant(q.greatest),
+            q.doc.trim().to_owned(),
+        ]);
+    }
+    out.text(&quantities.render())?;
+    out.line("")?;
+    let mut models = Table::new(&["model", "what it is", "source"]);
+    for model in language.registry().models(mechanism.key) {
+        models.row(vec![
+            model.name.to_owned(),
+            model.meaning.to_owned(),
+            model.source.to_owned(),
+        ]);
+    }
+    out.text(&models.render())?;
+    Ok(())
+}
+
+fn one_model(language: &Language, entry: &Entry, out: &mut Out) -> Result<(), Failure> {
+    out.line(format!("{}/{}: {}", entry.mechanism, entry.name, entry.meaning))?;
+    out.line(format!("source: {}", entry.source))?;
+    out.line(format!("registered at {}", entry.origin))?;
+    out.line(format!("example: {}", entry.example))?;
+    let schema = language.published(gearloss_framework::language::Kind::Gearbox);
+    let union = &schema["definitions"][format!("{}_model", entry.mechanism)]["oneOf"];
+    let own = union
+        .as_array()
+        .into_iter()
+        .flatten()
+        .find(|v| v["properties"]["type"]["const"] == entry.name);
+    let fields = own.and_then(|v| v["properties"].as_object());
+    let mut parameters = Table::new(&["parameter", "default", "range", "what it is"]);
+    for (name, field) in fields.into_iter().flatten().filter(|(name, _)| *name != "type") {
+        let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
+            (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
+            _ => String::new(),
+        };
+        let default = match &field["default"] {
+            Value::Null => "-".to_owned(),
+            value => value.to_string(),
+        };
+        let doc = field["description"].as_str().unwrap_or_default().to_owned();
+        parameters.row(vec![name.clone(), default, range, doc]);
+    }
+    out.line("")?;
+    out.text(&parameters.render())?;
+    if !entry.terms.is_empty() {
+        let words: Vec<String> = entry
+            .terms
+            .iter()
+            .map(|t| {
+                format!(
+                    "{} ({})",
+                    t.name,
+                    if t.load_dependent {
+                        "load-dependent"
+                    } else {
+                        "not load-dependent"
+                    }
+                )
+            })
+            .collect();
+        out.line(format!("\nterms: {}", words.join(", ")))?;
+    }
+    for observed in entry.observed {
+        out.line(format!(
+            "observed: {} [{}]: {}",
+            observed.name, observed.unit, observed.meaning
+        ))?;
+    }
+    for limit in entry.limits {
+        out.line(format!(
+            "stated range: {} {} to {} {} ({})",
+            limit.name,
+            significant(limit.least),
+            significant(limit.greatest),
+            limit.unit,
+            limit.origin
+        ))?;
+    }
+    for graded in entry.evidence {
+        let what = if graded.key.is_empty() {
+            "formula".to_owned()
+        } else {
+            format!("default of {}", graded.key)
+        };
+        out.line(format!(
+            "evidence: {what}: {} ({})",
+            graded.grade.name(),
+            graded.because
+        ))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,210 @@
+//! `models --needs`: for each model, which inputs it needs beyond what every gearbox has, and where this one has them from.
+//!
+//! Needs are found by trying: an input is needed where building fails without it.
+
+use std::path::Path;
+
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::{DRAGS, Language, MESHES};
+use gearloss_framework::registry::{Entry, MechanismEntry};
+use gearloss_framework::resolve::{Came, Choice, Resolved, lookup};
+use gearloss_framework::transmission::Transmission;
+use serde_json::Value;
+
+use crate::output::{End, Failure, Out, Table};
+
+pub fn run(language: &Language, file: &Path, only: Option<&str>, out: &mut Out) -> Result<End, Failure> {
+    let gearbox = Gearbox::read(language, file)?;
+    let resolved = gearbox.resolve(language, &Choice::default())?;
+    let mut table = Table::new(&["mechanism", "model", "input", "in this gearbox"]);
+    for mechanism in language.registry().mechanisms() {
+        if only.is_some_and(|key| key != mechanism.key) {
+            continue;
+        }
+        let slots = slots(&resolved, mechanism);
+        if slots.is_empty() {
+            continue;
+        }
+        for entry in language
+            .registry()
+            .models(mechanism.key)
+            .filter(|e| e.source != "the user's own")
+        {
+            let Ok((example, _)) = language.example_of(entry) else {
+                continue;
+            };
+            for (input, state) in inputs(language, &gearbox, &resolved, entry, &slots, &example) {
+                table.row(vec![mechanism.key.to_owned(), entry.name.to_owned(), input, state]);
+            }
+        }
+    }
+    out.text(&table.render())?;
+    out.line("\ngiven: written; assumed: written and listed under `assumed`; derived: from a catalogue; default: not written")?;
+    Ok(End::Fine)
+}
+
+/// Paths of the model slots of a mechanism, and of the records that feed its parts.
+fn slots(resolved: &Resolved, mechanism: &MechanismEntry) -> Vec<String> {
+    let section = match &mechanism.section {
+        Some(section) => section.name,
+        None if mechanism.key == MESHES || mechanism.key == DRAGS => "meshes",
+        None => return Vec::new(),
+    };
+    let ids = resolved.value.get(section).and_then(Value::as_object);
+    ids.into_iter()
+        .flatten()
+        .map(|(id, _)| format!("{section}.{id}"))
+        .collect()
+}
+
+fn with_model(resolved: &Resolved, entry: &Entry, slots: &[String], model: &Value, language: &Language) -> Resolved {
+    let mut changed = resolved.clone();
+    let own = slots[0].split('.').next().unwrap_or_default().to_owned();
+    let section = if entry.mechanism == DRAGS {
+        if language.fits_scope("gears", model) {
+            "gears".to_owned()
+        } else {
+            "meshes".to_owned()
+        }
+    } else {
+        own
+    };
+    if entry.mechanism == DRAGS {
+        for side in ["gears", "meshes"] {
+            for (_, record) in records(&mut changed.value, side) {
+                record.insert("drag".to_owned(), Value::Object(serde_json::Map::new()));
+            }
+        }
+    }
+    for (_, record) in records(&mut changed.value, &section) {
+        if entry.mechanism == DRAGS {
+            record.insert("drag".to_owned(), serde_json::json!({ "churning": model }));
+        } else {
+            record.insert("model".to_owned(), model.clone());
+        }
+    }
+    changed
+}
+
+fn records<'a>(
+    value: &'a mut Value,
+    section: &str,
+) -> impl Iterator<Item = (&'a String, &'a mut serde_json::Map<String, Value>)> + use<'a> {
+    value
+        .get_mut(section)
+        .and_then(Value::as_object_mut)
+        .into_iter()
+        .flatten()
+        .filter_map(|(id, record)| record.as_object_mut().map(|record| (id, record)))
+}
+
+fn inputs(
+    language: &Language,
+    gearbox: &Gearbox,
+    resolved: &Resolved,
+    entry: &Entry,
+    slots: &[String],
+    model: &Value,
+) -> Vec<(String, String)> {
+    let with = with_model(resolved, entry, slots, model, language);
+    let without = with_model(resolved, entry, slots, &Value::from("none"), language);
+    let builds = |resolved: &Resolved| Transmission::new(language, &gearbox.files, resolved);
+    let mut rows = Vec::new();
+    if let Err(list) = builds(&with) {
+        // Say it once for each distinct reason, with the components that it meets.
+        let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
+        for error in list {
+            let text = error
+                .mend
+                .map_or_else(|| error.message.clone(), |mend| format!("{}; {mend}", error.message));
+            let place = error.path.split('.').take(2).collect::<Vec<_>>().join(".");
+            match reasons.iter_mut().find(|(reason, _)| *reason == text) {
+                Some((_, places)) => places.push(place),
+                None => reasons.push((text, vec![place])),
+            }
+        }
+        rows.extend(
+            reasons
+                .into_iter()
+                .map(|(reason, places)| (places.join(", "), format!("missing: {reason}"))),
+        );
+    }
+    let mut candidates = Vec::new();
+    for slot in slots {
+        leaves(slot, lookup(&resolved.value, slot), &mut candidates);
+    }
+    leaves("housing", resolved.value.get("housing"), &mut candidates);
+    candidates.extend(["housing.section", "housing.clearance"].map(str::to_owned));
+    for path in candidates
+        .into_iter()
+        .filter(|p| !p.contains(".model") && !p.contains(".drag"))
+    {
+        let remove = |resolved: &Resolved| {
+            let mut changed = resolved.clone();
+            let (parent, key) = path.rsplit_once('.').unwrap_or(("", &path));
+            let parent = format!("/{}", parent.replace('.', "/"));
+            if let Some(record) = changed.value.pointer_mut(&parent).and_then(Value::as_object_mut) {
+                record.shift_remove(key);
+            }
+            changed
+        };
+        let own_fault = |list: Vec<gearloss_framework::document::Diagnostic>| {
+            let component = path.split('.').take(2).collect::<Vec<_>>().join(".");
+            list.iter()
+                .any(|d| d.path.starts_with(&component) || component.starts_with("housing"))
+        };
+        if builds(&remove(&without)).is_ok()
+            && builds(&with).map_or_else(|list| !own_fault(list), |_| true)
+            && builds(&remove(&with)).is_err_and(own_fault)
+        {
+            rows.push((path.clone(), state(gearbox, resolved, &path)));
+        }
+    }
+    if rows.is_empty() {
+        rows.push(("nothing beyond what every gearbox has".to_owned(), "given".to_owned()));
+    }
+    rows
+}
+
+/// Paths of all values below a path.
+fn leaves(path: &str, value: Option<&Value>, found: &mut Vec<String>) {
+    match value {
+        Some(Value::Object(map)) => map
+            .iter()
+            .for_each(|(key, value)| leaves(&format!("{path}.{key}"), Some(value), found)),
+        Some(Value::Null | Value::Array(_)) | None => {}
+        Some(_) => found.push(path.to_owned()),
+    }
+}
+
+fn state(gearbox: &Gearbox, resolved: &Resolved, path: &str) -> String {
+    let assumed = resolved
+        .value
+        .get("assumed")
+        .and_then(Value::as_array)
+        .into_iter()
+        .flatten()
+        .any(|entry| {
+            entry["paths"]
+                .as_array()
+                .into_iter()
+                .flatten()
+                .filter_map(Value::as_str)
+                .any(|pattern| covers(pattern, path))
+        });
+    match resolved.came(path) {
+        Came::Catalogue {
+            designation,
+            confidence,
+        } => format!("derived (catalogue {designation}, confidence {confidence})"),
+        _ if assumed => "assumed".to_owned(),
+        _ if gearbox.places.is_written(path) => "given".to_owned(),
+        _ => "default".to_owned(),
+    }
+}
+
+/// True where a pattern names a path or something above it.
+fn covers(pattern: &str, path: &str) -> bool {
+    let (pattern, path): (Vec<&str>, Vec<&str>) = (pattern.split('.').collect(), path.split('.').collect());
+    pattern.len() <= path.len() && pattern.iter().zip(&path).all(|(p, k)| *p == "*" || p == k)
+}

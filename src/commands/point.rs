@@ -1,0 +1,112 @@
+//! One operating point from the arguments.
+
+use gearloss_framework::document::{Unit, parse_quantity};
+use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::transmission::{Case, Transmission};
+
+use crate::args::{FlowArg, PointArgs};
+use crate::output::Failure;
+
+/// A point with its case.
+pub struct Prepared {
+    pub case: Case,
+    pub gear: String,
+    pub speeds: Vec<f64>,
+    pub torques: Vec<f64>,
+    pub temperature: f64,
+    pub flow: PowerFlow,
+}
+
+fn quantity(option: &str, text: &str, unit: &'static str) -> Result<f64, Failure> {
+    let unit = Unit::of_symbol(unit).unwrap_or(Unit::ONE);
+    parse_quantity(text.trim(), unit).map_err(|fault| {
+        Failure::input(
+            format!("{option} \"{text}\": {}", fault.message),
+            fault.mend.unwrap_or_else(|| "write a smaller number".to_owned()),
+        )
+    })
+}
+
+/// `[port=]quantity`.
+fn at_port<'a>(option: &str, text: &'a str, unit: &'static str) -> Result<(&'a str, f64), Failure> {
+    let (port, value) = text
+        .split_once('=')
+        .map_or(("input", text), |(port, value)| (port.trim(), value));
+    Ok((port, quantity(option, value, unit)?))
+}
+
+/// Prepares the point of the arguments.
+pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission) -> Result<Prepared, Failure> {
+    let gear = match (&args.gear, transmission.states()) {
+        (Some(gear), _) => gear.clone(),
+        (None, [only]) => only.name.clone(),
+        (None, states) => {
+            let names: Vec<&str> = states.iter().map(|s| s.name.as_str()).collect();
+            return Err(Failure::input(
+                "no gear is given",
+                format!("add --gear with one of {}", names.join(", ")),
+            ));
+        }
+    };
+    let mut speeds = Vec::new();
+    for text in &args.speed {
+        speeds.push(at_port("--speed", text, "rpm")?);
+    }
+    let mut torques = Vec::new();
+    for text in &args.torque {
+        torques.push(at_port("--torque", text, "Nm")?);
+    }
+    let state = transmission
+        .state(&gear)
+        .map_err(|e| Failure::from(gearbox.findings(vec![e])))?;
+    let ports: Vec<&str> = transmission.ports().iter().map(|p| p.name.as_str()).collect();
+    // A port that the program assumed must exist by that name.
+    for (port, _) in speeds.iter_mut().chain(&mut torques) {
+        if *port == "input" && !ports.contains(port) {
+            *port = ports[transmission.reference_port()];
+        }
+    }
+    let needed = transmission.torques_needed(state);
+    if speeds.is_empty() {
+        let own: Vec<&str> = transmission.states()[state]
+            .speed_ports
+            .iter()
+            .map(|p| ports[*p])
+            .collect();
+        return Err(Failure::input(
+            "no speed is given",
+            format!("add --speed \"{}=1000 rpm\"", own.join("=1000 rpm\" --speed \"")),
+        ));
+    }
+    if torques.len() < needed {
+        return Err(Failure::input(
+            format!("`{gear}` needs {needed} given torque"),
+            format!(
+                "add --torque \"10 Nm\", or at another port --torque \"{}=10 Nm\"",
+                ports.last().copied().unwrap_or("output")
+            ),
+        ));
+    }
+    let speed_names: Vec<&str> = speeds.iter().map(|s| s.0).collect();
+    let torque_names: Vec<&str> = torques.iter().map(|s| s.0).collect();
+    let case = transmission
+        .case(&gear, &speed_names, &torque_names)
+        .map_err(|list| Failure::from(gearbox.findings(list)))?;
+    let temperature = match &args.oil_temperature {
+        Some(text) => quantity("--oil-temperature", text, "degC")?,
+        None => transmission.oil_temperature,
+    };
+    Ok(Prepared {
+        case,
+        gear,
+        speeds: speeds.iter().map(|s| s.1).collect(),
+        torques: torques.iter().map(|s| s.1).collect(),
+        temperature,
+        flow: if args.power_flow == FlowArg::Real {
+            PowerFlow::Real
+        } else {
+            PowerFlow::Ideal
+        },
+    })
+}

@@ -1,0 +1,142 @@
+//! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
+
+mod breakdown;
+mod compare;
+mod map;
+mod write;
+
+use std::path::PathBuf;
+
+use gearloss_framework::analysis::{GridResult, Points, run_grid};
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::Resolved;
+use gearloss_framework::study::Analysis;
+use gearloss_framework::transmission::Transmission;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::language;
+use super::study_files::Study;
+use crate::args::RunArgs;
+use crate::output::{End, Failure, Out};
+
+/// One gearbox under one set of models.
+pub(super) struct Built<'a> {
+    pub name: String,
+    pub gearbox: &'a Gearbox,
+    pub resolved: Resolved,
+    pub transmission: Transmission,
+}
+
+/// What all analyses of one run share.
+pub(super) struct Runner<'a> {
+    language: &'a Language,
+    study: &'a Study,
+    folder: PathBuf,
+    progress: bool,
+}
+
+impl Runner<'_> {
+    /// The gearbox under each set; under its own models where no set is named.
+    fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &[String]) -> Result<Vec<Built<'s>>, Failure> {
+        let build = |set: Option<&str>| -> Result<Built<'s>, Failure> {
+            let resolved = gearbox.resolve(self.language, &self.study.choice(set))?;
+            let transmission = gearbox.build(self.language, &resolved)?;
+            Ok(Built {
+                name: set.unwrap_or("own").to_owned(),
+                gearbox,
+                resolved,
+                transmission,
+            })
+        };
+        if sets.is_empty() {
+            Ok(vec![build(None)?])
+        } else {
+            sets.iter().map(|set| build(Some(set))).collect()
+        }
+    }
+
+    /// The points of axes under the study's conditions.
+    fn points(&self, transmission: &Transmission, gear: &str, torques: Vec<f64>, speeds: Vec<f64>) -> Points {
+        let conditions = &self.study.entry.conditions;
+        Points {
+            gear: gear.to_owned(),
+            torque_at: conditions.torque_at.clone(),
+            speed_at: conditions.speed_at.clone(),
+            torques,
+            speeds,
+            temperature: conditions.oil_temperature.unwrap_or(transmission.oil_temperature),
+            flow: conditions.power_flow,
+        }
+    }
+
+    fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
+        let count = (points.torques.len() * points.speeds.len()) as u64;
+        let bar = if self.progress {
+            ProgressBar::new(count)
+        } else {
+            ProgressBar::hidden()
+        };
+        if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {pos}/{len}") {
+            bar.set_style(style);
+        }
+        bar.set_message(built.name.clone());
+        let result = run_grid(&built.transmission, points, &|n| bar.inc(n as u64));
+        bar.finish_and_clear();
+        result.map_err(|list| built.gearbox.findings(list).into())
+    }
+}
+
+pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
+    let language = language()?;
+    let study = Study::read(&language, &args.study)?;
+    study.check(&language)?;
+    let folder = args.output.clone().unwrap_or_else(|| study.folder.join("results"));
+    let runner = Runner {
+        language: &language,
+        study: &study,
+        folder,
+        progress: out.is_terminal(),
+    };
+    if let Some(title) = &study.entry.title {
+        out.line(title)?;
+        out.line("")?;
+    }
+    let mut failed = 0;
+    for (name, analysis) in study.entry.analyses.iter() {
+        let done = match analysis {
+            Analysis::Map(entry) => map::run(&runner, name, entry, out),
+            Analysis::Compare(entry) => compare::run(&runner, name, entry, out),
+            Analysis::Breakdown(entry) => breakdown::run(&runner, name, entry, out),
+        };
+        match done {
+            Ok(()) => {}
+            // What was computed before and what comes after is kept.
+            Err(Failure::Input(text)) => {
+                failed += 1;
+                out.line(format!("{name}: failed"))?;
+                Out::error().text(&text)?;
+            }
+        }
+    }
+    out.line(format!("results in {}", runner.folder.display()))?;
+    if failed == 0 {
+        Ok(End::Fine)
+    } else {
+        Err(Failure::Input(format!(
+            "error: {failed} of {} analyses failed\n",
+            study.entry.analyses.len()
+        )))
+    }
+}
+
+/// Axis values, or the fault with its path.
+fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Failure> {
+    values.map_err(|reason| {
+        let error = gearloss_framework::document::Diagnostic::error(path, reason);
+        runner
+            .study
+            .findings(vec![error.mend("give a step that leads from one end to the other")])
+            .into()
+    })
+}

@@ -1,0 +1,141 @@
+//! Losses by mechanism, component or sum over speed.
+
+use gearloss_framework::analysis::{PointResult, SUMS};
+use gearloss_framework::study::{As, BreakdownEntry, By};
+use serde_json::{Value, json};
+
+use super::super::solve::RPM;
+use super::map::{spread, tidy};
+use super::write::{cell, head, write};
+use super::{Built, Runner, axis};
+use crate::output::{Failure, Out, Table, number};
+
+pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Out) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let torques = axis(runner, &format!("{path}.torque"), entry.torque.values())?;
+    let speeds = axis(runner, &format!("{path}.speed"), entry.speed.values())?;
+    let built = runner.built(gearbox, &entry.model_sets)?;
+    let unit = if entry.unit == As::Watts { "w" } else { "percent" };
+    let header: Vec<String> = [
+        "model_set",
+        "gear",
+        "torque_nm",
+        "speed_rpm",
+        "share",
+        &format!("loss_{unit}"),
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    let mut rows = Vec::new();
+    let mut results = Vec::new();
+    for b in &built {
+        let first = b.transmission.states().first().map_or("", |s| s.name.as_str());
+        let gear = entry.gear.as_deref().unwrap_or(first);
+        let points = runner.points(&b.transmission, gear, torques.clone(), speeds.clone());
+        let solved = runner.solve(b, &points)?;
+        let names = names(b, entry.by);
+        let stacks: Vec<Option<Vec<f64>>> = solved.points.iter().map(|p| stack(b, p, entry, &names)).collect();
+        for (point, stack) in solved.points.iter().zip(&stacks) {
+            for (i, share) in names.iter().enumerate() {
+                rows.push(vec![
+                    b.name.clone(),
+                    gear.to_owned(),
+                    cell(Some(point.torque)),
+                    cell(Some(tidy(point.speed * RPM))),
+                    share.clone(),
+                    cell(stack.as_ref().map(|s| s[i])),
+                ]);
+            }
+        }
+        let shown = spread(speeds.len());
+        for (t, torque) in torques.iter().enumerate() {
+            out.line(format!(
+                "{name}: loss in {unit}, gear {gear}, {torque} Nm, models {}",
+                b.name
+            ))?;
+            let mut titles = vec!["share".to_owned()];
+            titles.extend(shown.iter().map(|i| format!("{:.0} rpm", speeds[*i] * RPM)));
+            let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+            let at = |i: usize| stacks[t * speeds.len() + i].as_ref();
+            for (k, share) in names.iter().enumerate() {
+                let mut row = vec![share.clone()];
+                row.extend(shown.iter().map(|i| number(at(*i).map(|s| s[k]), 2)));
+                table.row(row);
+            }
+            let mut sum = vec!["sum".to_owned()];
+            sum.extend(shown.iter().map(|i| number(at(*i).map(|s| s.iter().sum()), 2)));
+            table.row(sum);
+            out.text(&table.render())?;
+            out.line("")?;
+        }
+        results.push(json!({
+            "model_set": b.name,
+            "gear": gear,
+            "unit": unit,
+            "shares": names,
+            "points": solved.points.iter().zip(&stacks).map(|(p, s)| json!({
+                "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "loss": s,
+            })).collect::<Vec<_>>(),
+        }));
+    }
+    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
+    value["breakdowns"] = Value::Array(results);
+    write(runner, name, &entry.write, &header, &rows, &value)?;
+    Ok(())
+}
+
+/// A part's component: its path without the slot of a drag.
+fn component(path: &str) -> &str {
+    path.split(".drag.").next().unwrap_or(path)
+}
+
+fn names(built: &Built<'_>, by: By) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    match by {
+        By::Sum => names.extend(SUMS.iter().map(|(name, _)| (*name).to_owned())),
+        By::Mechanism | By::Component => {
+            for part in built.transmission.parts() {
+                let name = if by == By::Mechanism {
+                    part.mechanism
+                } else {
+                    component(&part.path)
+                };
+                if !names.iter().any(|n| n == name) {
+                    names.push(name.to_owned());
+                }
+            }
+        }
+    }
+    names
+}
+
+/// The stack of one point; absent where its loss is.
+fn stack(built: &Built<'_>, point: &PointResult, entry: &BreakdownEntry, names: &[String]) -> Option<Vec<f64>> {
+    let loss = point.loss?;
+    let mut stack = vec![0.0; names.len()];
+    match entry.by {
+        By::Sum => stack.copy_from_slice(&point.sums),
+        By::Mechanism | By::Component => {
+            for (part, watts) in built.transmission.parts().iter().zip(&point.parts) {
+                let name = if entry.by == By::Mechanism {
+                    part.mechanism
+                } else {
+                    component(&part.path)
+                };
+                if let Some(i) = names.iter().position(|n| n == name) {
+                    stack[i] += watts;
+                }
+            }
+        }
+    }
+    if entry.unit == As::Percent {
+        if loss == 0.0 {
+            return None;
+        }
+        for watts in &mut stack {
+            *watts *= 100.0 / loss;
+        }
+    }
+    Some(stack)
+}

@@ -1,0 +1,90 @@
+//! Files of results.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use gearloss_framework::study::Write;
+use serde_json::{Value, json};
+
+use super::{Built, Runner};
+use crate::output::Failure;
+
+/// What stands at the head of every JSON result.
+pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value {
+    let mut inputs = vec![json!({ "file": "study", "fnv1a_64": hash(&runner.study.text) })];
+    for (name, gearbox) in &runner.study.gearboxes {
+        for source in 0.. {
+            let Some((file, text)) = gearbox.sources.get(source) else {
+                break;
+            };
+            let file = Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file));
+            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text) }));
+        }
+        for (file, text) in gearbox.files.all() {
+            let file = file.file_name().and_then(|f| f.to_str()).unwrap_or_default().to_owned();
+            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(&text) }));
+        }
+    }
+    json!({
+        "format": "gearloss-result/1",
+        "gearloss": env!("CARGO_PKG_VERSION"),
+        "packages": runner.language.registry().packages(),
+        "study": runner.study.entry.title,
+        "analysis": analysis,
+        "inputs": inputs,
+        "unreached": built.iter().map(|b| json!({ "model_set": b.name, "notes": b.resolved.unreached })).collect::<Vec<_>>(),
+    })
+}
+
+/// Writes a table as CSV and a value as JSON, as asked; returns the files.
+pub fn write(
+    runner: &Runner<'_>,
+    name: &str,
+    formats: &[Write],
+    header: &[String],
+    rows: &[Vec<String>],
+    value: &Value,
+) -> Result<Vec<PathBuf>, Failure> {
+    let failed = |path: &Path, e: &dyn std::fmt::Display| {
+        Failure::input(
+            format!("cannot write {}: {e}", path.display()),
+            "name another folder with -o",
+        )
+    };
+    fs::create_dir_all(&runner.folder).map_err(|e| failed(&runner.folder, &e))?;
+    let mut files = Vec::new();
+    for format in formats {
+        let path = runner
+            .folder
+            .join(format!("{name}.{}", if *format == Write::Csv { "csv" } else { "json" }));
+        match format {
+            Write::Csv => {
+                let mut writer = csv::Writer::from_path(&path).map_err(|e| failed(&path, &e))?;
+                writer.write_record(header).map_err(|e| failed(&path, &e))?;
+                for row in rows {
+                    writer.write_record(row).map_err(|e| failed(&path, &e))?;
+                }
+                writer.flush().map_err(|e| failed(&path, &e))?;
+            }
+            Write::Json => {
+                let text = serde_json::to_string_pretty(value).map_err(|e| failed(&path, &e))?;
+                fs::write(&path, text + "\n").map_err(|e| failed(&path, &e))?;
+            }
+        }
+        files.push(path);
+    }
+    Ok(files)
+}
+
+/// A cell: the number with all its digits, or nothing.
+pub fn cell(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |x| format!("{x}"))
+}
+
+/// FNV-1a, 64 bit: tells whether an input changed, no more.
+fn hash(text: &str) -> String {
+    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}

@@ -1,0 +1,281 @@
+//! `solve`: one operating point, every part's loss, the sum and the efficiency.
+
+use gearloss_framework::analysis::{Note, SUMS, evidence, notes, sum_of};
+use gearloss_framework::evaluate::{Point, Solution};
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::transmission::Transmission;
+use serde_json::{Value, json};
+
+use super::check::grade;
+use super::point::{Prepared, prepare};
+use super::{choice, language};
+use crate::args::{Format, SolveArgs};
+use crate::output::{End, Failure, Out, Table, number, significant};
+
+/// rad/s in 1/min.
+pub const RPM: f64 = 30.0 / std::f64::consts::PI;
+
+pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
+    let language = language()?;
+    let gearbox = Gearbox::read(&language, &args.gearbox)?;
+    let resolved = gearbox.resolve(&language, &choice(&args.choice)?)?;
+    let transmission = gearbox.build(&language, &resolved)?;
+    let prepared = prepare(&args.point, &gearbox, &transmission)?;
+    let mut scratch = transmission.scratch(&prepared.case);
+    let temperatures = vec![prepared.temperature; transmission.nodes()];
+    let point = Point {
+        speeds: &prepared.speeds,
+        torques: &prepared.torques,
+        flow: prepared.flow,
+        tolerance: Tolerance::default(),
+    };
+    let solution = transmission.evaluate(&prepared.case, &point, &temperatures, &mut scratch);
+    let seen = notes(&transmission, &solution.extents());
+    let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
+    match args.format {
+        Format::Json => {
+            let mut value = as_json(&transmission, &solution, &prepared);
+            value["notes"] = json!(seen);
+            value["evidence"] = json!(known);
+            value["unreached"] = json!(resolved.unreached);
+            out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
+        }
+        Format::Table => {
+            out.text(&as_table(&transmission, &solution, &prepared))?;
+            out.text(&outside(&seen))?;
+            for line in &resolved.unreached {
+                out.line(format!("note: {line}"))?;
+            }
+            if let Some(weak) = known.first() {
+                out.line(format!(
+                    "weakest evidence: {} ({}: {})",
+                    weak.grade.name(),
+                    weak.what,
+                    weak.because
+                ))?;
+            }
+        }
+    }
+    let mut end = if solution.is_complete() {
+        End::Fine
+    } else {
+        End::Finding
+    };
+    for what in &args.deny {
+        let denied = if what == "extrapolation" {
+            seen.iter().any(|n| n.outside > 0)
+        } else {
+            let grade = grade(what)?;
+            known.first().is_some_and(|w| w.grade >= grade)
+        };
+        if denied {
+            out.line(format!("denied: {what}"))?;
+            end = End::Finding;
+        }
+    }
+    Ok(end)
+}
+
+/// The point in words and the state of the transmission.
+pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared) -> String {
+    let mut text = String::new();
+    if !transmission.title().is_empty() {
+        text.push_str(&format!("{}\n", transmission.title()));
+    }
+    text.push_str(&format!(
+        "gear {}, oil {} degC, {} flow\n\n",
+        prepared.gear,
+        significant(prepared.temperature),
+        if matches!(prepared.flow, gearloss_framework::evaluate::PowerFlow::Real) {
+            "real"
+        } else {
+            "ideal"
+        }
+    ));
+    let mut ports = Table::new(&["port", "speed rpm", "torque Nm", "power W"]);
+    for (i, port) in transmission.ports().iter().enumerate() {
+        let (speed, torque) = (solution.speed(port.member), solution.torque(i));
+        ports.row(vec![
+            port.name.clone(),
+            format!("{:.2}", speed * RPM),
+            format!("{torque:.4}"),
+            format!("{:.2}", speed * torque),
+        ]);
+    }
+    text.push_str(&ports.render());
+    text.push('\n');
+    text
+}
+
+fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared) -> String {
+    let mut text = heading(transmission, solution, prepared);
+    if !transmission.supports().is_empty() {
+        let mut loads = Table::new(&["support", "radial N", "axial N", "tilting Nm"]);
+        for (i, path) in transmission.supports().iter().enumerate() {
+            let load = solution.load(i);
+            loads.row(vec![
+                path.clone(),
+                format!("{:.1}", load.radial),
+                format!("{:.1}", load.axial),
+                format!("{:.3}", load.tilting),
+            ]);
+        }
+        text.push_str(&loads.render());
+        text.push('\n');
+    }
+    let mut parts = Table::new(&[
+        "part",
+        "model",
+        "loss W",
+        "load-dependent W",
+        "moment Nm",
+        "relative rpm",
+    ]);
+    for (part, loss) in solution.parts() {
+        let entry = &transmission.instances()[part.notes.instance].entry;
+        let dependent: f64 = entry
+            .terms
+            .iter()
+            .filter(|t| t.load_dependent)
+            .fold(0.0, |sum, t| sum + loss.term_watts(t.index));
+        let watts = if loss.result.is_ok() {
+            format!("{:.4}", loss.watts())
+        } else {
+            "undefined".to_owned()
+        };
+        parts.row(vec![
+            part.path.clone(),
+            entry.name.to_owned(),
+            watts,
+            format!("{dependent:.4}"),
+            number(loss.moment(), 6),
+            format!("{:.1}", loss.speed * RPM),
+        ]);
+    }
+    text.push_str(&parts.render());
+    text.push('\n');
+    let sums = sums(transmission, solution);
+    let words: Vec<String> = SUMS
+        .iter()
+        .zip(sums)
+        .map(|((name, _), watts)| format!("{name} {watts:.3}"))
+        .collect();
+    text.push_str(&format!("sums W: {}\n", words.join(", ")));
+    text.push_str(&format!(
+        "status {}, loss {} W, efficiency {} %, loss torque {} Nm, {} passes\n",
+        solution.status().name(),
+        number(solution.loss(), 4),
+        number(solution.efficiency().map(|e| 100.0 * e), 4),
+        number(solution.loss_torque(), 6),
+        solution.passes(),
+    ));
+    if let Some((part, reason)) = solution.undefined() {
+        text.push_str(&format!("{}: {reason}\n", part.path));
+    }
+    text
+}
+
+fn sums(transmission: &Transmission, solution: &Solution<'_>) -> [f64; 6] {
+    let mut sums = [0.0; 6];
+    for (part, loss) in solution.parts() {
+        for term in transmission.instances()[part.notes.instance].entry.terms {
+            sums[sum_of(part.mechanism, term.load_dependent)] += loss.term_watts(term.index);
+        }
+    }
+    sums
+}
+
+/// What was outside of its stated range.
+pub fn outside(notes: &[Note]) -> String {
+    let mut text = String::new();
+    for note in notes.iter().filter(|n| n.outside > 0) {
+        if let Some((least, greatest, origin)) = note.range {
+            text.push_str(&format!(
+                "outside: {}: {} {} to {} {} is outside of {} to {} at {} of {} points ({origin})\n",
+                note.path,
+                note.name,
+                significant(note.least),
+                significant(note.greatest),
+                note.unit,
+                significant(least),
+                significant(greatest),
+                note.outside,
+                note.points,
+            ));
+        }
+    }
+    text
+}
+
+fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared) -> Value {
+    let ports: Vec<Value> = transmission
+        .ports()
+        .iter()
+        .enumerate()
+        .map(|(i, port)| {
+            let (speed, torque) = (solution.speed(port.member), solution.torque(i));
+            json!({ "port": port.name, "speed_rad_s": speed, "torque_nm": torque, "power_w": speed * torque })
+        })
+        .collect();
+    let members: Vec<Value> = transmission
+        .members()
+        .iter()
+        .enumerate()
+        .map(|(i, name)| json!({ "member": name, "speed_rad_s": solution.speed(i) }))
+        .collect();
+    let loads: Vec<Value> = transmission
+        .supports()
+        .iter()
+        .enumerate()
+        .map(|(i, path)| {
+            let load = solution.load(i);
+            json!({ "support": path, "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting })
+        })
+        .collect();
+    let parts: Vec<Value> = solution
+        .parts()
+        .map(|(part, loss)| {
+            let entry = &transmission.instances()[part.notes.instance].entry;
+            let terms: Vec<Value> = entry
+                .terms
+                .iter()
+                .map(|t| json!({ "term": t.name, "load_dependent": t.load_dependent, "loss_w": loss.term_watts(t.index) }))
+                .collect();
+            json!({
+                "part": part.path,
+                "mechanism": part.mechanism,
+                "model": entry.name,
+                "count": part.count,
+                "relative_speed_rad_s": loss.speed,
+                "moment_nm": loss.moment(),
+                "loss_w": loss.result.is_ok().then(|| loss.watts()),
+                "undefined": loss.result.err().map(|e| e.to_string()),
+                "terms": terms,
+            })
+        })
+        .collect();
+    json!({
+        "format": "gearloss-point/1",
+        "gearloss": env!("CARGO_PKG_VERSION"),
+        "gear": prepared.gear,
+        "oil_temperature_degc": prepared.temperature,
+        "power_flow": prepared.flow,
+        "status": solution.status(),
+        "efficiency": solution.efficiency(),
+        "loss_w": solution.loss(),
+        "loss_torque_nm": solution.loss_torque(),
+        "balance": {
+            "input_w": solution.input_power(),
+            "output_w": solution.output_power(),
+            "loss_w": solution.loss(),
+            "residual_w": solution.residual(),
+            "largest_internal_power_w": solution.largest_power(),
+        },
+        "sums_w": SUMS.iter().zip(sums(transmission, solution)).map(|((name, _), w)| ((*name).to_owned(), json!(w))).collect::<serde_json::Map<_, _>>(),
+        "ports": ports,
+        "members": members,
+        "supports": loads,
+        "parts": parts,
+    })
+}

@@ -1,0 +1,165 @@
+//! A study with its gearboxes.
+
+use std::path::{Path, PathBuf};
+
+use gearloss_framework::attach::dangling;
+use gearloss_framework::description::Ordered;
+use gearloss_framework::document::{Diagnostic, Places, Sources, read_yaml};
+use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::{Choice, expand_set, sets_of};
+use gearloss_framework::study::{Analysis, StudyEntry};
+use serde_json::{Map, Value};
+
+/// A study as read, with its gearboxes.
+pub struct Study {
+    pub entry: StudyEntry,
+    pub sets: Map<String, Value>,
+    pub gearboxes: Vec<(String, Gearbox)>,
+    pub text: String,
+    pub folder: PathBuf,
+    places: Places,
+    sources: Sources,
+}
+
+impl Study {
+    /// Reads a study and its gearboxes.
+    pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
+        let mut sources = Sources::default();
+        let text = std::fs::read_to_string(file).map_err(|e| Findings {
+            list: vec![
+                Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
+                    .mend("check the name of the file"),
+            ],
+            sources: Sources::default(),
+        })?;
+        let source = sources.add(file.display().to_string(), text.as_str());
+        let read = read_yaml(source, &text);
+        if !read.findings.is_empty() {
+            return Err(Findings {
+                list: read.findings,
+                sources,
+            });
+        }
+        let walked = language.walk_study(&read.node);
+        if !walked.findings.is_empty() {
+            return Err(Findings {
+                list: walked.findings,
+                sources,
+            });
+        }
+        let bug = |e: serde_json::Error| Findings {
+            list: vec![Diagnostic::error("", e.to_string())],
+            sources: Sources::default(),
+        };
+        let sets = walked
+            .value
+            .get("model_sets")
+            .and_then(Value::as_object)
+            .cloned()
+            .unwrap_or_default();
+        let entry: StudyEntry = serde_json::from_value(walked.value).map_err(bug)?;
+        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
+        let mut gearboxes = Vec::new();
+        for (name, gearbox) in entry.gearboxes.iter() {
+            gearboxes.push((name.to_owned(), Gearbox::read(language, &folder.join(gearbox))?));
+        }
+        Ok(Self {
+            entry,
+            sets,
+            gearboxes,
+            text,
+            folder,
+            places: walked.places,
+            sources,
+        })
+    }
+
+    /// Findings about the study itself, with their places.
+    pub fn findings(&self, list: Vec<Diagnostic>) -> Findings {
+        Findings {
+            list: list.into_iter().map(|d| self.places.place(d)).collect(),
+            sources: self.sources.clone(),
+        }
+    }
+
+    /// A gearbox by name; the first where none is named.
+    pub fn gearbox(&self, path: &str, name: Option<&String>) -> Result<&(String, Gearbox), Findings> {
+        let names: Vec<&str> = self.gearboxes.iter().map(|(n, _)| n.as_str()).collect();
+        match name {
+            None => self.gearboxes.first().ok_or_else(|| {
+                self.findings(vec![
+                    Diagnostic::error("gearboxes", "no gearbox is named")
+                        .mend("add `gearboxes: { ours: gearbox.yaml }`"),
+                ])
+            }),
+            Some(name) => self
+                .gearboxes
+                .iter()
+                .find(|(n, _)| n == name)
+                .ok_or_else(|| self.findings(vec![dangling(&format!("{path}.gearbox"), "gearbox", name, &names)])),
+        }
+    }
+
+    /// The choice of a set, with the overrides of the conditions.
+    pub fn choice(&self, set: Option<&str>) -> Choice {
+        Choice {
+            set: set.map(str::to_owned),
+            sets: self.sets.clone(),
+            overrides: self
+                .entry
+                .conditions
+                .set
+                .iter()
+                .map(|(path, value)| (path.to_owned(), value.clone()))
+                .collect(),
+        }
+    }
+
+    /// Checks every name that the analyses use, and builds every gearbox under every set.
+    pub fn check(&self, language: &Language) -> Result<(), Findings> {
+        let mut found = Vec::new();
+        let grids: Vec<&str> = self.entry.grids.ids().collect();
+        for (name, analysis) in self.entry.analyses.iter() {
+            let path = format!("analyses.{name}");
+            let (gearbox, grid, sets): (Option<&String>, Option<&String>, Vec<&String>) = match analysis {
+                Analysis::Map(map) => (map.gearbox.as_ref(), Some(&map.grid), map.model_sets.iter().collect()),
+                Analysis::Compare(compare) => {
+                    let sets = std::iter::once(&compare.base).chain(&compare.against).collect();
+                    (compare.gearbox.as_ref(), Some(&compare.grid), sets)
+                }
+                Analysis::Breakdown(b) => (b.gearbox.as_ref(), None, b.model_sets.iter().collect()),
+            };
+            if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
+                found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));
+            }
+            let (_, gearbox) = self.gearbox(&path, gearbox)?;
+            let at_hand = sets_of(language, &gearbox.value, &self.sets);
+            for set in sets {
+                match expand_set(&at_hand, set) {
+                    Ok(_) => {
+                        gearbox.transmission(language, &self.choice(Some(set)))?;
+                    }
+                    Err(error) => found.push(Diagnostic {
+                        path: path.clone(),
+                        ..error
+                    }),
+                }
+            }
+        }
+        if found.is_empty() {
+            Ok(())
+        } else {
+            Err(self.findings(found))
+        }
+    }
+
+    /// The grid of a name.
+    pub fn grid<'a>(&'a self, path: &str, name: &str) -> Result<&'a gearloss_framework::study::Grid, Findings> {
+        let grids: &Ordered<_> = &self.entry.grids;
+        let names: Vec<&str> = grids.ids().collect();
+        grids
+            .get(name)
+            .ok_or_else(|| self.findings(vec![dangling(&format!("{path}.grid"), "grid", name, &names)]))
+    }
+}

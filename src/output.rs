@@ -1,0 +1,179 @@
+//! Printing without panics: a closed pipe ends the program quietly.
+
+use std::fmt::Write as _;
+use std::io::{self, IsTerminal, Write};
+
+use gearloss_framework::gearbox::Findings;
+
+/// How a command ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// All is well.
+    Fine,
+    /// Something deserves attention.
+    Finding,
+}
+
+/// Why a command ended early: wrong input, with the text to print.
+#[derive(Debug)]
+pub enum Failure {
+    /// Wrong input, with the text to print.
+    Input(String),
+}
+
+impl Failure {
+    /// Wrong input in one line, with how to mend it.
+    pub fn input(message: impl std::fmt::Display, mend: impl std::fmt::Display) -> Self {
+        Self::Input(format!("error: {message}\n  = mend: {mend}\n"))
+    }
+}
+
+impl From<Findings> for Failure {
+    fn from(findings: Findings) -> Self {
+        Self::Input(findings.render())
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::Input(format!("error: {error}\n"))
+    }
+}
+
+/// Where a command prints. When its reader has gone it falls silent, and the command goes on: files are still written.
+pub struct Out {
+    to: Box<dyn Write>,
+    terminal: bool,
+    closed: bool,
+}
+
+impl Out {
+    /// Standard output.
+    pub fn standard() -> Self {
+        Self {
+            to: Box::new(io::stdout().lock()),
+            terminal: io::stdout().is_terminal(),
+            closed: false,
+        }
+    }
+
+    /// Standard error.
+    pub fn error() -> Self {
+        Self {
+            to: Box::new(io::stderr().lock()),
+            terminal: io::stderr().is_terminal(),
+            closed: false,
+        }
+    }
+
+    /// True on a terminal.
+    pub fn is_terminal(&self) -> bool {
+        self.terminal
+    }
+
+    /// Prints a text as it is.
+    pub fn text(&mut self, text: &str) -> io::Result<()> {
+        if self.closed {
+            return Ok(());
+        }
+        match self.to.write_all(text.as_bytes()).and_then(|()| self.to.flush()) {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.closed = true;
+                Ok(())
+            }
+            other => other,
+        }
+    }
+
+    /// Prints a line.
+    pub fn line(&mut self, text: impl AsRef<str>) -> io::Result<()> {
+        self.text(&format!("{}\n", text.as_ref()))
+    }
+}
+
+/// A table of texts: the first column to the left, numbers to the right.
+pub struct Table {
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table with its head.
+    pub fn new(head: &[&str]) -> Self {
+        Self {
+            rows: vec![head.iter().map(|h| (*h).to_owned()).collect()],
+        }
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: Vec<String>) {
+        self.rows.push(cells);
+    }
+
+    /// The table as text.
+    pub fn render(&self) -> String {
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let width = |i: usize| {
+            self.rows
+                .iter()
+                .filter_map(|r| r.get(i))
+                .map(|c| c.chars().count())
+                .max()
+                .unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..columns).map(width).collect();
+        // A column of numbers stands to the right.
+        let numeric = |i: usize| {
+            self.rows
+                .iter()
+                .skip(1)
+                .filter_map(|r| r.get(i))
+                .all(|c| c.is_empty() || c == "-" || c.parse::<f64>().is_ok())
+        };
+        let right: Vec<bool> = (0..columns).map(numeric).collect();
+        let mut text = String::new();
+        for (n, row) in self.rows.iter().enumerate() {
+            let mut line = String::new();
+            for (i, cell) in row.iter().enumerate() {
+                let gap = " ".repeat(widths[i] - cell.chars().count());
+                let space = if i == 0 { "" } else { "  " };
+                let _ = if right[i] {
+                    write!(line, "{space}{gap}{cell}")
+                } else {
+                    write!(line, "{space}{cell}{gap}")
+                };
+            }
+            text.push_str(line.trim_end());
+            text.push('\n');
+            if n == 0 {
+                let total: usize = widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1);
+                text.push_str(&"-".repeat(total));
+                text.push('\n');
+            }
+        }
+        text
+    }
+}
+
+/// A number with a sensible number of digits; a dash where there is none.
+pub fn number(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "-".to_owned(), |x| format!("{x:.digits$}"))
+}
+
+/// A number in six significant digits.
+pub fn significant(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = x.abs().log10().floor();
+    if (-4.0..6.0).contains(&magnitude) {
+        let digits = (5.0 - magnitude).clamp(0.0, 9.0) as usize;
+        let text = format!("{x:.digits$}");
+        if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        } else {
+            text
+        }
+    } else {
+        format!("{x:.5e}")
+    }
+}

@@ -1,0 +1,103 @@
+//! Every linked model owes the same to the framework; registries that cannot work are refused.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use gearloss_framework::conformance::check_all;
+use gearloss_framework::language::Language;
+use gearloss_framework::mechanism::Mechanism;
+use gearloss_framework::mechanism::seal::Seal;
+use gearloss_framework::registry::{Entry, MechanismEntry, Registry, inventory};
+
+#[test]
+fn all_models_conform() {
+    let faults = check_all(&common::language());
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+fn linked() -> (Vec<MechanismEntry>, Vec<Entry>) {
+    let _ = common::language();
+    (
+        inventory::iter::<MechanismEntry>().copied().collect(),
+        inventory::iter::<Entry>().copied().collect(),
+    )
+}
+
+fn refused(mechanisms: Vec<MechanismEntry>, models: Vec<Entry>) -> String {
+    let faults = Registry::of(mechanisms, models, [], []).err().unwrap();
+    faults
+        .iter()
+        .map(|f| format!("{f} {}", f.notes.join(" ")))
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+#[test]
+fn an_empty_registry_says_what_to_link() {
+    let text = refused(linked().0, Vec::new());
+    assert!(
+        text.contains("no loss model is linked") && text.contains("use gearloss_plugins as _;"),
+        "{text}"
+    );
+}
+
+#[test]
+fn two_models_of_one_name_name_both_places() {
+    let (mechanisms, mut models) = linked();
+    let mut copy = *models
+        .iter()
+        .find(|m| m.name == "iso14179_2" && m.mechanism == Seal::KEY)
+        .unwrap();
+    copy.origin.module = "my_models::seal";
+    models.push(copy);
+    let text = refused(mechanisms, models);
+    assert!(
+        text.contains("two registrations of the seal model `iso14179_2`"),
+        "{text}"
+    );
+    assert!(
+        text.contains("my_models::seal") && text.contains("gearloss_plugins::seal::iso14179_2"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_order_of_registration_changes_nothing() {
+    let (mut mechanisms, mut models) = linked();
+    let schema = |m: Vec<MechanismEntry>, e: Vec<Entry>| {
+        let language = Language::new(Registry::of(m, e, [], []).unwrap()).unwrap_or_else(|f| panic!("{f:#?}"));
+        language.published(gearloss_framework::language::Kind::Gearbox)
+    };
+    let one = schema(mechanisms.clone(), models.clone());
+    mechanisms.reverse();
+    models.reverse();
+    assert_eq!(one, schema(mechanisms, models));
+}
+
+#[test]
+fn the_framework_names_no_concrete_model() {
+    let names = [
+        "iso14179",
+        "changenet",
+        "path_integral",
+        "cone_gap",
+        "ring_gap",
+        "skf::",
+        "\"skf\"",
+        "\"xu\"",
+    ];
+    let mut folders = vec![common::file("framework/src")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let text = std::fs::read_to_string(&path).unwrap();
+                for name in names {
+                    assert!(!text.contains(name), "{} names {name}", path.display());
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Golden cases: what `check` says about each input in `tests/cases`. `UPDATE=1 cargo test` writes the expected texts anew.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::path::Path;
+
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::Choice;
+
+fn verdict(language: &Language, folder: &Path) -> String {
+    let text = std::fs::read_to_string(folder.join("input.yaml")).unwrap();
+    // The folder is given relative, so that messages about files do not hang on where the repository lies.
+    let relative = folder.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap();
+    let built = Gearbox::of_text(language, &text, "input.yaml", relative)
+        .and_then(|gearbox| gearbox.transmission(language, &Choice::default()).map(|t| (gearbox, t)));
+    match built {
+        Ok((gearbox, transmission)) => {
+            let mut text = "fine\n".to_owned();
+            for warning in &transmission.warnings {
+                text.push_str(&gearbox.sources.render(warning));
+                text.push('\n');
+            }
+            text
+        }
+        Err(findings) => findings.render(),
+    }
+}
+
+#[test]
+fn every_class_of_input_error_says_what_where_and_how_to_mend_it() {
+    let language = common::language();
+    let mut wrong = Vec::new();
+    for folder in common::cases() {
+        let name = folder.file_name().unwrap().to_str().unwrap().to_owned();
+        let text = verdict(&language, &folder);
+        let expected = folder.join("expected.txt");
+        if std::env::var_os("UPDATE").is_some() {
+            std::fs::write(&expected, &text).unwrap();
+        } else if std::fs::read_to_string(&expected).unwrap_or_default() != text {
+            wrong.push(format!("--- {name} ---\n{text}"));
+        }
+        if name != "fine" {
+            assert!(text.contains("error"), "{name} is accepted:\n{text}");
+            assert!(text.contains("mend:"), "{name} does not say how to mend it:\n{text}");
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "these differ (UPDATE=1 writes them):\n{}",
+        wrong.join("\n")
+    );
+}

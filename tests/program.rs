@@ -1,0 +1,275 @@
+//! The program as its users call it.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use assert_cmd::Command;
+
+fn gearloss(args: &[&str]) -> std::process::Output {
+    Command::cargo_bin("gearloss")
+        .unwrap()
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(args)
+        .output()
+        .unwrap()
+}
+
+fn out(args: &[&str]) -> String {
+    let output = gearloss(args);
+    assert!(
+        output.status.success(),
+        "{args:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    String::from_utf8(output.stdout).unwrap()
+}
+
+const GEARBOX: &str = "examples/two-speed-ev/gearbox.yaml";
+
+#[test]
+fn check_says_fine_or_what_is_wrong() {
+    assert!(out(&["check", GEARBOX, "examples/two-speed-ev/study.yaml"]).contains("fine"));
+    let wrong = gearloss(&["check", "tests/cases/wrong_unit/input.yaml"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(String::from_utf8(wrong.stderr).unwrap().contains("input.yaml:10:"));
+    let missing = gearloss(&["check", "nowhere.yaml"]);
+    assert_eq!(missing.status.code(), Some(2));
+    let denied = gearloss(&["check", GEARBOX, "--deny", "disputed"]);
+    assert_eq!(denied.status.code(), Some(1));
+}
+
+#[test]
+fn check_resolved_is_a_document_again() {
+    let resolved = out(&["check", GEARBOX, "--resolved"]);
+    let language = common::language();
+    let read = gearloss_framework::document::read_yaml(0, &resolved);
+    assert!(read.findings.is_empty(), "{:?}", read.findings);
+    assert!(resolved.contains("designation") && resolved.contains("c0"));
+    let _ = language;
+}
+
+#[test]
+fn solve_prints_a_table_and_json_with_the_same_numbers() {
+    let args = [
+        "solve", GEARBOX, "--gear", "first", "--torque", "10 Nm", "--speed", "8000 rpm",
+    ];
+    let table = out(&args);
+    assert!(
+        table.contains("status drive") && table.contains("bearings.B5"),
+        "{table}"
+    );
+    let json: serde_json::Value = serde_json::from_str(&out(&[&args[..], &["--format", "json"]].concat())).unwrap();
+    assert_eq!(json["format"], "gearloss-point/1");
+    let loss = json["loss_w"].as_f64().unwrap();
+    assert!(table.contains(&format!("loss {loss:.4} W")), "{table}");
+    let residual = json["balance"]["residual_w"].as_f64().unwrap();
+    assert!(residual.abs() < 1e-11 * json["balance"]["largest_internal_power_w"].as_f64().unwrap());
+    let parts: f64 = json["parts"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| p["loss_w"].as_f64().unwrap())
+        .sum();
+    assert!((parts / loss - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn solve_follows_overrides_sets_and_the_other_port() {
+    let loss = |more: &[&str]| {
+        let args = [
+            &[
+                "solve", GEARBOX, "--gear", "first", "--speed", "8000 rpm", "--format", "json",
+            ][..],
+            more,
+        ]
+        .concat();
+        let json: serde_json::Value = serde_json::from_str(&out(&args)).unwrap();
+        (
+            json["loss_w"].as_f64().unwrap(),
+            json["ports"][0]["torque_nm"].as_f64().unwrap(),
+        )
+    };
+    let own = loss(&["--torque", "10 Nm"]).0;
+    assert!(loss(&["--torque", "10 Nm", "--models", "joint"]).0 < own);
+    assert!(loss(&["--torque", "10 Nm", "--set", "meshes.*.model.x_l=0.5"]).0 < own);
+    assert!(loss(&["--torque", "10 Nm", "--set", "bearings.B1.designation=\"6204\""]).0 != own);
+    let (_, input) = loss(&["--torque", "output=-218 Nm"]);
+    assert!(input > 10.0 && input < 10.5, "{input}");
+}
+
+#[test]
+fn wrong_arguments_say_how_to_mend_them() {
+    for (args, words) in [
+        (vec!["solve", GEARBOX], "add --gear"),
+        (
+            vec![
+                "solve", GEARBOX, "--gear", "third", "--speed", "1 rpm", "--torque", "1 Nm",
+            ],
+            "no gear state is called `third`",
+        ),
+        (
+            vec![
+                "solve", GEARBOX, "--gear", "first", "--speed", "1 Nm", "--torque", "1 Nm",
+            ],
+            "torque, not a angular speed",
+        ),
+        (
+            vec!["solve", GEARBOX, "--gear", "first", "--speed", "1 rpm"],
+            "add --torque",
+        ),
+        (
+            vec![
+                "solve", GEARBOX, "--gear", "first", "--speed", "1 rpm", "--torque", "1 Nm", "--models", "jiont",
+            ],
+            "write `joint`",
+        ),
+        (
+            vec![
+                "solve",
+                GEARBOX,
+                "--gear",
+                "first",
+                "--speed",
+                "1 rpm",
+                "--torque",
+                "1 Nm",
+                "--set",
+                "bearings.B9.bore=1 mm",
+            ],
+            "`bearings` has no `B9`",
+        ),
+        (
+            vec![
+                "solve",
+                GEARBOX,
+                "--gear",
+                "first",
+                "--speed",
+                "1 rpm",
+                "--torque",
+                "1 Nm",
+                "--set",
+                "bearings.B1.bore=1 Nm",
+            ],
+            "torque, not a length",
+        ),
+        (
+            vec![
+                "explain", GEARBOX, "B77", "--gear", "first", "--speed", "1 rpm", "--torque", "1 Nm",
+            ],
+            "no part is called",
+        ),
+        (vec!["models", "bearings"], "write bearing"),
+        (vec!["eval", "bearing/sfk"], "write skf"),
+    ] {
+        let output = gearloss(&args);
+        assert_eq!(output.status.code(), Some(2), "{args:?}");
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(text.contains(words), "{args:?}: {text}");
+    }
+}
+
+#[test]
+fn explain_shows_every_intermediate_branch_and_input() {
+    let text = out(&[
+        "explain", GEARBOX, "B1", "--gear", "first", "--torque", "10 Nm", "--speed", "8000 rpm",
+    ]);
+    for words in [
+        "Fr = ",
+        "branch: nu n at least 2000",
+        "M0 = ",
+        "N mm",
+        "catalogue 6303, confidence high",
+        "gearbox.yaml:",
+        "source:",
+    ] {
+        assert!(text.contains(words), "{words} is missing:\n{text}");
+    }
+    let mesh = out(&[
+        "explain", GEARBOX, "M1", "--gear", "first", "--torque", "10 Nm", "--speed", "8000 rpm",
+    ]);
+    assert!(mesh.contains("H_v") && mesh.contains("held there"), "{mesh}");
+}
+
+#[test]
+fn models_lists_explains_and_finds_needs() {
+    let all = out(&["models"]);
+    assert!(all.contains("gear_mesh") && all.contains("path_integral") && all.contains("set joint"));
+    assert!(out(&["models", "bearing"]).contains("oil_height"));
+    assert!(out(&["models", "bearing", "skf"]).contains("mu_bl"));
+    let needs = out(&["models", "--needs", GEARBOX]);
+    assert!(
+        needs.contains("housing.oil.volume") && needs.contains("assumed") && needs.contains("derived (catalogue 6303"),
+        "{needs}"
+    );
+    assert!(
+        needs.contains("missing: skf covers deep groove ball bearings"),
+        "{needs}"
+    );
+}
+
+#[test]
+fn eval_answers_for_every_model_alone() {
+    let language = common::language();
+    for mechanism in language.registry().mechanisms() {
+        for model in language.registry().models(mechanism.key).filter(|m| m.name != "table") {
+            let text = out(&["eval", &format!("{}/{}", mechanism.key, model.name)]);
+            assert!(text.contains("source:"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn eval_reads_its_input() {
+    let folder = std::env::temp_dir().join(format!("gearloss-eval-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("input.yaml");
+    std::fs::write(&file, "at: { speed: 3000 rpm, temperature: 70 degC, nu40: 30 mm2/s }\n").unwrap();
+    let json: serde_json::Value = serde_json::from_str(&out(&[
+        "eval",
+        "seal/iso14179_2",
+        "--input",
+        file.to_str().unwrap(),
+        "--format",
+        "json",
+    ]))
+    .unwrap();
+    assert!((json["total"].as_f64().unwrap() / 44.8643 - 1.0).abs() < 1e-5, "{json}");
+    std::fs::write(&file, "at: { sped: 3000 rpm }\n").unwrap();
+    let wrong = gearloss(&["eval", "seal/iso14179_2", "--input", file.to_str().unwrap()]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(String::from_utf8(wrong.stderr).unwrap().contains("write `speed`"));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn run_writes_csv_and_json_and_prints_tables() {
+    let folder = std::env::temp_dir().join(format!("gearloss-run-{}", std::process::id()));
+    let text = out(&[
+        "run",
+        "examples/two-speed-ev/study.yaml",
+        "-o",
+        folder.to_str().unwrap(),
+    ]);
+    assert!(text.contains("efficiency of joint minus iso in points"), "{text}");
+    let maps: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(folder.join("maps.json")).unwrap()).unwrap();
+    assert_eq!(maps["format"], "gearloss-result/1");
+    assert_eq!(maps["maps"].as_array().unwrap().len(), 3);
+    assert_eq!(maps["maps"][0]["points"].as_array().unwrap().len(), 154);
+    let csv = std::fs::read_to_string(folder.join("maps.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1 + 3 * 154);
+    for name in ["gap", "stack", "shares"] {
+        assert!(folder.join(format!("{name}.csv")).exists() && folder.join(format!("{name}.json")).exists());
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_model_that_a_set_does_not_reach_is_said() {
+    let text = out(&["check", GEARBOX, "--models", "joint"]);
+    assert!(
+        text.contains("bearings: N3, N5 keep their own model under `joint`"),
+        "{text}"
+    );
+}

@@ -1,0 +1,181 @@
+//! Other gearboxes than the example, from their documents: a differential, a planetary set, parallel paths.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{RPM, language};
+use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::flow::{Status, Tolerance};
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::Choice;
+use gearloss_framework::transmission::Transmission;
+
+fn built(language: &Language, text: &str) -> Transmission {
+    let gearbox = Gearbox::of_text(language, text, "input.yaml", ".").unwrap();
+    gearbox.transmission(language, &Choice::default()).unwrap()
+}
+
+/// Speeds and torques of all ports, status, efficiency.
+fn solve(
+    t: &Transmission,
+    gear: &str,
+    speeds: &[(&str, f64)],
+    torques: &[(&str, f64)],
+) -> (Vec<f64>, Vec<f64>, Status, Option<f64>) {
+    let names = |list: &[(&str, f64)]| list.iter().map(|s| s.0.to_owned()).collect::<Vec<_>>();
+    let (speed_names, torque_names) = (names(speeds), names(torques));
+    let case = t
+        .case(
+            gear,
+            &speed_names.iter().map(String::as_str).collect::<Vec<_>>(),
+            &torque_names.iter().map(String::as_str).collect::<Vec<_>>(),
+        )
+        .unwrap();
+    let mut scratch = t.scratch(&case);
+    let speeds: Vec<f64> = speeds.iter().map(|s| s.1 * RPM).collect();
+    let torques: Vec<f64> = torques.iter().map(|s| s.1).collect();
+    let point = Point {
+        speeds: &speeds,
+        torques: &torques,
+        flow: PowerFlow::Real,
+        tolerance: Tolerance::default(),
+    };
+    let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+    assert!(solution.residual().unwrap().abs() <= 1e-12 * solution.largest_power().max(1e-300));
+    (
+        t.ports().iter().map(|p| solution.speed(p.member) / RPM).collect(),
+        (0..t.ports().len()).map(|p| solution.torque(p)).collect(),
+        solution.status(),
+        solution.efficiency(),
+    )
+}
+
+const DIFFERENTIAL: &str = "
+gearloss: gearbox/1
+ports: { input: drive, left: left_half, right: right_half }
+shafts:
+  drive: { axis: [0 mm, 0 mm] }
+  cage: { axis: [100 mm, 0 mm] }
+  left_half: { axis: [100 mm, 0 mm] }
+  right_half: { axis: [100 mm, 0 mm] }
+gears:
+  pinion: { shaft: drive, at: 30 mm, z: 20, facewidth: 20 mm }
+  crown: { shaft: cage, at: 30 mm, z: 80, facewidth: 20 mm }
+meshes:
+  final_drive: { gears: [pinion, crown], normal_module: 2 mm, model: { type: iso14179_2 } }
+differentials:
+  axle: { case: cage, left: left_half, right: right_half }
+lubricants: { oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm2/s } } }
+";
+
+#[test]
+fn a_differential_turns_both_sides_equally_unless_told_otherwise() {
+    let language = language();
+    let t = built(&language, DIFFERENTIAL);
+    let (speeds, torques, status, efficiency) = solve(&t, "only", &[("input", 4000.0)], &[("input", 50.0)]);
+    assert!((speeds[1] + 1000.0).abs() < 1e-9 && (speeds[2] + 1000.0).abs() < 1e-9);
+    assert!((torques[1] - torques[2]).abs() < 1e-9 && status == Status::Drive);
+    assert!(efficiency.unwrap() > 0.97);
+    // Prescribing one side lets the other follow: the sum of both is twice the cage.
+    let (speeds, torques, ..) = solve(&t, "only", &[("input", 4000.0), ("left", -1040.0)], &[("input", 50.0)]);
+    assert!((speeds[2] + 960.0).abs() < 1e-9 && (torques[1] - torques[2]).abs() < 1e-9);
+}
+
+const PLANETARY: &str = "
+gearloss: gearbox/1
+ports: { input: sun_shaft, output: carrier }
+shafts:
+  sun_shaft: { axis: [0 mm, 0 mm] }
+  carrier: { axis: [0 mm, 0 mm] }
+  ring_shaft: { axis: [0 mm, 0 mm] }
+  planet: { mass: 0.2 kg }
+gears:
+  sun: { shaft: sun_shaft, z: 24, facewidth: 20 mm }
+  planet_gear: { shaft: planet, z: 24, facewidth: 20 mm }
+  ring: { shaft: ring_shaft, z: 72, facewidth: 20 mm, kind: ring, tip_diameter: 140.8 mm }
+meshes:
+  sun_planet: { gears: [sun, planet_gear], normal_module: 2 mm, centre_distance: 48 mm }
+  planet_ring: { gears: [planet_gear, ring], normal_module: 2 mm, centre_distance: 48 mm }
+planetary_sets:
+  set: { carrier: carrier, count: 3, planets: [planet] }
+bearings:
+  pin: { shaft: planet, outer: carrier, at: 0 mm, kind: needle_cage, bore: 20 mm, outside: 25 mm, width: 18 mm }
+couplings:
+  brake: { kind: dog, between: [ring_shaft, housing] }
+  lock: { kind: dog, between: [sun_shaft, carrier] }
+gear_states: { low: [brake], direct: { engaged: [lock] } }
+lubricants: { oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm2/s } } }
+models:
+  gear_mesh: { type: iso14179_2 }
+  bearing: { type: iso14179_2 }
+";
+
+#[test]
+fn a_planetary_set_is_kinematics_rolling_power_and_planet_bearings() {
+    let language = language();
+    let t = built(&language, PLANETARY);
+    let (speeds, torques, status, efficiency) = solve(&t, "low", &[("input", 3000.0)], &[("input", 60.0)]);
+    assert!((speeds[1] - 750.0).abs() < 1e-9 && status == Status::Drive);
+    let efficiency = efficiency.unwrap();
+    assert!((-torques[1] / (4.0 * 60.0) - efficiency).abs() < 1e-12);
+    assert!(efficiency > 0.95 && efficiency < 0.999, "{efficiency}");
+    // Locked up, nothing rolls and nothing is lost but what turns against the housing.
+    let (_, _, _, direct) = solve(&t, "direct", &[("input", 3000.0)], &[("input", 60.0)]);
+    assert!((direct.unwrap() - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn the_planet_bearing_carries_both_meshes_and_the_centrifugal_force() {
+    let language = language();
+    let t = built(&language, PLANETARY);
+    let case = t.case("low", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let point = Point {
+        speeds: &[3000.0 * RPM],
+        torques: &[60.0],
+        flow: PowerFlow::Ideal,
+        tolerance: Tolerance::default(),
+    };
+    let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+    // Spur gears at the reference distance: twice the tangential force across, the mass of the planet outwards.
+    let tangential: f64 = 60.0 / 3.0 / 0.024;
+    let centrifugal = 0.2 * 0.048 * (750.0 * RPM).powi(2);
+    let expected = (2.0 * tangential).hypot(centrifugal);
+    assert!(
+        (solution.load(0).radial / expected - 1.0).abs() < 1e-9,
+        "{} {expected}",
+        solution.load(0).radial
+    );
+}
+
+#[test]
+fn a_port_given_twice_is_refused() {
+    let language = language();
+    let t = built(&language, PLANETARY);
+    for (speeds, torques) in [
+        (vec!["input", "input"], vec!["input"]),
+        (vec!["input"], vec!["input", "input"]),
+    ] {
+        let faults = t.case("low", &speeds, &torques).err().unwrap();
+        assert!(faults.iter().any(|f| f.message.contains("given twice")), "{faults:?}");
+    }
+}
+
+#[test]
+fn parallel_paths_share_as_stated_in_every_state_that_closes_them() {
+    let language = language();
+    let text = std::fs::read_to_string(common::file("tests/cases/redundant_loop/input.yaml")).unwrap();
+    let shares = "torque_shares: [{ member: shaft_in, meshes: [stage, stage_2], parts: [0.7, 0.3] }]\n";
+    let t = built(&language, &(text + shares));
+    let case = t.case("only", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let point = Point {
+        speeds: &[300.0],
+        torques: &[10.0],
+        flow: PowerFlow::Ideal,
+        tolerance: Tolerance::default(),
+    };
+    let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+    assert!((solution.mesh_torque(0).abs() - 7.0).abs() < 1e-9 && (solution.mesh_torque(1).abs() - 3.0).abs() < 1e-9);
+}
