@@ -134,6 +134,15 @@ impl Language {
         fine(walk_at(&Node::from_json(value), &self.gearbox, path))
     }
 
+    /// True where a resolved document has a place for a path: the keys of a model are those of its `type`.
+    pub fn has_place(&self, document: &Value, path: &str) -> bool {
+        let tag = |slot: &str| {
+            let slot = crate::resolve::lookup(document, slot)?;
+            slot.get("type").and_then(Value::as_str).map(str::to_owned)
+        };
+        self.gearbox.shape_at(path, tag).is_some()
+    }
+
     /// A piece of YAML checked against the gearbox schema at a path.
     ///
     /// # Errors

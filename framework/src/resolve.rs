@@ -252,9 +252,19 @@ fn apply(
     found: &mut Vec<Diagnostic>,
 ) {
     for (pattern, new) in overrides {
-        let hits = matches(value, pattern);
+        let mut hits = matches(value, pattern);
         if hits.is_empty() {
             found.push(paths::no_match(value, pattern));
+            continue;
+        }
+        // A key that the chosen `type` does not have would be ignored; of several matches those that have it count.
+        hits.retain(|path| language.has_place(value, path));
+        if hits.is_empty() {
+            let key = pattern.rsplit('.').next().unwrap_or(pattern);
+            found.push(
+                Diagnostic::error(pattern, format!("nothing here has a key `{key}`"))
+                    .mend("a model has the keys of its own `type`: `gearloss models MECHANISM MODEL` lists them"),
+            );
             continue;
         }
         for path in hits {

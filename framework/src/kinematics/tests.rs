@@ -159,3 +159,28 @@ fn standstill_and_reversal() {
     let (forward, back) = (rpm(&first, &[100.0]), rpm(&first, &[-100.0]));
     assert!(forward.iter().zip(&back).all(|(a, b)| *a == -b));
 }
+
+#[test]
+fn a7_planetary_speeds() {
+    // Sun, planet and carrier with the ring held: the sun's speed gives the carrier's, and the planet turns against it.
+    for (zs, zp, zr, sun, carrier, relative, absolute) in [
+        (24.0, 24.0, 72.0, 3000.0, 750.0, -2250.0, -1500.0),
+        (30.0, 20.0, 70.0, 1000.0, 300.0, -1050.0, -750.0),
+    ] {
+        let train = Train {
+            columns: 4,
+            rows: vec![
+                Row::mesh(Some(0), zs, Some(1), zp, Some(2)),
+                Row::mesh(Some(1), zp, Some(3), -zr, Some(2)),
+                Row::joined(Some(3), None),
+            ],
+        };
+        let motion = Motion::new(&train, &[0, 2], &[0]).unwrap();
+        let mut speeds = vec![0.0; 4];
+        motion.speeds(&[sun], &mut speeds);
+        close(
+            &[speeds[2], speeds[1], speeds[1] - speeds[2]],
+            &[carrier, absolute, relative],
+        );
+    }
+}
