@@ -114,11 +114,45 @@ impl PathNode {
     }
 }
 
+/// Least and greatest values along a path, for notes that need no walk along it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathExtent {
+    /// Ratio of sliding to mean rolling speed.
+    pub slide_roll: [f64; 2],
+    /// Sum of the surface speeds per speed of the first gear. \[m\]
+    pub sum_speed: [f64; 2],
+    /// Radius of relative curvature. \[m\]
+    pub radius: [f64; 2],
+    /// Root of share over radius.
+    pub root_load: [f64; 2],
+}
+
+impl PathExtent {
+    /// The extent of a path.
+    pub fn of(nodes: &[PathNode]) -> Self {
+        let range = |value: fn(&PathNode) -> f64| {
+            let values = nodes.iter().map(value);
+            [
+                values.clone().fold(f64::INFINITY, f64::min),
+                values.fold(f64::NEG_INFINITY, f64::max),
+            ]
+        };
+        Self {
+            slide_roll: range(|n| n.slide_roll),
+            sum_speed: range(|n| n.sum_speed),
+            radius: range(|n| n.radius),
+            root_load: range(|n| n.root_load),
+        }
+    }
+}
+
 /// The whole path of contact at one operating point. SI.
 #[derive(Debug, Clone, Copy)]
 pub struct PathAt<'a> {
     /// The places on the path.
     pub nodes: &'a [PathNode],
+    /// Their extent.
+    pub extent: &'a PathExtent,
     /// Speed of the first gear in the carrier's frame, magnitude, above zero. \[rad/s\]
     pub speed: f64,
     /// Reference line load, above zero. \[N/m\]

@@ -106,25 +106,21 @@ impl ToothFrictionModel for Xu {
         let lg = nu0.log10();
         // Everything that is the same along the path, once.
         let common = B[0] + B[8] * s.exp() + B[1] * unit.ln() + B[5] * path.speed.ln() + B[6] * nu0.ln();
-        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
         let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
         for (node, mu) in path.nodes.iter().zip(mu) {
-            let p = unit * node.root_load;
-            let x = node.slide_roll * p * lg;
+            let x = node.slide_roll * unit * node.root_load * lg;
             let geometry =
                 B[1] * node.ln_root_load + B[2] * node.ln_slide_roll + B[5] * node.ln_rolling + B[7] * node.ln_radius;
             *mu = (common + geometry + B[3] * x + B[4] * (-x).exp()).exp();
-            let seen = [p, node.slide_roll, 0.5 * node.sum_speed * path.speed, node.radius.mm()];
-            for (i, value) in seen.into_iter().enumerate() {
-                low[i] = low[i].min(value);
-                high[i] = high[i].max(value);
-            }
             least = least.min(*mu);
             most = most.max(*mu);
         }
-        for (i, limit) in [PRESSURE, SLIDE_ROLL, ROLLING, RADIUS].iter().enumerate() {
-            path.notes.check(limit, low[i]);
-            path.notes.check(limit, high[i]);
+        for end in 0..2 {
+            path.notes.check(&PRESSURE, unit * path.extent.root_load[end]);
+            path.notes.check(&SLIDE_ROLL, path.extent.slide_roll[end]);
+            path.notes
+                .check(&ROLLING, 0.5 * path.extent.sum_speed[end] * path.speed);
+            path.notes.check(&RADIUS, path.extent.radius[end].mm());
         }
         path.notes.observe(&MU, least);
         path.notes.observe(&MU, most);
@@ -154,7 +150,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use gearloss_framework::mechanism::NoPart;
-    use gearloss_framework::mechanism::tooth_friction::PathNode;
+    use gearloss_framework::mechanism::tooth_friction::{PathExtent, PathNode};
 
     const LAW: Xu = Xu {
         roughness: Roughness::CompositeRms,
@@ -199,6 +195,7 @@ mod tests {
             .collect();
         let path = PathAt {
             nodes: &nodes,
+            extent: &PathExtent::of(&nodes),
             speed: 300.0,
             line_load: 2e5,
             modulus: 226e9,
