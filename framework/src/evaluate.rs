@@ -314,7 +314,7 @@ impl Transmission {
         s.sum = sum;
         s.undefined = undefined;
         let powers = self.ports.iter().map(|p| s.work.ports[p.member] * s.speeds[p.member]);
-        s.balance = Balance::of(powers);
+        s.balance = Balance::of(powers.clone());
         s.status = match outcome {
             Outcome::SelfLocking => Status::SelfLocking,
             Outcome::NoConvergence => Status::NoConvergence,
@@ -325,7 +325,7 @@ impl Transmission {
                 } else if standing {
                     Status::Standstill
                 } else {
-                    self.regime(s)
+                    Status::of(powers, self.reference_port())
                 }
             }
         };
@@ -333,21 +333,6 @@ impl Transmission {
             for ((total, idle), loaded) in s.totals.iter_mut().zip(&s.idle_cells).zip(&s.loaded_cells) {
                 *total = total.merge(idle.merge(*loaded).once());
             }
-        }
-    }
-
-    fn regime(&self, s: &Scratch) -> Status {
-        let power = |p: &crate::transmission::Port| s.work.ports[p.member] * s.speeds[p.member];
-        let least = 1e-12 * s.balance.input;
-        let inputs = self.ports.iter().filter(|p| power(p) > least).count();
-        if s.balance.output == 0.0 {
-            Status::Dragged
-        } else if inputs > 1 {
-            Status::Split
-        } else if power(&self.ports[self.reference_port()]) > least {
-            Status::Drive
-        } else {
-            Status::Coast
         }
     }
 }

@@ -1,7 +1,5 @@
 //! `none`, `constant`, `formula` and `table`, written once for all mechanisms, those of other crates included.
 
-use std::sync::Arc;
-
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::Value;
@@ -249,13 +247,4 @@ fn build_table<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built,
         axes.push(quantity);
     }
     built::<M>(Law::Table { table, axes }, cx)
-}
-
-/// The law as a shared model, for tests of mechanisms.
-pub fn constant<M: Mechanism>(si: f64) -> Arc<M::Model> {
-    let unit = Unit::of_doc(M::ANSWER).unwrap_or(Unit::ONE);
-    M::scalar(Scalar {
-        law: Law::Constant(si),
-        unit,
-    })
 }

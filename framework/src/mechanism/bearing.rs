@@ -57,22 +57,6 @@ pub enum BearingKind {
     SphericalRollerThrust,
 }
 
-impl BearingKind {
-    /// True for balls, false for rollers and needles.
-    pub fn is_ball(self) -> bool {
-        matches!(
-            self,
-            Self::DeepGrooveBall
-                | Self::DeepGrooveBallDoubleRow
-                | Self::SelfAligningBall
-                | Self::AngularContactBall
-                | Self::AngularContactBallDoubleRow
-                | Self::FourPointContactBall
-                | Self::ThrustBall
-        )
-    }
-}
-
 /// How oil or grease reaches a bearing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
