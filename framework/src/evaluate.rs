@@ -86,7 +86,7 @@ impl Transmission {
         s.given[point.torques.len()..].fill(0.0);
         self.oils.at(temperatures, &mut s.oils);
         s.surface = self.oils.surface(&s.speeds);
-        s.idle_cells.fill(Extent::EMPTY);
+        s.cells.fill(Extent::EMPTY);
         s.idle_drags.fill(0.0);
         s.passes = 0;
         s.loads.fill(SupportLoad::default());
@@ -94,24 +94,38 @@ impl Transmission {
 
         // What does not hang on torque is evaluated once.
         {
-            let cells = Cell::from_mut(s.idle_cells.as_mut_slice()).as_slice_of_cells();
+            let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
             let state = State {
                 speeds: &s.speeds,
                 oils: &s.oils,
                 surface: s.surface,
                 loads: &s.loads,
             };
-            for (i, (component, loss)) in self.components.iter().zip(&mut s.component_losses).enumerate() {
+            let losses = s.component_losses.iter_mut().zip(&mut s.relative);
+            s.braking.clear();
+            for (i, (component, (loss, relative))) in self.components.iter().zip(losses).enumerate() {
                 let speed = state.relative(component.between[0], component.between[1]);
-                s.relative[i] = speed;
-                if !component.loaded {
+                *relative = speed;
+                if component.off {
+                    continue;
+                }
+                if component.loaded {
+                    // What rests brakes nothing; it is asked once, at the end.
+                    if speed != 0.0 {
+                        s.braking.push(i);
+                    }
+                } else {
                     *loss = component_loss(component, &state, Notes::new(cells, component.notes));
                     let moment = moment(loss, speed) * component.count;
                     brake(component.between, speed, moment, &mut s.idle_drags);
                 }
             }
             for (i, loss) in s.drag_losses.iter_mut().enumerate() {
-                *loss = self.drag(i, &state, Notes::new(cells, self.drags[i].model.notes));
+                let model = &self.drags[i].model;
+                if model.off {
+                    continue;
+                }
+                *loss = self.drag(i, &state, Notes::new(cells, model.notes));
                 self.brake_gears(i, loss, &s.speeds, &mut s.idle_drags);
             }
         }
@@ -124,17 +138,24 @@ impl Transmission {
             loads,
             passed,
             tangential,
-            loaded_cells,
+            cells,
             component_losses,
             mesh_losses,
             idle_drags,
             relative,
+            braking,
             work,
             ..
         } = s;
         let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
         let (idle_drags, relative) = (&*idle_drags, &*relative);
+        let cells = Cell::from_mut(cells.as_mut_slice()).as_slice_of_cells();
+        // Torques of the first pass are a guess that nobody reads about.
+        let mut guess = point.flow == PowerFlow::Real && !standing;
         let losses = |flow: &mut FlowState<'_>| {
+            let notes = |base| {
+                if guess { Notes::MUTED } else { Notes::fresh(cells, base) }
+            };
             // Meshes are the first rows, in their own order.
             for ((mesh, tangential), multiplier) in self.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers)
             {
@@ -143,8 +164,6 @@ impl Transmission {
             }
             self.loads.evaluate(tangential, speeds, passed, loads);
             self.correct_loads(case, flow.ports, loads);
-            loaded_cells.fill(Extent::EMPTY);
-            let cells = Cell::from_mut(loaded_cells.as_mut_slice()).as_slice_of_cells();
             let state = State {
                 speeds,
                 oils,
@@ -152,23 +171,27 @@ impl Transmission {
                 loads,
             };
             flow.drags[..idle_drags.len()].copy_from_slice(idle_drags);
-            for ((component, loss), speed) in self.components.iter().zip(component_losses.iter_mut()).zip(relative) {
-                if component.loaded {
-                    *loss = component_loss(component, &state, Notes::new(cells, component.notes));
-                    let moment = moment(loss, *speed) * component.count;
-                    brake(component.between, *speed, moment, flow.drags);
-                }
+            for &i in &*braking {
+                let (component, speed) = (&self.components[i], relative[i]);
+                let loss = &mut component_losses[i];
+                *loss = component_loss(component, &state, notes(component.notes));
+                let moment = moment(loss, speed) * component.count;
+                brake(component.between, speed, moment, flow.drags);
             }
             for (i, loss) in mesh_losses.iter_mut().enumerate() {
                 let mesh = &self.meshes[i];
+                if mesh.model.off {
+                    continue;
+                }
                 let drives = flow.drives[i];
-                *loss = self.mesh(i, tangential[i], drives, &state, Notes::new(cells, mesh.model.notes));
+                *loss = self.mesh(i, tangential[i], drives, &state, notes(mesh.model.notes));
                 let speed = self.mesh_speed(i, speeds);
                 flow.mesh_loss[i] = match loss {
                     Ok(loss) if speed != 0.0 => loss.total_watts(speed) * mesh.seat.count,
                     _ => 0.0,
                 };
             }
+            guess = false;
         };
         let outcome = match point.flow {
             PowerFlow::Real if standing => {
@@ -176,14 +199,31 @@ impl Transmission {
                 work.once(speeds, losses);
                 Outcome::Converged { passes: 1 }
             }
-            PowerFlow::Real => case.flow.real(speeds, given, point.tolerance, work, losses),
+            PowerFlow::Real => case.flow.real(speeds, given, idle_drags, point.tolerance, work, losses),
             PowerFlow::Ideal => {
                 case.flow.ideal(speeds, given, work);
                 work.once(speeds, losses);
                 Outcome::Converged { passes: 1 }
             }
         };
+        self.rest(s);
         self.finish(standing, outcome, s);
+    }
+
+    /// Moments of what carries load and rests.
+    fn rest(&self, s: &mut Scratch) {
+        let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
+        let state = State {
+            speeds: &s.speeds,
+            oils: &s.oils,
+            surface: s.surface,
+            loads: &s.loads,
+        };
+        for ((component, loss), speed) in self.components.iter().zip(&mut s.component_losses).zip(&s.relative) {
+            if component.loaded && !component.off && *speed == 0.0 {
+                *loss = component_loss(component, &state, Notes::new(cells, component.notes));
+            }
+        }
     }
 
     /// Loss of one drag model.
@@ -304,12 +344,16 @@ impl Transmission {
         let mut undefined = None;
         let mut sum = 0.0;
         for (place, part) in self.parts.iter().enumerate() {
-            let one = self.part_loss(part, s);
-            s.watts[place] = one.watts();
-            if let Err(error) = one.result {
-                undefined.get_or_insert((place, error));
+            match self.part_watts(part, s) {
+                Ok(watts) => {
+                    s.watts[place] = watts;
+                    sum += watts;
+                }
+                Err(error) => {
+                    s.watts[place] = 0.0;
+                    undefined.get_or_insert((place, error));
+                }
             }
-            sum += s.watts[place];
         }
         s.sum = sum;
         s.undefined = undefined;
@@ -330,8 +374,8 @@ impl Transmission {
             }
         };
         if matches!(outcome, Outcome::Converged { .. }) {
-            for ((total, idle), loaded) in s.totals.iter_mut().zip(&s.idle_cells).zip(&s.loaded_cells) {
-                *total = total.merge(idle.merge(*loaded).once());
+            for (total, seen) in s.totals.iter_mut().zip(&s.cells) {
+                *total = total.merge(seen.once());
             }
         }
     }
@@ -340,25 +384,31 @@ impl Transmission {
 /// Loss of one copy of a component. Where the shaft has thrust that nothing takes, the load of its bearings is unknown and
 /// so is their loss, unless it was switched off.
 pub(crate) fn component_loss(component: &Component, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
-    let loss = sound(component.placed.loss(state, notes))?;
+    let answer = component.placed.loss(state, notes);
     let untaken = component.support.map_or(0.0, |n| state.loads[n as usize].untaken);
-    if untaken != 0.0 && loss.sum() > 0.0 {
-        return Err(Undefined {
+    match &answer {
+        Ok(loss) if !loss.is_sound() => Err(unsound(loss)),
+        Ok(loss) if untaken != 0.0 && loss.sum() > 0.0 => Err(Undefined {
             what: "thrust that no bearing of the shaft takes [N]",
             value: untaken,
-        });
+        }),
+        _ => answer,
     }
-    Ok(loss)
 }
 
 /// A model's answer counts only when it is a number that is not negative.
 fn sound(answer: Result<Loss, Undefined>) -> Result<Loss, Undefined> {
-    match answer {
-        Ok(loss) if !loss.is_sound() => Err(Undefined {
-            what: "answer of the model, which is negative or not finite",
-            value: loss.sum(),
-        }),
-        other => other,
+    match &answer {
+        Ok(loss) if !loss.is_sound() => Err(unsound(loss)),
+        _ => answer,
+    }
+}
+
+#[cold]
+fn unsound(loss: &Loss) -> Undefined {
+    Undefined {
+        what: "answer of the model, which is negative or not finite",
+        value: loss.sum(),
     }
 }
 

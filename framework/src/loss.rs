@@ -41,7 +41,9 @@ impl Term {
 }
 
 /// Whether the values of a loss are moments about the attachment's relative speed or powers.
+// As wide as the values beside it, so that a loss is copied in whole words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u64)]
 pub enum Measure {
     /// Moments, N m. The power follows from the relative speed.
     Moment,
@@ -119,7 +121,10 @@ impl Loss {
     /// Power of all terms at a relative speed in rad/s: the sum of [`Loss::watts`], to the last bit. \[W\]
     #[inline]
     pub fn total_watts(&self, speed: f64) -> f64 {
-        (0..MOST_TERMS).fold(0.0, |sum, i| sum + self.watts(i, speed))
+        match self.measure {
+            Measure::Moment => self.values.iter().fold(0.0, |sum, v| sum + v * speed.abs()),
+            Measure::Power => self.sum(),
+        }
     }
 
     /// Moment of all terms about the relative speed in rad/s; zero where a power acts at standstill. \[Nm\]
@@ -135,7 +140,9 @@ impl Loss {
     /// True when every term is a finite number that is not negative.
     #[inline]
     pub fn is_sound(&self) -> bool {
-        self.values.iter().all(|v| v.is_finite() && *v >= 0.0)
+        // What is negative or no number fails the first comparison, infinity the second.
+        let [a, b, c, d] = self.values;
+        a >= 0.0 && b >= 0.0 && c >= 0.0 && d >= 0.0 && a + b + c + d < f64::INFINITY
     }
 }
 
@@ -227,9 +234,9 @@ pub struct Extent {
     /// Greatest value seen.
     pub greatest: f64,
     /// How often it was seen.
-    pub seen: u64,
+    pub seen: u32,
     /// How often it was outside of its limit; a value that is not a number counts as outside.
-    pub outside: u64,
+    pub outside: u32,
 }
 
 impl Extent {
@@ -247,7 +254,7 @@ impl Extent {
             least: self.least.min(x),
             greatest: self.greatest.max(x),
             seen: self.seen + 1,
-            outside: self.outside + u64::from(outside),
+            outside: self.outside + u32::from(outside),
         }
     }
 
@@ -257,8 +264,8 @@ impl Extent {
         Self {
             least: self.least.min(other.least),
             greatest: self.greatest.max(other.greatest),
-            seen: self.seen + other.seen,
-            outside: self.outside + other.outside,
+            seen: self.seen.saturating_add(other.seen),
+            outside: self.outside.saturating_add(other.outside),
         }
     }
 
@@ -327,6 +334,8 @@ pub struct NoteBase {
     pub limits: usize,
     /// First cell of its observed quantities.
     pub observed: usize,
+    /// The cell behind its own and those of the models nested in it.
+    pub end: usize,
 }
 
 /// Where one model instance writes its notes. Muted when it has no cells.
@@ -345,6 +354,7 @@ impl<'a> Notes<'a> {
             instance: 0,
             limits: 0,
             observed: 0,
+            end: 0,
         },
         trace: None,
     };
@@ -365,6 +375,15 @@ impl<'a> Notes<'a> {
             trace: Some(trace),
             ..self
         }
+    }
+
+    /// Notes of one instance into the cells of a scratch, with nothing noted there yet.
+    #[inline]
+    pub fn fresh(cells: &'a [Cell<Extent>], base: NoteBase) -> Self {
+        for cell in &cells[base.limits..base.end] {
+            cell.set(Extent::EMPTY);
+        }
+        Self::new(cells, base)
     }
 
     /// The same place to write, seen by a nested instance.

@@ -82,6 +82,8 @@ pub(crate) struct Component {
     pub between: [Option<u16>; 2],
     /// True where its loss may depend on torque or load.
     pub loaded: bool,
+    /// True where its model is `none`.
+    pub off: bool,
     /// Number of its support, where it carries load.
     pub support: Option<u16>,
     /// Where the notes of its model stand.
@@ -104,6 +106,7 @@ pub struct Transmission {
     pub(crate) cells: usize,
     pub(crate) oils: Oils,
     pub(crate) loads: ShaftLoads,
+    /// For each support; empty where all are one.
     pub(crate) load_factors: Vec<statics::LoadFactors>,
     pub(crate) imported: Option<statics::Imported>,
     pub(crate) supports: Vec<String>,

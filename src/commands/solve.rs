@@ -31,7 +31,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
         tolerance: Tolerance::default(),
     };
     let solution = transmission.evaluate(&prepared.case, &point, &temperatures, &mut scratch);
-    let seen = notes(&transmission, &solution.extents());
+    let seen = notes(&transmission, solution.extents());
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
     match args.format {
         Format::Json => {

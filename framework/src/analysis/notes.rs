@@ -22,9 +22,9 @@ pub struct Note {
     /// Greatest value seen.
     pub greatest: f64,
     /// At how many points it was seen.
-    pub points: u64,
+    pub points: u32,
     /// At how many points it was outside of the stated range; zero for an observed quantity.
-    pub outside: u64,
+    pub outside: u32,
     /// The stated range with its origin; absent for an observed quantity.
     pub range: Option<(f64, f64, &'static str)>,
 }

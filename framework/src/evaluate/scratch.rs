@@ -26,8 +26,9 @@ pub struct Scratch {
     pub(super) idle_drags: Vec<f64>,
     /// Relative speed of each component. \[rad/s\]
     pub(super) relative: Vec<f64>,
-    pub(super) idle_cells: Vec<Extent>,
-    pub(super) loaded_cells: Vec<Extent>,
+    /// Components that carry load and turn: they are asked in every pass.
+    pub(super) braking: Vec<usize>,
+    pub(super) cells: Vec<Extent>,
     pub(super) work: Work,
     pub(super) watts: Vec<f64>,
     pub(super) sum: f64,
@@ -57,8 +58,8 @@ impl Scratch {
             drag_losses: vec![NOT_YET; transmission.drags.len()],
             idle_drags: vec![0.0; columns],
             relative: vec![0.0; transmission.components.len()],
-            idle_cells: vec![Extent::EMPTY; transmission.cells],
-            loaded_cells: vec![Extent::EMPTY; transmission.cells],
+            braking: Vec::with_capacity(transmission.components.len()),
+            cells: vec![Extent::EMPTY; transmission.cells],
             work: case.flow.work(),
             watts: vec![0.0; transmission.parts.len()],
             sum: 0.0,

@@ -45,38 +45,48 @@ impl PartLoss {
 
 impl Transmission {
     pub(super) fn part_loss(&self, part: &PartInfo, s: &Scratch) -> PartLoss {
+        let (result, speed, factor, still) = self.part_state(part, s);
+        PartLoss {
+            result: *result,
+            speed,
+            factor,
+            still,
+        }
+    }
+
+    /// Power of a part, as [`PartLoss::watts`].
+    pub(super) fn part_watts(&self, part: &PartInfo, s: &Scratch) -> Result<f64, Undefined> {
+        match self.part_state(part, s) {
+            (Err(reason), ..) => Err(*reason),
+            (Ok(_), _, _, true) => Ok(0.0),
+            (Ok(loss), speed, factor, false) => Ok(loss.total_watts(speed) * factor),
+        }
+    }
+
+    /// Answer, relative speed, factor and whether the part rests.
+    fn part_state<'s>(&self, part: &PartInfo, s: &'s Scratch) -> (&'s Result<Loss, Undefined>, f64, f64, bool) {
         match part.kind {
             PartKind::Component(i) => {
                 let relative = s.relative[i];
-                PartLoss {
-                    result: s.component_losses[i],
-                    speed: relative,
-                    factor: self.components[i].count,
-                    still: relative == 0.0,
-                }
+                (
+                    &s.component_losses[i],
+                    relative,
+                    self.components[i].count,
+                    relative == 0.0,
+                )
             }
             PartKind::Mesh(i) => {
                 let speed = self.mesh_speed(i, &s.speeds);
                 let count = self.meshes[i].seat.count;
-                let asked = s.mesh_losses[i].map_or(0.0, |loss| loss.total_watts(speed)) * count;
+                let asked = s.mesh_losses[i].as_ref().map_or(0.0, |loss| loss.total_watts(speed)) * count;
                 let ratio = if asked > 0.0 { s.work.mesh_loss[i] / asked } else { 1.0 };
-                PartLoss {
-                    result: s.mesh_losses[i],
-                    speed,
-                    factor: count * ratio,
-                    still: speed == 0.0,
-                }
+                (&s.mesh_losses[i], speed, count * ratio, speed == 0.0)
             }
             PartKind::Drag(i) => {
                 let seat = &self.drags[i].seat;
                 let [first, second] = seat.members.map(|m| s.speeds[m]);
                 let still = first == 0.0 && (!seat.pair || second == 0.0);
-                PartLoss {
-                    result: s.drag_losses[i],
-                    speed: first,
-                    factor: seat.count,
-                    still,
-                }
+                (&s.drag_losses[i], first, seat.count, still)
             }
         }
     }
@@ -208,13 +218,8 @@ impl Solution<'_> {
     }
 
     /// What was seen of limits and observed quantities at this point.
-    pub fn extents(&self) -> Vec<Extent> {
-        self.scratch
-            .idle_cells
-            .iter()
-            .zip(&self.scratch.loaded_cells)
-            .map(|(a, b)| a.merge(*b))
-            .collect()
+    pub fn extents(&self) -> &[Extent] {
+        &self.scratch.cells
     }
 
     /// Evaluates one part again with every step written down. The numbers are those of the solution.

@@ -1,7 +1,7 @@
 //! The one loop between torque and loss.
 
 use super::system::Flow;
-use super::work::{Drive, FlowState, Losses, Outcome, Tolerance, Work};
+use super::work::{Drive, FlowState, Outcome, Tolerance, Work};
 
 /// A rolling power below this of the largest internal power has no direction.
 const NO_POWER: f64 = 1e-13;
@@ -19,9 +19,15 @@ impl Flow {
     pub fn ideal(&self, speeds: &[f64], torques: &[f64], work: &mut Work) {
         work.used.values.fill(0.0);
         work.drags.fill(0.0);
-        work.drives.fill(Drive::Neither);
         work.mismatch = 0.0;
-        if !self.solve(speeds, torques, work, true) {
+        self.begin(speeds, torques, work);
+    }
+
+    /// The flow without losses of meshes, for the drags in `work.used`, and the drivers that follow.
+    fn begin(&self, speeds: &[f64], torques: &[f64], work: &mut Work) {
+        self.prepare(speeds, torques, work);
+        work.drives.fill(Drive::Neither);
+        if !self.solve(speeds, work, true) {
             // Only torques beyond the range of numbers lead here.
             work.multipliers.fill(0.0);
             work.ports.fill(0.0);
@@ -39,18 +45,21 @@ impl Flow {
         }
     }
 
-    /// The flow with losses that `losses` writes from the torques. The losses in `work` are those of the accepted solve,
-    /// so the balance of power holds to rounding whatever the tolerance.
+    /// The flow with losses that `losses` writes from the torques; `steady` are the torques on all columns from drags that do
+    /// not hang on torque, with which the first torques are found. The losses in `work` are those of the accepted solve,
+    /// so the balance of power holds to rounding whatever the tolerance. The first pass is a guess, so there are two at least.
     pub fn real(
         &self,
         speeds: &[f64],
         torques: &[f64],
+        steady: &[f64],
         tolerance: Tolerance,
         work: &mut Work,
         mut losses: impl FnMut(&mut FlowState<'_>),
     ) -> Outcome {
-        self.ideal(speeds, torques, work);
-        work.ideal.copy_from_slice(&work.drives);
+        work.used.values.fill(0.0);
+        work.used.drags_mut().copy_from_slice(steady);
+        self.begin(speeds, torques, work);
         work.turned.fill(0);
         let mut passes = 0;
         let task = Task {
@@ -76,11 +85,7 @@ impl Flow {
         passes: &mut usize,
         fixed: bool,
     ) -> End {
-        let Task {
-            speeds,
-            torques,
-            tolerance,
-        } = task;
+        let Task { speeds, tolerance, .. } = task;
         let mut known = false;
         let (mut least, mut slow, mut damping) = (f64::INFINITY, 0, 1.0);
         for _ in 0..tolerance.passes {
@@ -89,9 +94,9 @@ impl Flow {
                 return End::Open;
             }
             self.weigh(speeds, work);
-            work.mismatch = distance(&work.answer, &work.used, &work.weights);
+            work.mismatch = work.entries().fold(0.0_f64, |most, e| most.max(e.mismatch().abs()));
             let left = if known { remaining(work) } else { work.mismatch };
-            let last = left <= SAFETY * tolerance.power * work.largest;
+            let last = known && left <= SAFETY * tolerance.power * work.largest;
             if work.mismatch < least {
                 (least, slow) = (work.mismatch, 0);
             } else {
@@ -103,7 +108,7 @@ impl Flow {
             let back = if known && !last { secant(work) } else { 0.0 };
             let pace = if last { 1.0 } else { damping };
             self.advance(work, back, pace);
-            if !self.solve(speeds, torques, work, last) {
+            if !self.solve(speeds, work, last) {
                 return if fixed { End::Turning } else { End::Open };
             }
             known = true;
@@ -137,17 +142,16 @@ impl Flow {
 
     /// The losses of the next solve: the answer, drawn `back` towards the answer before, at some pace.
     fn advance(&self, work: &mut Work, back: f64, pace: f64) {
-        let magnitudes = 2 * self.meshes.len();
-        for i in 0..work.used.values.len() {
-            let (used, answer, before) = (work.used.values[i], work.answer.values[i], work.answer_before.values[i]);
-            let next = used + pace * (answer - back * (answer - before) - used);
-            work.used_before.values[i] = used;
-            work.used.values[i] = if i < magnitudes { next.max(0.0) } else { next };
+        let answers = work.answer.values.iter().zip(&mut work.answer_before.values);
+        let uses = work.used.values.iter_mut().zip(&mut work.used_before.values);
+        for ((used, used_before), (answer, answer_before)) in uses.zip(answers) {
+            *used_before = *used;
+            *used += pace * (answer - back * (answer - *answer_before) - *used);
+            *answer_before = *answer;
         }
-        let Work {
-            answer, answer_before, ..
-        } = work;
-        answer_before.copy(answer);
+        for magnitude in &mut work.used.values[..2 * self.meshes.len()] {
+            *magnitude = magnitude.max(0.0);
+        }
     }
 
     /// Tries patterns of the meshes whose driver kept turning, fewest changes against the ideal pattern first.
@@ -169,6 +173,8 @@ impl Flow {
                 count += 1;
             }
         }
+        self.ideal(task.speeds, task.torques, work);
+        work.ideal.copy_from_slice(&work.drives);
         for changes in 0..=count as u32 {
             for pattern in (0..1_u32 << count).filter(|p| p.count_ones() == changes) {
                 self.ideal(task.speeds, task.torques, work);
@@ -250,26 +256,20 @@ fn turn(work: &mut Work) -> bool {
     turned
 }
 
-/// Largest difference of power between losses.
-fn distance(a: &Losses, b: &Losses, weights: &[f64]) -> f64 {
-    a.values
-        .iter()
-        .zip(&b.values)
-        .zip(weights)
-        .fold(0.0_f64, |most, ((a, b), weight)| most.max(((a - b) * weight).abs()))
-}
-
 /// Error to expect after one more plain step: the mismatch of each loss falls as it did in the last step, or as all of them did,
 /// whichever is slower. A loss that has just appeared says nothing yet about how it falls.
 fn remaining(work: &Work) -> f64 {
-    let moved = distance(&work.used, &work.used_before, &work.weights);
-    let followed = distance(&work.answer, &work.answer_before, &work.weights);
+    let (moved, followed) = work.entries().fold((0.0_f64, 0.0_f64), |(moved, followed), entry| {
+        (
+            moved.max((entry.moved() * entry.weight).abs()),
+            followed.max((entry.followed() * entry.weight).abs()),
+        )
+    });
     let common = if moved > 0.0 { followed / moved } else { 1.0 };
     let mut most = 0.0_f64;
-    for (i, weight) in work.weights.iter().enumerate() {
-        let mismatch = ((work.answer.values[i] - work.used.values[i]) * weight).abs();
-        let moved = (work.used.values[i] - work.used_before.values[i]).abs();
-        let followed = (work.answer.values[i] - work.answer_before.values[i]).abs();
+    for entry in work.entries() {
+        let mismatch = entry.mismatch().abs();
+        let (moved, followed) = (entry.moved().abs(), entry.followed().abs());
         let own = if followed < moved { followed / moved } else { 1.0 };
         let falls = common.max(own);
         // All steps to come, as a geometric series.
@@ -282,9 +282,9 @@ fn remaining(work: &Work) -> f64 {
 /// a depth of one).
 fn secant(work: &Work) -> f64 {
     let (mut product, mut square) = (0.0, 0.0);
-    for (i, weight) in work.weights.iter().enumerate() {
-        let now = (work.answer.values[i] - work.used.values[i]) * weight;
-        let before = (work.answer_before.values[i] - work.used_before.values[i]) * weight;
+    for entry in work.entries() {
+        let now = entry.mismatch();
+        let before = (entry.answer_before - entry.used_before) * entry.weight;
         product += now * (now - before);
         square += (now - before) * (now - before);
     }

@@ -1,6 +1,6 @@
 //! The square system of equilibrium: multipliers of rows and torques of ports.
 
-use super::linear::{add_product, inverse};
+use super::linear::{add_product, inverse, pad, padded};
 use crate::kinematics::Train;
 
 /// A mesh among the rows.
@@ -73,7 +73,7 @@ pub struct Flow {
     pub(super) columns: usize,
     pub(super) rows: usize,
     pub(super) size: usize,
-    /// The matrix without friction, column by column.
+    /// The matrix without friction, column by column, each padded.
     pub(super) base: Vec<f64>,
     /// Its inverse.
     pub(super) inverse: Vec<f64>,
@@ -139,13 +139,13 @@ impl Flow {
         for &(row, part, member, equation) in &parts {
             base[row * size + equation] = part * base[row * size + member];
         }
-        let inverse = inverse(base.clone(), size).ok_or(FlowFault::Singular)?;
+        let inverse = pad(&inverse(base.clone(), size).ok_or(FlowFault::Singular)?, size);
         let friction = meshes
             .iter()
             .map(|mesh| Friction {
                 row: mesh.row,
                 sides: [(mesh.second, mesh.sz2), (mesh.first, mesh.z1)].map(|(driven, coefficient)| {
-                    let mut change = vec![0.0; size];
+                    let mut change = vec![0.0; padded(size)];
                     if let Some(driven) = driven {
                         change[driven] -= coefficient * scale[mesh.row];
                     }
@@ -155,8 +155,8 @@ impl Flow {
                     for &(_, part, member, equation) in parts.iter().filter(|part| part.0 == mesh.row) {
                         change[equation] += part * change[member];
                     }
-                    let mut response = vec![0.0; size];
-                    add_product(&inverse, &change, 1.0, &mut response);
+                    let mut response = vec![0.0; padded(size)];
+                    add_product(1.0, &inverse, &change, &mut response);
                     Side { change, response }
                 }),
             })
@@ -165,7 +165,7 @@ impl Flow {
             columns: n,
             rows: m,
             size,
-            base,
+            base: pad(&base, size),
             inverse,
             scale,
             meshes,

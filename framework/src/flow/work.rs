@@ -1,6 +1,7 @@
 //! What one solve needs and leaves: its space, its state towards the loss models, its outcome.
 
 use super::Flow;
+use super::linear::padded;
 
 /// Which gear of a mesh drives in the carrier's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -96,8 +97,30 @@ impl Losses {
         self.values[mesh] = if proportional { loss / rolling } else { 0.0 };
         self.values[self.meshes + mesh] = if proportional { 0.0 } else { loss.max(0.0) };
     }
-    pub fn copy(&mut self, other: &Self) {
-        self.values.copy_from_slice(&other.values);
+}
+
+/// One entry of the losses over two passes.
+pub(super) struct Entry {
+    pub used: f64,
+    pub used_before: f64,
+    pub answer: f64,
+    pub answer_before: f64,
+    /// Power per unit of the entry.
+    pub weight: f64,
+}
+
+impl Entry {
+    /// What the answer differs by from what was used. \[W\]
+    pub fn mismatch(&self) -> f64 {
+        (self.answer - self.used) * self.weight
+    }
+    /// What the last step changed.
+    pub fn moved(&self) -> f64 {
+        self.used - self.used_before
+    }
+    /// What the answer changed with it.
+    pub fn followed(&self) -> f64 {
+        self.answer - self.answer_before
     }
 }
 
@@ -132,6 +155,10 @@ pub struct Work {
     /// How often the driver of each mesh turned.
     pub(super) turned: Vec<u8>,
     pub(super) ideal: Vec<Drive>,
+    /// Given torques on all columns, padded.
+    pub(super) applied: Vec<f64>,
+    /// Speeds of second and first gear of each mesh in the carrier's frame; zero where they are rounding.
+    pub(super) relative: Vec<[f64; 2]>,
     pub(super) right: Vec<f64>,
     pub(super) residual: Vec<f64>,
     pub(super) unknown: Vec<f64>,
@@ -146,6 +173,7 @@ pub struct Work {
 impl Work {
     /// Asks for the losses of an ideal flow; they change no torque.
     pub fn once(&mut self, speeds: &[f64], mut losses: impl FnMut(&mut FlowState<'_>)) {
+        self.asked.fill(0.0);
         losses(&mut FlowState {
             speeds,
             multipliers: &self.multipliers,
@@ -156,6 +184,21 @@ impl Work {
         });
         self.mesh_loss.copy_from_slice(&self.asked);
         self.drags.fill(0.0);
+    }
+
+    /// The entries of the losses.
+    pub(super) fn entries(&self) -> impl Iterator<Item = Entry> + '_ {
+        let uses = self.used.values.iter().zip(&self.used_before.values);
+        let answers = self.answer.values.iter().zip(&self.answer_before.values);
+        uses.zip(answers)
+            .zip(&self.weights)
+            .map(|(((used, used_before), (answer, answer_before)), weight)| Entry {
+                used: *used,
+                used_before: *used_before,
+                answer: *answer,
+                answer_before: *answer_before,
+                weight: *weight,
+            })
     }
 
     /// Meshes whose driver turned in the last solve; with [`Outcome::SelfLocking`] the ones that lock.
@@ -176,7 +219,7 @@ impl Flow {
 
     /// Space for solving this flow.
     pub fn work(&self) -> Work {
-        let (n, s, k) = (self.columns, self.size, self.meshes.len());
+        let (n, s, k) = (self.columns, padded(self.size), self.meshes.len());
         let losses = Losses::new(k, n);
         Work {
             multipliers: vec![0.0; self.rows],
@@ -195,6 +238,8 @@ impl Flow {
             answer_before: losses,
             turned: vec![0; k],
             ideal: vec![Drive::Neither; k],
+            applied: vec![0.0; s],
+            relative: vec![[0.0; 2]; k],
             right: vec![0.0; s],
             residual: vec![0.0; s],
             unknown: vec![0.0; s],

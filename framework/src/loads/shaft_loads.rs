@@ -5,20 +5,59 @@ use super::layout::{Layout, LoadFault, MemberLayout, SupportLayout};
 use super::statics::{Action, Reaction, Statics};
 use super::thrust::Taking;
 
-/// The most supports of one member that share its thrust.
-const MOST_SUPPORTS: usize = 16;
-
 /// Loads of all supports as a function of the tangential force of each mesh.
 #[derive(Debug, Clone)]
 pub struct ShaftLoads {
     supports: usize,
-    meshes: usize,
-    /// For each support: reaction to what always acts, then for each mesh to one newton of tangential force and of its
-    /// magnitude, then for each planet body to its centrifugal force per squared speed of the carrier.
-    cases: Vec<Vec<Reaction>>,
-    planets: Vec<(usize, f64)>,
+    /// Reactions by support.
+    cases: Vec<Cases>,
     /// Members from the carried to the carrying.
     order: Vec<Axially>,
+}
+
+/// Reactions of one support, those that are nothing left out.
+#[derive(Debug, Clone, Default)]
+struct Cases {
+    /// To what always acts.
+    always: Reaction,
+    /// To one newton of the tangential force of a mesh, and of its magnitude.
+    meshes: Vec<(usize, [Reaction; 2])>,
+    /// To the centrifugal force of a planet body per squared speed of its carrier.
+    planets: Vec<(usize, Reaction)>,
+}
+
+impl Cases {
+    fn new(reactions: &[Reaction], meshes: usize, carriers: &[usize]) -> Self {
+        let nothing = Reaction::default();
+        let (pairs, planets) = reactions[1..].split_at(2 * meshes);
+        Self {
+            always: reactions[0],
+            meshes: pairs
+                .chunks_exact(2)
+                .map(|pair| [pair[0], pair[1]])
+                .enumerate()
+                .filter(|(_, pair)| *pair != [nothing; 2])
+                .collect(),
+            planets: carriers
+                .iter()
+                .copied()
+                .zip(planets.iter().copied())
+                .filter(|(_, reaction)| *reaction != nothing)
+                .collect(),
+        }
+    }
+
+    fn sum(&self, tangential: &[f64], speed: impl Fn(usize) -> f64) -> Reaction {
+        let mut sum = self.always;
+        for (mesh, [signed, magnitude]) in &self.meshes {
+            add(&mut sum, signed, tangential[*mesh]);
+            add(&mut sum, magnitude, tangential[*mesh].abs());
+        }
+        for (carrier, reaction) in &self.planets {
+            add(&mut sum, reaction, speed(*carrier).powi(2));
+        }
+        sum
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -66,6 +105,7 @@ impl ShaftLoads {
         let order = sort(&carrier_of).map_err(|members| vec![LoadFault::Cycle { members }])?;
         let mut faults = Vec::new();
         let mut statics = vec![Statics::None; n];
+        let mut takings = Vec::new();
         for &m in &order {
             let mut places: Vec<f64> = layout.members[m].forces.iter().map(|f| f.0).collect();
             places.extend(layout.members[m].moments.iter().map(|f| f.0));
@@ -90,17 +130,13 @@ impl ShaftLoads {
                 Ok(found) => statics[m] = found,
                 Err(fault) => faults.push(fault),
             }
-            let taking = Taking {
-                supports: own[m].clone(),
-            };
-            for right in [true, false] {
-                if let Some(supports) = taking.indeterminate(right) {
-                    faults.push(LoadFault::AxialIndeterminate {
-                        member: m,
-                        supports,
-                        right,
-                    });
-                }
+            match Taking::new(&own[m]) {
+                Ok(taking) => takings.push(taking),
+                Err(open) => faults.extend(open.into_iter().map(|(supports, right)| LoadFault::AxialIndeterminate {
+                    member: m,
+                    supports,
+                    right,
+                })),
             }
         }
         if !faults.is_empty() {
@@ -140,15 +176,20 @@ impl ShaftLoads {
                 force: [0.0, planet.mass * planet.orbit, 0.0],
                 ..Action::default()
             });
-            planets.push((planet.carrier, 1.0));
+            planets.push(planet.carrier);
             run(actions);
         }
-        let order = order.iter().map(|&m| axially(layout, m, &own[m], &order)).collect();
+        let order = order
+            .iter()
+            .zip(takings)
+            .map(|(&m, taking)| axially(layout, m, &own[m], taking, &order))
+            .collect();
         Ok(Self {
             supports: layout.supports.len(),
-            meshes: layout.meshes.len(),
-            cases,
-            planets,
+            cases: cases
+                .iter()
+                .map(|reactions| Cases::new(reactions, layout.meshes.len(), &planets))
+                .collect(),
             order,
         })
     }
@@ -162,19 +203,7 @@ impl ShaftLoads {
     /// are those of all members (rad/s), `passed` is as long as [`ShaftLoads::scratch_len`].
     pub fn evaluate(&self, tangential: &[f64], speeds: &[f64], passed: &mut [f64], loads: &mut [SupportLoad]) {
         for support in 0..self.supports {
-            let cases = &self.cases[support];
-            let mut sum = cases[0];
-            for m in 0..self.meshes {
-                add(&mut sum, &cases[1 + 2 * m], tangential[m]);
-                add(&mut sum, &cases[2 + 2 * m], tangential[m].abs());
-            }
-            for (k, (carrier, factor)) in self.planets.iter().enumerate() {
-                add(
-                    &mut sum,
-                    &cases[1 + 2 * self.meshes + k],
-                    factor * speeds[*carrier].powi(2),
-                );
-            }
+            let sum = self.cases[support].sum(tangential, |m| speeds[m]);
             loads[support] = SupportLoad {
                 radial: length(sum.force),
                 axial: 0.0,
@@ -198,25 +227,7 @@ impl ShaftLoads {
                 sizes[carrier] += scale * copies;
                 continue;
             }
-            let mut taken = [(0_usize, 0.0_f64); MOST_SUPPORTS];
-            let mut count = 0;
-            let untaken = member.taking.share(
-                thrust,
-                scale,
-                |i| loads[i].radial,
-                |i, load| {
-                    if count < MOST_SUPPORTS {
-                        taken[count] = (i, load);
-                        count += 1;
-                    }
-                },
-            );
-            for (i, load) in &taken[..count] {
-                loads[*i].axial += load;
-            }
-            for (i, _) in &member.taking.supports {
-                loads[*i].untaken = untaken;
-            }
+            let untaken = member.taking.share(thrust, scale, loads);
             // However the supports share it among themselves, the net thrust goes to the member behind them.
             if let Some((carrier, copies)) = member.carrier {
                 passed[carrier] += (thrust - untaken) * copies;
@@ -228,15 +239,7 @@ impl ShaftLoads {
     /// The force of each support on the member that it carries, y and z, for given tangential forces at rest. \[N\]
     pub fn vectors(&self, tangential: &[f64]) -> Vec<[f64; 2]> {
         (0..self.supports)
-            .map(|support| {
-                let cases = &self.cases[support];
-                let mut sum = cases[0];
-                for m in 0..self.meshes {
-                    add(&mut sum, &cases[1 + 2 * m], tangential[m]);
-                    add(&mut sum, &cases[2 + 2 * m], tangential[m].abs());
-                }
-                sum.force
-            })
+            .map(|support| self.cases[support].sum(tangential, |_| 0.0).force)
             .collect()
     }
 }
@@ -333,7 +336,7 @@ fn solve(
     reactions
 }
 
-fn axially(layout: &Layout, m: usize, own: &[(usize, SupportLayout)], order: &[usize]) -> Axially {
+fn axially(layout: &Layout, m: usize, own: &[(usize, SupportLayout)], taking: Taking, order: &[usize]) -> Axially {
     let mut meshes = Vec::new();
     for (i, mesh) in layout.meshes.iter().enumerate() {
         for gear in 0..2 {
@@ -353,7 +356,7 @@ fn axially(layout: &Layout, m: usize, own: &[(usize, SupportLayout)], order: &[u
     Axially {
         always: layout.members[m].forces.iter().map(|f| f.1[0]).sum(),
         meshes,
-        taking: Taking { supports: own.to_vec() },
+        taking,
         passes,
         carrier: carrier.and_then(place).map(|place| (place, copies)),
     }

@@ -1,77 +1,103 @@
 //! How the supports of one member share its thrust.
 
+use super::SupportLoad;
 use super::layout::SupportLayout;
 use crate::attach::Axial;
 
 /// The thrust arrangement of one member, over its own supports.
 #[derive(Debug, Clone)]
 pub struct Taking {
-    /// Own number, which thrust, share and spring of each support.
-    pub supports: Vec<(usize, SupportLayout)>,
+    supports: Vec<usize>,
+    /// The two supports with a contact angle that push each other, which take thrust towards +x and -x, with their induced
+    /// thrust per radial load.
+    pair: Option<[(usize, f64); 2]>,
+    /// Supports with a spring and its force. \[N\]
+    springs: Vec<(usize, f64)>,
+    /// Supports that take a thrust towards -x and towards +x, with their shares of it.
+    takers: [Vec<(usize, f64)>; 2],
 }
 
 impl Taking {
-    fn takes(support: &SupportLayout, right: bool) -> bool {
-        matches!(
-            (support.axial, right),
-            (Axial::Both, _) | (Axial::Right, true) | (Axial::Left, false)
-        )
+    /// The arrangement of a member with these supports.
+    ///
+    /// # Errors
+    /// Where several supports could take one thrust and no shares are stated: the supports, and true for a thrust towards +x.
+    pub fn new(supports: &[(usize, SupportLayout)]) -> Result<Self, Vec<(Vec<usize>, bool)>> {
+        let mut open = Vec::new();
+        let takers = [false, true].map(|right| {
+            let takers: Vec<&(usize, SupportLayout)> = supports.iter().filter(|(_, s)| takes(s, right)).collect();
+            if takers.len() > 1 && takers.iter().any(|(_, s)| s.share.is_none()) {
+                open.push((takers.iter().map(|(i, _)| *i).collect(), right));
+            }
+            let whole: f64 = takers.iter().map(|(_, s)| s.share.unwrap_or(1.0)).sum();
+            takers
+                .iter()
+                .map(|(i, s)| (*i, s.share.unwrap_or(1.0) / whole))
+                .collect()
+        });
+        // Thrust to the right is named before thrust to the left.
+        open.reverse();
+        if !open.is_empty() {
+            return Err(open);
+        }
+        let pushes = |side: Axial| {
+            let pushing = supports.iter().find(|(_, s)| s.axial == side && s.induced > 0.0);
+            pushing.map(|(i, s)| (*i, s.induced))
+        };
+        Ok(Self {
+            supports: supports.iter().map(|(i, _)| *i).collect(),
+            pair: pushes(Axial::Right).zip(pushes(Axial::Left)).map(|(r, l)| [r, l]),
+            springs: supports
+                .iter()
+                .filter(|(_, s)| s.spring != 0.0)
+                .map(|(i, s)| (*i, s.spring))
+                .collect(),
+            takers,
+        })
     }
 
-    /// Supports that could take a thrust, where there are several and no shares are stated.
-    pub fn indeterminate(&self, right: bool) -> Option<Vec<usize>> {
-        let takers: Vec<&(usize, SupportLayout)> =
-            self.supports.iter().filter(|(_, s)| Self::takes(s, right)).collect();
-        let unshared = takers.len() > 1 && takers.iter().any(|(_, s)| s.share.is_none());
-        unshared.then(|| takers.iter().map(|(i, _)| *i).collect())
-    }
-
-    /// Writes the axial load of each support for a thrust towards +x and the radial loads; returns thrust that nothing
-    /// takes. `write(support, load)` adds to the load of a support.
-    pub fn share(
-        &self,
-        thrust: f64,
-        scale: f64,
-        radial: impl Fn(usize) -> f64,
-        mut write: impl FnMut(usize, f64),
-    ) -> f64 {
+    /// Adds the axial load of each support for a thrust towards +x; returns thrust that nothing takes. `scale` is the size
+    /// of the forces that the thrust is the sum of.
+    pub fn share(&self, thrust: f64, scale: f64, loads: &mut [SupportLoad]) -> f64 {
         // Bearings with a contact angle push each other: the pair balances K + S_L against S_R.
-        let pair = |side: Axial| self.supports.iter().find(|(_, s)| s.axial == side && s.induced > 0.0);
-        if let (Some((r, right)), Some((l, left))) = (pair(Axial::Right), pair(Axial::Left)) {
-            let (s_r, s_l) = (right.induced * radial(*r), left.induced * radial(*l));
-            let thrust = thrust + self.supports.iter().map(|(_, s)| s.spring).sum::<f64>();
+        if let Some([(r, induced_r), (l, induced_l)]) = self.pair {
+            let (s_r, s_l) = (induced_r * loads[r].radial, induced_l * loads[l].radial);
+            let thrust = thrust + self.springs.iter().map(|s| s.1).sum::<f64>();
             if thrust + s_l >= s_r {
-                write(*r, thrust + s_l);
-                write(*l, s_l);
+                loads[r].axial += thrust + s_l;
+                loads[l].axial += s_l;
             } else {
-                write(*r, s_r);
-                write(*l, s_r - thrust);
+                loads[r].axial += s_r;
+                loads[l].axial += s_r - thrust;
             }
             return 0.0;
         }
         let mut rest = thrust;
-        for (i, support) in &self.supports {
-            if support.spring != 0.0 {
-                write(*i, support.spring.abs());
-                rest += support.spring;
-            }
+        for (i, spring) in &self.springs {
+            loads[*i].axial += spring.abs();
+            rest += spring;
         }
         if rest.abs() <= 1e-9 * scale {
             return 0.0;
         }
-        let right = rest > 0.0;
-        let shares: f64 = self
-            .supports
-            .iter()
-            .filter(|(_, s)| Self::takes(s, right))
-            .map(|(_, s)| s.share.unwrap_or(1.0))
-            .sum();
-        if shares == 0.0 {
-            return rest;
+        let takers = &self.takers[usize::from(rest > 0.0)];
+        for (i, share) in takers {
+            loads[*i].axial += rest.abs() * share;
         }
-        for (i, support) in self.supports.iter().filter(|(_, s)| Self::takes(s, right)) {
-            write(*i, rest.abs() * support.share.unwrap_or(1.0) / shares);
+        if !takers.is_empty() {
+            return 0.0;
         }
-        0.0
+        for i in &self.supports {
+            loads[*i].untaken = rest;
+        }
+        rest
     }
+}
+
+/// Whether a support can take a thrust.
+fn takes(support: &SupportLayout, right: bool) -> bool {
+    matches!(
+        (support.axial, right),
+        (Axial::Both, _) | (Axial::Right, true) | (Axial::Left, false)
+    )
 }

@@ -174,20 +174,23 @@ impl<'a> Build<'a> {
                 None => missing.mend("choose one of them"),
             });
         };
-        let notes = NoteBase {
+        let observed = self.cells + entry.limits.len();
+        let mut notes = NoteBase {
             instance: self.instances.len(),
             limits: self.cells,
-            observed: self.cells + entry.limits.len(),
+            observed,
+            end: observed + entry.observed.len(),
         };
-        self.cells = notes.observed + entry.observed.len();
+        self.cells = notes.end;
         self.instances.push(Instance {
             path: self.path.clone(),
             entry,
             notes,
         });
         let built = (entry.build)(value, self)?;
+        notes.end = self.cells;
         match built.downcast::<Arc<M::Model>>() {
-            Ok(model) => Ok(Slot::new(*model, notes)),
+            Ok(model) => Ok(Slot::new(*model, notes, name == "none")),
             Err(_) => Err(self.error(format!("bug: model `{name}` was built for another mechanism"))),
         }
     }

@@ -40,6 +40,8 @@ pub trait Placed: Send + Sync {
     fn between(&self) -> [Option<u16>; 2];
     /// True where the loss may depend on torque or load.
     fn loaded(&self) -> bool;
+    /// True where its model is `none`.
+    fn off(&self) -> bool;
     /// Where its model's notes stand.
     fn notes(&self) -> NoteBase;
     /// Number of the support, for components that carry load.
@@ -63,6 +65,9 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
     fn loaded(&self) -> bool {
         C::Attachment::LOADED
+    }
+    fn off(&self) -> bool {
+        self.model.off
     }
     fn notes(&self) -> NoteBase {
         self.model.notes

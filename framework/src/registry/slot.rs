@@ -100,11 +100,13 @@ pub struct Slot<M: Mechanism> {
     model: Arc<M::Model>,
     /// Where the model's notes stand.
     pub notes: NoteBase,
+    /// True for `none`, which need not be asked.
+    pub off: bool,
 }
 
 impl<M: Mechanism> Slot<M> {
-    pub(super) fn new(model: Arc<M::Model>, notes: NoteBase) -> Self {
-        Self { model, notes }
+    pub(super) fn new(model: Arc<M::Model>, notes: NoteBase, off: bool) -> Self {
+        Self { model, notes, off }
     }
 }
 
@@ -113,6 +115,7 @@ impl<M: Mechanism> Clone for Slot<M> {
         Self {
             model: Arc::clone(&self.model),
             notes: self.notes,
+            off: self.off,
         }
     }
 }

@@ -228,6 +228,7 @@ fn place(
                     components.push(Component {
                         between: placed.between(),
                         loaded: placed.loaded(),
+                        off: placed.off(),
                         support: placed.support(),
                         notes: placed.notes(),
                         placed,

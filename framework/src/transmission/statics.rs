@@ -306,7 +306,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
     }
 }
 
-/// Load factors of all supports.
+/// Load factors of all supports; none where all are one.
 pub fn load_factors(
     supports: &[SeatedSupport],
     ports: &[super::Port],
@@ -334,13 +334,18 @@ pub fn load_factors(
             }
         }
     };
-    supports
+    let factors: Vec<LoadFactors> = supports
         .iter()
         .map(|s| LoadFactors {
             radial: read(format!("{}.radial_factor", s.path), &s.place.radial_factor),
             axial: read(format!("{}.axial_factor", s.path), &s.place.axial_factor),
         })
-        .collect()
+        .collect();
+    let one = |factor: &LoadFactor| matches!(factor, LoadFactor::Constant(factor) if *factor == 1.0);
+    if factors.iter().all(|f| one(&f.radial) && one(&f.axial)) {
+        return Vec::new();
+    }
+    factors
 }
 
 /// Reads imported loads.

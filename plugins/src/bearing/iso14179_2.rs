@@ -140,7 +140,7 @@ impl BearingModel for Palmgren {
         let f1 = if law.exponent == 0.0 {
             law.z
         } else {
-            law.z * (law.exponent * (at.show("P0", "N", p0) / self.c0).ln()).exp()
+            law.z * (at.show("P0", "N", p0) / self.c0).powf(law.exponent)
         };
         let f1 = at.show("f1", "-", f1);
         let p1 = at.observe(&P1, p1);
@@ -151,7 +151,7 @@ impl BearingModel for Palmgren {
         let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
         let m0 = if product >= VISCOUS {
             at.branch("nu n at least 2000: viscous");
-            1e-7 * self.f0 * (2.0 / 3.0 * product.ln()).exp() * cube
+            1e-7 * self.f0 * product.powf(2.0 / 3.0) * cube
         } else {
             at.branch("nu n below 2000: constant");
             160e-7 * self.f0 * cube

@@ -194,9 +194,9 @@ impl DeepGroove {
                 self.sliding[0] * (5.0 / 3.0 * ln).exp(),
             );
         }
-        let alpha = (24.6 * (0.24 * ratio.ln()).exp()).to_radians();
+        let alpha = (24.6 * ratio.powf(0.24)).to_radians();
         let sin = alpha.sin();
-        let rolling = self.rolling * (0.54 * (fr + self.r2 * fa / sin).ln()).exp();
+        let rolling = self.rolling * (fr + self.r2 * fa / sin).powf(0.54);
         let sliding = self.sliding[1] * (fr.powi(5) + self.s2 * fa.powi(4) / sin).cbrt();
         (rolling, sliding)
     }
