@@ -60,6 +60,10 @@ pub struct Oil {
     pub nu40: f64,
     /// Pressure-viscosity coefficient. \[1/Pa\]
     pub alpha: f64,
+    /// Relative fall of the viscosity with temperature. \[1/K\]
+    pub beta: f64,
+    /// Thermal conductivity. \[W/(m K)\]
+    pub conductivity: f64,
     /// Coefficient of boundary friction in rolling bearings; zero where none is stated.
     pub mu_bl: f64,
     /// Coefficient of full-film friction in rolling bearings.

@@ -5,6 +5,7 @@
 
 pub mod gears;
 pub mod housing;
+pub mod lubricant;
 pub mod ordered;
 pub mod shafts;
 pub mod states;
@@ -14,7 +15,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
-pub use housing::{HousingEntry, LevelOver, LubricantEntry, OilEntry, Running, Thermal};
+pub use housing::{HousingEntry, LevelOver, OilEntry, Running, Thermal};
+pub use lubricant::LubricantEntry;
 pub use ordered::Ordered;
 pub use shafts::{LoadEntry, SectionEntry, ShaftEntry};
 pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, TorqueShare};

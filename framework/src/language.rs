@@ -18,6 +18,9 @@ pub const MESHES: &str = GearMesh::KEY;
 /// Key of the mechanism that gears and meshes hold by name.
 pub const DRAGS: &str = GearDrag::KEY;
 
+/// Section of the oils, which has catalogues as the sections of components do.
+pub const LUBRICANTS: &str = "lubricants";
+
 /// Kind of a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
@@ -52,12 +55,12 @@ impl Language {
         let gearbox = compiled(&gearbox_schema, &mut found);
         let study = compiled(&study_schema, &mut found);
         let mut catalogues: BTreeMap<&'static str, CatalogueTable> = BTreeMap::new();
-        for (_, section) in registry.sections() {
-            for catalogue in registry.catalogues(section.name) {
+        for section in registry.sections().map(|(_, s)| s.name).chain([LUBRICANTS]) {
+            for catalogue in registry.catalogues(section) {
                 match CatalogueTable::from_csv(catalogue.csv) {
-                    Ok(table) => catalogues.entry(section.name).or_default().extend(table),
+                    Ok(table) => catalogues.entry(section).or_default().extend(table),
                     Err(reason) => found.push(
-                        Diagnostic::error("", format!("catalogue of {}: {reason}", section.name))
+                        Diagnostic::error("", format!("catalogue of {section}: {reason}"))
                             .note(format!("registered at {}", catalogue.origin)),
                     ),
                 }

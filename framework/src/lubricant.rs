@@ -1,27 +1,192 @@
-//! Oils: viscosity and density over temperature, and the friction properties that belong to an oil.
+//! Oils: viscosity and density over temperature, behaviour under pressure, thermal and friction properties.
 
+pub mod density;
 pub mod index;
+pub mod pressure;
+pub mod thermal;
+pub mod vogel;
 pub mod walther;
 
 use crate::attach::Oil;
-use crate::description::{LubricantEntry, housing::LubricantKind};
-use walther::Walther;
+use crate::description::LubricantEntry;
+use crate::description::lubricant::{
+    DensityEntry, DensityLaw, LubricantKind, PressureViscosityEntry, PressureViscosityLaw, ViscosityEntry, ViscosityLaw,
+};
+use density::Density;
+use pressure::PressureViscosity;
+use vogel::Vogel;
+use walther::{Form, Walther};
 
 /// Zero of the Celsius scale. \[K\]
 pub const ZERO_CELSIUS: f64 = 273.15;
 
-/// An oil with its law of viscosity fitted.
+/// The key that is wrong or missing, why, and how to mend it.
+type Fault = (&'static str, String, String);
+
+/// A law of viscosity.
+#[derive(Debug, Clone)]
+enum Viscosity {
+    Walther(Walther),
+    Vogel(Vogel),
+}
+
+/// An oil with its laws fitted.
 #[derive(Debug, Clone)]
 pub struct Lubricant {
-    viscosity: Walther,
-    density_at: f64,
-    density: f64,
-    expansion: f64,
-    gold: (f64, f64),
+    viscosity: Viscosity,
+    density: Density,
+    pressure: PressureViscosity,
+    conductivity: Option<f64>,
+    heat_capacity: Option<f64>,
     nu40: f64,
     mu_bl: f64,
     mu_ehl: f64,
     x_l: f64,
+}
+
+/// Usual properties of a kind of oil.
+struct Usual {
+    /// Gold's constants s and t, after Gold et al. 2001.
+    gold: (f64, f64),
+    /// Thermal expansion, in the middle of the usual range. \[1/K\]
+    expansion: f64,
+    mu_ehl: f64,
+    x_l: f64,
+}
+
+fn usual(kind: LubricantKind) -> Usual {
+    let usual = |gold, expansion, mu_ehl, x_l| Usual {
+        gold,
+        expansion,
+        mu_ehl,
+        x_l,
+    };
+    match kind {
+        LubricantKind::Mineral => usual((9.904, 0.1390), 6.2e-4, 0.05, 1.0),
+        LubricantKind::Polyalphaolefin => usual((7.382, 0.1335), 6.2e-4, 0.04, 0.8),
+        LubricantKind::Ester => usual((6.605, 0.1360), 7.4e-4, 0.04, 0.8),
+        LubricantKind::Polyglycol => usual((5.489, 0.1485), 7.1e-4, 0.04, 0.75),
+        LubricantKind::TransmissionFluid => usual((9.904, 0.1390), 7.0e-4, 0.10, 1.0),
+    }
+}
+
+/// The points of a viscosity law, degC and mm2/s, from what was written.
+fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
+    let shop = |nu: f64| nu * 1e6;
+    if !entry.points.is_empty() {
+        if entry.kv40.is_some() || entry.kv100.is_some() || entry.vi.is_some() {
+            return Err((
+                "viscosity",
+                "points beside kv40, kv100 or vi".to_owned(),
+                "give the one or the other".to_owned(),
+            ));
+        }
+        let mut points: Vec<(f64, f64)> = entry.points.iter().map(|p| (p.at, shop(p.value))).collect();
+        points.sort_by(|p, q| p.0.total_cmp(&q.0));
+        if points.windows(2).any(|w| w[1].1 >= w[0].1 || w[1].0 <= w[0].0) {
+            return Err((
+                "viscosity.points",
+                "viscosity does not fall from one temperature to the next".to_owned(),
+                "correct a point, or leave out one of two at the same temperature".to_owned(),
+            ));
+        }
+        return Ok(points);
+    }
+    let (kv40, kv100) = match (entry.kv40.map(shop), entry.kv100.map(shop), entry.vi) {
+        (Some(kv40), Some(kv100), None) => (kv40, kv100),
+        (None, Some(kv100), Some(vi)) => (
+            index::kv40(kv100, vi).ok_or_else(|| {
+                (
+                    "viscosity.vi",
+                    format!("the viscosity index is not defined at kv100 {kv100} mm2/s"),
+                    "give kv40 and kv100".to_owned(),
+                )
+            })?,
+            kv100,
+        ),
+        (Some(kv40), None, Some(vi)) => (
+            kv40,
+            index::kv100(kv40, vi).ok_or_else(|| {
+                (
+                    "viscosity.vi",
+                    format!("no kv100 belongs to kv40 {kv40} mm2/s and this index"),
+                    "give kv40 and kv100".to_owned(),
+                )
+            })?,
+        ),
+        (Some(kv40), Some(kv100), Some(vi)) => {
+            let own = index::index(kv40, kv100).map_or_else(|| "none".to_owned(), |own| format!("{own:.1}"));
+            return Err((
+                "viscosity",
+                format!(
+                    "three values for a law of two: kv40 {kv40} and kv100 {kv100} mm2/s have the index {own}, not {vi}"
+                ),
+                "leave one of them out".to_owned(),
+            ));
+        }
+        _ => {
+            return Err((
+                "viscosity",
+                "one value for a law of two".to_owned(),
+                "give two of kv40, kv100, vi".to_owned(),
+            ));
+        }
+    };
+    if kv100 >= kv40 {
+        return Err((
+            "viscosity",
+            format!("kv100 {kv100} mm2/s is not below kv40 {kv40} mm2/s"),
+            "exchange them or correct one".to_owned(),
+        ));
+    }
+    Ok(vec![(40.0, kv40), (100.0, kv100)])
+}
+
+fn viscosity(entry: &ViscosityEntry, density: &Density) -> Result<Viscosity, Fault> {
+    let points = points(entry)?;
+    let form = match entry.law {
+        ViscosityLaw::AstmD341 => Form::AstmD341,
+        ViscosityLaw::Din51563 => Form::Din51563,
+        ViscosityLaw::AstmD341Low => Form::AstmD341Low,
+        ViscosityLaw::Vogel => {
+            let etas: Vec<(f64, f64)> = points.iter().map(|(t, nu)| (*t, nu * density.at(*t) * 1e-3)).collect();
+            return match etas[..] {
+                [first, second] if first.0 + entry.vogel_c > 1.0 => {
+                    Ok(Viscosity::Vogel(Vogel::through(first, second, entry.vogel_c)))
+                }
+                [first, second, third] => Vogel::through_three([first, second, third])
+                    .map(Viscosity::Vogel)
+                    .ok_or_else(|| {
+                        (
+                            "viscosity.points",
+                            "the three points do not follow the law of Vogel".to_owned(),
+                            "correct a point, or choose `law: astm_d341` with two of them".to_owned(),
+                        )
+                    }),
+                _ => Err((
+                    "viscosity.points",
+                    "the law of Vogel needs two or three points above its pole".to_owned(),
+                    "give two points, or three".to_owned(),
+                )),
+            };
+        }
+    };
+    match points[..] {
+        [first, second] => Ok(Viscosity::Walther(Walther::through(first, second, form))),
+        _ => Err((
+            "viscosity.points",
+            format!("{} points for a law of two", points.len()),
+            "give two points, or `law: vogel` with three".to_owned(),
+        )),
+    }
+}
+
+fn density(entry: &DensityEntry, usual: &Usual) -> Density {
+    match entry.law {
+        DensityLaw::Linear => Density::linear(entry.value, entry.at, entry.expansion.unwrap_or(usual.expansion)),
+        DensityLaw::Din51757 => Density::din_51757(entry.value, entry.at),
+        DensityLaw::Api => Density::api(entry.value, entry.at),
+    }
 }
 
 impl Lubricant {
@@ -30,98 +195,102 @@ impl Lubricant {
     /// # Errors
     /// The key that is wrong or missing, why, and how to mend it.
     pub fn new(entry: &LubricantEntry) -> Result<Self, (&'static str, String, String)> {
-        let shop = |nu: f64| nu * 1e6;
-        let viscosity = &entry.viscosity;
-        let (kv40, kv100) = match (viscosity.kv40.map(shop), viscosity.kv100.map(shop), viscosity.vi) {
-            (Some(kv40), Some(kv100), None) => (kv40, kv100),
-            (None, Some(kv100), Some(vi)) => (
-                index::kv40(kv100, vi).ok_or_else(|| {
-                    (
-                        "viscosity.vi",
-                        format!("the viscosity index is not defined at kv100 {kv100} mm2/s"),
-                        "give kv40 and kv100".to_owned(),
-                    )
-                })?,
-                kv100,
-            ),
-            (Some(kv40), None, Some(vi)) => (
-                kv40,
-                index::kv100(kv40, vi).ok_or_else(|| {
-                    (
-                        "viscosity.vi",
-                        format!("no kv100 belongs to kv40 {kv40} mm2/s and this index"),
-                        "give kv40 and kv100".to_owned(),
-                    )
-                })?,
-            ),
-            (Some(kv40), Some(kv100), Some(vi)) => {
-                let own = index::index(kv40, kv100).map_or_else(|| "none".to_owned(), |own| format!("{own:.1}"));
-                return Err((
-                    "viscosity",
-                    format!(
-                        "three values for a law of two: kv40 {kv40} and kv100 {kv100} mm2/s have the index {own}, not {vi}"
-                    ),
-                    "leave one of them out".to_owned(),
-                ));
-            }
-            _ => {
-                return Err((
-                    "viscosity",
-                    "one value for a law of two".to_owned(),
-                    "give two of kv40, kv100, vi".to_owned(),
-                ));
-            }
-        };
-        if kv100 >= kv40 {
+        let usual = usual(entry.kind.unwrap_or_default());
+        let written_density = entry.density.unwrap_or_default();
+        let Some(written) = &entry.viscosity else {
             return Err((
                 "viscosity",
-                format!("kv100 {kv100} mm2/s is not below kv40 {kv40} mm2/s"),
-                "exchange them or correct one".to_owned(),
+                "no viscosity is stated".to_owned(),
+                "add `viscosity: { kv40: 32 mm2/s, kv100: 6 mm2/s }` with your figures, or a `designation`".to_owned(),
+            ));
+        };
+        if written_density.law != DensityLaw::Linear && written_density.expansion.is_some() {
+            return Err((
+                "density.expansion",
+                "an expansion beside a law that has its own".to_owned(),
+                "leave `expansion` out, or write `law: linear`".to_owned(),
             ));
         }
-        // ASTM D341 with c = 0.7; DIN 51563 writes 0.8, which is 2 % off at 0 degC and the same between the two points.
-        let viscosity = Walther::through((40.0, kv40), (100.0, kv100), 0.7);
-        // Gold's constants by base oil, VDI report 1997; thermal expansion in the middle of the usual ranges.
-        let (gold, expansion, mu_ehl, x_l) = match entry.kind {
-            LubricantKind::Mineral => ((9.904, 0.1390), 6.2e-4, 0.05, 1.0),
-            LubricantKind::Polyalphaolefin => ((7.382, 0.1335), 6.2e-4, 0.04, 0.8),
-            LubricantKind::Ester => ((6.605, 0.1360), 7.4e-4, 0.04, 0.8),
-            LubricantKind::Polyglycol => ((5.489, 0.1485), 7.1e-4, 0.04, 0.75),
-            LubricantKind::TransmissionFluid => ((9.904, 0.1390), 7.0e-4, 0.10, 1.0),
+        let density = density(&written_density, &usual);
+        let viscosity = viscosity(written, &density)?;
+        let pressure = match entry.pressure_viscosity {
+            PressureViscosityEntry { value: Some(alpha), .. } => PressureViscosity::Constant(alpha),
+            PressureViscosityEntry { law, value: None } => match law {
+                PressureViscosityLaw::Gold => PressureViscosity::Gold {
+                    s: usual.gold.0,
+                    t: usual.gold.1,
+                },
+                PressureViscosityLaw::Wooster => PressureViscosity::Wooster,
+                PressureViscosityLaw::SoKlaus => {
+                    let nu = |t: f64| (t, viscosity.nu_eta(t, density.at(t)).0);
+                    PressureViscosity::SoKlaus {
+                        slope: Walther::through(nu(40.0), nu(100.0), Form::AstmD341).b,
+                    }
+                }
+            },
         };
         Ok(Self {
+            nu40: viscosity.nu_eta(40.0, density.at(40.0)).0 * 1e-6,
             viscosity,
-            density_at: entry.density.at,
-            density: entry.density.value,
-            expansion: entry.density.expansion.unwrap_or(expansion),
-            gold,
-            nu40: kv40 * 1e-6,
+            density,
+            pressure,
+            conductivity: entry.conductivity,
+            heat_capacity: entry.heat_capacity,
             mu_bl: entry.mu_bl.unwrap_or(0.0),
-            mu_ehl: entry.mu_ehl.unwrap_or(mu_ehl),
-            x_l: entry.x_l.unwrap_or(x_l),
+            mu_ehl: entry.mu_ehl.unwrap_or(usual.mu_ehl),
+            x_l: entry.x_l.unwrap_or(usual.x_l),
         })
     }
 
     /// Density at a temperature in degC. \[kg/m3\]
     pub fn density(&self, temperature: f64) -> f64 {
-        self.density * (1.0 - self.expansion * (temperature - self.density_at))
+        self.density.at(temperature)
+    }
+
+    /// Specific heat at a temperature in degC. \[J/(kg K)\]
+    pub fn heat_capacity(&self, temperature: f64) -> f64 {
+        self.heat_capacity
+            .unwrap_or_else(|| thermal::heat_capacity(self.density.rho15(), temperature))
     }
 
     /// The oil at a temperature in degC.
     pub fn at(&self, temperature: f64) -> Oil {
-        let nu_shop = self.viscosity.nu(temperature);
-        let nu = nu_shop * 1e-6;
         let rho = self.density(temperature);
+        let (nu, eta) = self.viscosity.nu_eta(temperature, rho);
+        let slope = match &self.viscosity {
+            Viscosity::Walther(law) => law.slope(temperature),
+            Viscosity::Vogel(law) => law.slope(temperature),
+        };
         Oil {
             temperature,
-            nu,
+            nu: nu * 1e-6,
             rho,
-            eta: nu * rho,
+            eta: eta * 1e-3,
             nu40: self.nu40,
-            alpha: self.gold.0 * nu_shop.powf(self.gold.1) * 1e-9,
+            alpha: self.pressure.alpha(nu, eta, rho),
+            beta: slope,
+            conductivity: self
+                .conductivity
+                .unwrap_or_else(|| thermal::conductivity(self.density.rho15(), temperature)),
             mu_bl: self.mu_bl,
             mu_ehl: self.mu_ehl,
             x_l: self.x_l,
+        }
+    }
+}
+
+impl Viscosity {
+    /// Kinematic viscosity in mm2/s and dynamic viscosity in mPa s, from temperature in degC and density in kg/m3.
+    fn nu_eta(&self, temperature: f64, rho: f64) -> (f64, f64) {
+        match self {
+            Self::Walther(law) => {
+                let nu = law.nu(temperature);
+                (nu, nu * rho * 1e-3)
+            }
+            Self::Vogel(law) => {
+                let eta = law.eta(temperature);
+                (eta / rho * 1e3, eta)
+            }
         }
     }
 }
@@ -130,31 +299,18 @@ impl Lubricant {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::description::housing::{DensityEntry, ViscosityEntry};
+    use crate::description::lubricant::ViscosityPoint;
 
     fn entry(kv40: Option<f64>, kv100: Option<f64>, vi: Option<f64>) -> LubricantEntry {
         LubricantEntry {
-            kind: LubricantKind::Mineral,
-            viscosity: ViscosityEntry {
+            viscosity: Some(ViscosityEntry {
                 kv40: kv40.map(|x| x * 1e-6),
                 kv100: kv100.map(|x| x * 1e-6),
                 vi,
-            },
-            density: DensityEntry {
-                at: 15.0,
-                value: 845.0,
-                expansion: Some(7e-4),
-            },
-            mu_bl: None,
-            mu_ehl: None,
-            x_l: None,
+                ..ViscosityEntry::default()
+            }),
+            ..LubricantEntry::default()
         }
-    }
-
-    #[test]
-    fn d3_density_of_845_at_80_degc() {
-        let oil = Lubricant::new(&entry(Some(27.3), Some(5.9), None)).unwrap();
-        assert!((oil.density(80.0) - 806.553).abs() < 5e-4, "{}", oil.density(80.0));
     }
 
     #[test]
@@ -162,7 +318,7 @@ mod tests {
         // 100 mm2/s at 40 degC and 10 mm2/s at 100 degC hit both check viscosities exactly.
         let oil = |kind| {
             let mut entry = entry(Some(100.0), Some(10.0), None);
-            entry.kind = kind;
+            entry.kind = Some(kind);
             Lubricant::new(&entry).unwrap()
         };
         for (kind, at10, at100) in [
@@ -192,5 +348,76 @@ mod tests {
         assert!(fault(Some(5.0), Some(6.0), None).1.contains("not below"));
         assert!(fault(Some(5.0), None, None).2.contains("two of"));
         assert!(fault(None, Some(1.5), Some(100.0)).1.contains("not defined"));
+        assert!(
+            Lubricant::new(&LubricantEntry::default())
+                .unwrap_err()
+                .2
+                .contains("designation")
+        );
+    }
+
+    #[test]
+    fn points_give_the_laws_of_two_and_three() {
+        let with = |points: &[(f64, f64)], law| {
+            let viscosity = ViscosityEntry {
+                points: points
+                    .iter()
+                    .map(|(at, nu)| ViscosityPoint {
+                        at: *at,
+                        value: nu * 1e-6,
+                    })
+                    .collect(),
+                law,
+                vogel_c: 95.0,
+                ..ViscosityEntry::default()
+            };
+            Lubricant::new(&LubricantEntry {
+                viscosity: Some(viscosity),
+                ..LubricantEntry::default()
+            })
+        };
+        let two = [(100.0, 5.9), (40.0, 27.3)];
+        let three = [(40.0, 27.3), (80.0, 8.85), (100.0, 5.9)];
+        let nu = |oil: &Lubricant, t: f64| oil.at(t).nu * 1e6;
+        for law in [
+            ViscosityLaw::AstmD341,
+            ViscosityLaw::Din51563,
+            ViscosityLaw::AstmD341Low,
+            ViscosityLaw::Vogel,
+        ] {
+            let oil = with(&two, law).unwrap();
+            // The inverse of the thin-oil form is a fit of its own, good to some 1e-4.
+            assert!((nu(&oil, 40.0) / 27.3 - 1.0).abs() < 3e-4, "{law:?}");
+            assert!((nu(&oil, 100.0) / 5.9 - 1.0).abs() < 3e-4, "{law:?}");
+        }
+        assert!((nu(&with(&three, ViscosityLaw::Vogel).unwrap(), 80.0) / 8.85 - 1.0).abs() < 1e-9);
+        assert!(with(&three, ViscosityLaw::AstmD341).unwrap_err().2.contains("vogel"));
+        assert!(
+            with(&[(40.0, 5.0), (100.0, 6.0)], ViscosityLaw::AstmD341)
+                .unwrap_err()
+                .1
+                .contains("fall")
+        );
+    }
+
+    #[test]
+    fn correlations_of_alpha_agree_in_size() {
+        let alpha = |law, value| {
+            let mut entry = entry(Some(100.0), Some(11.0), None);
+            entry.pressure_viscosity = PressureViscosityEntry { law, value };
+            Lubricant::new(&entry).unwrap().at(40.0).alpha
+        };
+        for law in [
+            PressureViscosityLaw::Gold,
+            PressureViscosityLaw::SoKlaus,
+            PressureViscosityLaw::Wooster,
+        ] {
+            assert!(
+                (1.5e-8..3e-8).contains(&alpha(law, None)),
+                "{law:?} {}",
+                alpha(law, None)
+            );
+        }
+        assert_eq!(alpha(PressureViscosityLaw::Gold, Some(2e-8)), 2e-8);
     }
 }

@@ -11,3 +11,12 @@ inventory::submit! {
         origin: origin!(),
     }
 }
+
+inventory::submit! {
+    Catalogue {
+        section: "lubricants",
+        csv: include_str!("../catalogues/lubricants.csv"),
+        source: "Typical gear oils: constants of a public gear oil library and published data sheets. Basis stands in each row.",
+        origin: origin!(),
+    }
+}

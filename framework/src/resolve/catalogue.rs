@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::{Came, absent, entries_mut};
 use crate::document::{Diagnostic, Dimension, Unit, did_you_mean};
-use crate::language::Language;
+use crate::language::{LUBRICANTS, Language};
 use crate::registry::Files;
 
 /// One row of a catalogue.
@@ -110,7 +110,7 @@ pub(super) fn fill(
             .text(file)
             .and_then(|text| CatalogueTable::from_csv(&text).map_err(|e| format!("{file}: {e}")))
         {
-            Ok(table) if language.registry().sections().any(|(_, s)| s.name == section) => {
+            Ok(table) if section == LUBRICANTS || language.registry().sections().any(|(_, s)| s.name == section) => {
                 own.insert(section.clone(), table);
             }
             Ok(_) => found.push(Diagnostic::error(
@@ -120,8 +120,10 @@ pub(super) fn fill(
             Err(reason) => found.push(Diagnostic::error(path, reason)),
         }
     }
-    let sections: Vec<&str> = language.registry().sections().map(|(_, s)| s.name).collect();
-    for section in sections {
+    let components = language.registry().sections().map(|(_, s)| (s.name, "bore"));
+    // A designation may be a name alone, when the key that everything hangs on is written.
+    let sections: Vec<(&str, &str)> = components.chain([(LUBRICANTS, "viscosity")]).collect();
+    for (section, needed) in sections {
         let shipped = language.catalogue(section);
         for (id, entry) in entries_mut(value, section) {
             let Some(designation) = entry.get("designation").and_then(Value::as_str).map(str::to_owned) else {
@@ -132,8 +134,7 @@ pub(super) fn fill(
                 .and_then(|t| t.0.get(&designation))
                 .or_else(|| shipped.and_then(|t| t.0.get(&designation)));
             let Some(row) = row else {
-                // A designation may be a name alone, when everything else is written.
-                if absent(entry, "bore") {
+                if absent(entry, needed) {
                     let names: Vec<&str> = shipped
                         .into_iter()
                         .chain(own.get(section))
@@ -144,28 +145,41 @@ pub(super) fn fill(
                     let error = Diagnostic::error(path, format!("no catalogue has `{designation}`"))
                         .note(format!("{} designations are known", names.len()));
                     let close = did_you_mean(&designation, names.iter().copied());
+                    let here = if section == LUBRICANTS {
+                        "state viscosity, kind and density here"
+                    } else {
+                        "state bore, outside, kind and ratings here"
+                    };
                     found.push(match close {
-                        Some(close) => error.mend(format!(
-                            "write `{close}`, or state bore, outside, kind and ratings here"
-                        )),
-                        None => {
-                            error.mend("state bore, outside, kind and ratings here, or name a CSV under `catalogues`")
-                        }
+                        Some(close) => error.mend(format!("write `{close}`, or {here}")),
+                        None => error.mend(format!("{here}, or name a CSV under `catalogues`")),
                     });
                 }
                 continue;
             };
+            // What is written of a nested entry, such as a viscosity, stands alone: a law of two values takes no third.
+            let written: Vec<String> = entry.keys().filter(|key| !absent(entry, key)).cloned().collect();
             for (key, filled) in &row.values {
-                if absent(entry, key) {
+                let (head, rest) = key.split_once('.').unwrap_or((key, ""));
+                if !written.iter().any(|w| w == head) {
                     let path = format!("{section}.{id}.{key}");
                     match language.checked(filled, &path) {
-                        Ok(value) => entry.insert(key.clone(), value),
+                        Ok(value) if rest.is_empty() => {
+                            entry.insert(key.clone(), value);
+                        }
+                        Ok(value) => {
+                            let nested = entry.entry(head).or_insert_with(|| Value::Object(Map::new()));
+                            if !nested.is_object() {
+                                *nested = Value::Object(Map::new());
+                            }
+                            nested[rest] = value;
+                        }
                         Err(list) => {
                             let row = format!("in the catalogue row `{designation}`");
                             found.extend(list.into_iter().map(|d| d.note(row.clone())));
                             continue;
                         }
-                    };
+                    }
                     let from = Came::Catalogue {
                         designation: designation.clone(),
                         confidence: row.confidence.clone(),

@@ -1,0 +1,185 @@
+//! Oils.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// An oil. Friction properties belong to it; models read them and may override them.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+pub struct LubricantEntry {
+    /// Name in a catalogue of lubricants, such as `ISO VG 100 PAO`; fills the keys that are not written.
+    pub designation: Option<String>,
+    /// Kind; sets the usual properties. Absent, that of the catalogue, else mineral.
+    pub kind: Option<LubricantKind>,
+    /// Viscosity over temperature; absent, that of the catalogue.
+    pub viscosity: Option<ViscosityEntry>,
+    /// Density at a reference temperature; absent, that of the catalogue, else 870 kg/m3 at 15 degC.
+    pub density: Option<DensityEntry>,
+    /// How viscosity rises with pressure.
+    #[serde(default)]
+    pub pressure_viscosity: PressureViscosityEntry,
+    /// Thermal conductivity; absent, after Cragoe for petroleum oils. [W/(m K)]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub conductivity: Option<f64>,
+    /// Specific heat; absent, after Cragoe for petroleum oils. [J/(kg K)]
+    #[schemars(range(min = 500.0, max = 5000.0))]
+    pub heat_capacity: Option<f64>,
+    /// Coefficient of boundary friction in rolling bearings; absent, the models' own. [-]
+    #[schemars(range(min = 0.01, max = 0.3))]
+    pub mu_bl: Option<f64>,
+    /// Coefficient of full-film friction in rolling bearings; absent, by kind: 0.05 mineral, 0.04 synthetic, 0.1
+    /// transmission fluid. [-]
+    #[schemars(range(min = 0.001, max = 0.2))]
+    pub mu_ehl: Option<f64>,
+    /// Lubricant factor of mean mesh friction; absent, by kind: 1 mineral and transmission fluid, 0.8
+    /// polyalphaolefin and ester, 0.75 polyglycol. [-]
+    #[schemars(range(min = 0.1, max = 2.0))]
+    pub x_l: Option<f64>,
+}
+
+/// Kind of an oil.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LubricantKind {
+    /// Mineral oil.
+    #[default]
+    Mineral,
+    /// Polyalphaolefin.
+    Polyalphaolefin,
+    /// Ester.
+    Ester,
+    /// Polyglycol.
+    Polyglycol,
+    /// Transmission fluid.
+    TransmissionFluid,
+}
+
+/// Viscosity over temperature: two of kv40, kv100 and vi, or two or three points.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+pub struct ViscosityEntry {
+    /// Kinematic viscosity at 40 degC. [mm2/s]
+    #[schemars(range(min = 0.3, max = 1e5))]
+    pub kv40: Option<f64>,
+    /// Kinematic viscosity at 100 degC. [mm2/s]
+    #[schemars(range(min = 0.3, max = 1e4))]
+    pub kv100: Option<f64>,
+    /// Viscosity index. [-]
+    #[schemars(range(min = 0.0, max = 400.0))]
+    pub vi: Option<f64>,
+    /// Two points, or three for the law of Vogel, in place of the values above.
+    #[serde(default)]
+    #[schemars(length(max = 3))]
+    pub points: Vec<ViscosityPoint>,
+    /// Law between and beyond the points.
+    #[serde(default)]
+    pub law: ViscosityLaw,
+    /// Constant C of the law of Vogel through two points; three points give it. [-]
+    #[serde(default = "vogel_c")]
+    #[schemars(range(min = 50.0, max = 300.0))]
+    pub vogel_c: f64,
+}
+
+/// Constant C of Vogel that is usual for mineral gear oils.
+fn vogel_c() -> f64 {
+    95.0
+}
+
+/// Viscosity at one temperature.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+pub struct ViscosityPoint {
+    /// Temperature. [degC]
+    #[schemars(range(min = -60.0, max = 250.0))]
+    pub at: f64,
+    /// Kinematic viscosity. [mm2/s]
+    #[schemars(range(min = 0.3, max = 1e7))]
+    pub value: f64,
+}
+
+/// Law of viscosity over temperature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ViscosityLaw {
+    /// ASTM D341 with the constant 0.7, from 2 mm2/s.
+    #[default]
+    AstmD341,
+    /// DIN 51563 with the constant 0.8; some 2 % off at 0 degC, the same between the two points.
+    Din51563,
+    /// ASTM D341 for thin oils, from 0.21 mm2/s.
+    AstmD341Low,
+    /// Vogel: exponential over 1/(t + C).
+    Vogel,
+}
+
+/// Density at one temperature.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+pub struct DensityEntry {
+    /// Temperature. [degC]
+    #[serde(default = "fifteen")]
+    #[schemars(range(min = -50.0, max = 150.0))]
+    pub at: f64,
+    /// Density. [kg/m3]
+    #[serde(default = "usual_density")]
+    #[schemars(range(min = 500.0, max = 1300.0))]
+    pub value: f64,
+    /// How it falls with temperature.
+    #[serde(default)]
+    pub law: DensityLaw,
+    /// Share of the density that is lost per degree with the linear law; absent, by kind. [1/K]
+    #[schemars(range(min = 0.0, max = 0.002))]
+    pub expansion: Option<f64>,
+}
+
+/// How density falls with temperature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DensityLaw {
+    /// By the same share per degree.
+    #[default]
+    Linear,
+    /// By 0.7 kg/m3 per degree, the short form of DIN 51757.
+    Din51757,
+    /// By the lubricant tables of the API.
+    Api,
+}
+
+fn fifteen() -> f64 {
+    15.0
+}
+
+fn usual_density() -> f64 {
+    870.0
+}
+
+impl Default for DensityEntry {
+    fn default() -> Self {
+        Self {
+            at: fifteen(),
+            value: usual_density(),
+            law: DensityLaw::default(),
+            expansion: None,
+        }
+    }
+}
+
+/// How viscosity rises with pressure.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+pub struct PressureViscosityEntry {
+    /// Correlation.
+    #[serde(default)]
+    pub law: PressureViscosityLaw,
+    /// The coefficient itself, in place of a correlation. [1/GPa]
+    #[schemars(range(min = 1.0, max = 60.0))]
+    pub value: Option<f64>,
+}
+
+/// Correlation of the pressure-viscosity coefficient.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PressureViscosityLaw {
+    /// Gold, by kind of oil.
+    #[default]
+    Gold,
+    /// So and Klaus, from viscosity, its slope and density.
+    SoKlaus,
+    /// Wooster, from viscosity alone.
+    Wooster,
+}
