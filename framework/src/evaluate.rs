@@ -159,8 +159,7 @@ impl Transmission {
             // Meshes are the first rows, in their own order.
             for ((mesh, tangential), multiplier) in self.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers)
             {
-                let torque = multiplier * f64::from(mesh.seat.pair.z[0]);
-                *tangential = torque / (mesh.seat.count * mesh.seat.pair.working_radius[0]);
+                *tangential = multiplier * mesh.force_per_multiplier;
             }
             self.loads.evaluate(tangential, speeds, passed, loads);
             self.correct_loads(case, flow.ports, loads);

@@ -256,10 +256,15 @@ impl Lubricant {
     /// The oil at a temperature in degC.
     pub fn at(&self, temperature: f64) -> Oil {
         let rho = self.density(temperature);
-        let (nu, eta) = self.viscosity.nu_eta(temperature, rho);
-        let slope = match &self.viscosity {
-            Viscosity::Walther(law) => law.slope(temperature),
-            Viscosity::Vogel(law) => law.slope(temperature),
+        let (nu, eta, beta) = match &self.viscosity {
+            Viscosity::Walther(law) => {
+                let (nu, slope) = law.nu_and_slope(temperature);
+                (nu, nu * rho * 1e-3, slope)
+            }
+            Viscosity::Vogel(law) => {
+                let eta = law.eta(temperature);
+                (eta / rho * 1e3, eta, law.slope(temperature))
+            }
         };
         Oil {
             temperature,
@@ -268,7 +273,7 @@ impl Lubricant {
             eta: eta * 1e-3,
             nu40: self.nu40,
             alpha: self.pressure.alpha(nu, eta, rho),
-            beta: slope,
+            beta,
             conductivity: self
                 .conductivity
                 .unwrap_or_else(|| thermal::conductivity(self.density.rho15(), temperature)),

@@ -65,6 +65,8 @@ pub(crate) struct MeshModel {
     pub part: Arc<MeshPart>,
     pub model: Slot<GearMesh>,
     pub oil: u16,
+    /// Tangential force of one copy per multiplier of its row. \[1/m\]
+    pub force_per_multiplier: f64,
 }
 
 /// One drag model with its seat.

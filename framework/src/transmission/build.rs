@@ -283,6 +283,7 @@ fn mesh_models(
                     notes: model.notes,
                 });
                 models.push(MeshModel {
+                    force_per_multiplier: f64::from(seat.pair.z[0]) / (seat.count * seat.pair.working_radius[0]),
                     seat: seat.clone(),
                     part,
                     model,

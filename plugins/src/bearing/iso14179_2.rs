@@ -72,6 +72,8 @@ struct Palmgren {
     f2: f64,
     law: LoadLaw,
     c0: f64,
+    /// f0 d_m^3.
+    f0_cube: f64,
     /// Mean diameter. \[mm\]
     d_m: f64,
     /// d_m to the power b of the load law.
@@ -103,8 +105,10 @@ impl Palmgren {
             let mend = "leave f2 out; f1 counts the axial load of other bearings";
             return Err(("f2 belongs to cylindrical roller bearings".to_owned(), mend.to_owned()));
         }
+        let f0 = params.f0.map_or_else(|| rows::f0(part), Ok)?;
         Ok(Self {
-            f0: params.f0.map_or_else(|| rows::f0(part), Ok)?,
+            f0,
+            f0_cube: f0 * d_m.powi(3),
             f2: params.f2.unwrap_or(rows::f2(part)),
             law,
             c0,
@@ -147,14 +151,13 @@ impl BearingModel for Palmgren {
         if self.spherical_thrust {
             at.check(&RADIAL_RATIO, ratio(fr, fa));
         }
-        let cube = self.d_m.powi(3);
         let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
         let m0 = if product >= VISCOUS {
             at.branch("nu n at least 2000: viscous");
-            1e-7 * self.f0 * product.powf(2.0 / 3.0) * cube
+            1e-7 * self.f0_cube * product.powf(2.0 / 3.0)
         } else {
             at.branch("nu n below 2000: constant");
-            160e-7 * self.f0 * cube
+            160e-7 * self.f0_cube
         };
         at.show("f0", "-", self.f0);
         let m0 = at.show("M0", "N mm", m0);

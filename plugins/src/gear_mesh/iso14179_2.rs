@@ -77,7 +77,8 @@ fn yes() -> bool {
 
 /// Friction from shop units: N/mm, m/s, mm, mPa s, um.
 fn schlenk(line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
-    0.048 * (0.2 * (line_load / (sum_speed * radius)).ln() - 0.05 * eta.ln() + 0.25 * ra.ln()).exp() * x_l
+    // One root in place of three powers: 0.2, -0.05 and 0.25 are multiples of 0.05.
+    0.048 * ((line_load / (sum_speed * radius)).powi(4) / eta * ra.powi(5)).powf(0.05) * x_l
 }
 
 /// One pair, prepared.
