@@ -282,6 +282,8 @@ impl Transmission {
             eta: oil.eta,
             rho: oil.rho,
             alpha: oil.alpha,
+            beta: oil.beta,
+            conductivity: oil.conductivity,
             x_l: oil.x_l,
             notes,
         }))

@@ -4,13 +4,14 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::Value;
 
+use crate::description::Ordered;
 use crate::document::{Diagnostic, Unit};
 use crate::formula::Formula;
 use crate::loss::{Loss, Undefined};
 use crate::mechanism::gear_drag::Scope;
 use crate::mechanism::{Mechanism, Quantity};
 use crate::registry::{Build, Built, Entry, Evidence, Graded, formula};
-use crate::table::{Outside, Table};
+use crate::table::{Interpolation, Outside, Reading, Scale, Table};
 
 /// The most quantities that a context may have, for the inputs of a formula.
 const MOST_QUANTITIES: usize = 24;
@@ -26,10 +27,7 @@ enum Law<M: Mechanism> {
     /// In SI.
     Constant(f64),
     Formula(Formula),
-    Table {
-        table: Table,
-        axes: Vec<&'static Quantity<M>>,
-    },
+    Table(Lookup<M>),
 }
 
 impl<M: Mechanism> Scalar<M> {
@@ -48,13 +46,7 @@ impl<M: Mechanism> Scalar<M> {
                 }
                 formula.value(&inputs[..M::QUANTITIES.len()])?
             }
-            Law::Table { table, axes } => {
-                let mut inputs = [0.0; 4];
-                for (input, q) in inputs.iter_mut().zip(axes) {
-                    *input = q.unit().from_si((q.get)(at));
-                }
-                table.value(&inputs[..axes.len()])?
-            }
+            Law::Table(lookup) => lookup.value(at)?,
         };
         if value < 0.0 {
             return Err(Undefined {
@@ -158,20 +150,13 @@ struct TableParams {
     file: String,
     /// What holds beyond the ends of the table.
     #[serde(default)]
-    outside: OutsideEntry,
-}
-
-/// What holds beyond the ends of a table.
-#[derive(Clone, Copy, Default, serde::Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-enum OutsideEntry {
-    /// The answer is undefined.
-    #[default]
-    Error,
-    /// The value at the end.
-    Clamp,
-    /// The last slope goes on.
-    Extrapolate,
+    outside: Outside,
+    /// What connects the points.
+    #[serde(default)]
+    interpolation: Interpolation,
+    /// Scale of each axis by its name, and of the answer as `answer`; others are linear.
+    #[serde(default)]
+    scale: Ordered<Scale>,
 }
 
 fn constant_schema<M: Mechanism>(_: &mut SchemaGenerator) -> Schema {
@@ -201,50 +186,77 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
     built::<M>(Law::Formula(formula), cx)
 }
 
+/// A table over quantities of a mechanism's context, for models that read one.
+pub struct Lookup<M: Mechanism> {
+    table: Table,
+    axes: Vec<&'static Quantity<M>>,
+}
+
+impl<M: Mechanism> Lookup<M> {
+    /// Reads a CSV file; its answer is in `unit`.
+    ///
+    /// # Errors
+    /// The file, its axes or its units, with what to write instead.
+    pub fn read(file: &str, reading: &Reading, unit: &str, cx: &Build<'_>) -> Result<Self, Diagnostic> {
+        let text = cx.text(file)?;
+        let table = Table::from_csv(&text, reading).map_err(|fault| cx.error(format!("{file}: {fault}")))?;
+        if let Some(written) = table.unit().filter(|written| *written != unit) {
+            return Err(cx
+                .error(format!("{file}: the answer is in {written}, not in {unit}"))
+                .mend(format!("convert it and write `[{unit}]` in the last column's header")));
+        }
+        let mut axes = Vec::new();
+        for axis in table.axes() {
+            let Some(quantity) = M::QUANTITIES.iter().find(|q| q.name == axis.name) else {
+                let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
+                return Err(cx
+                    .error(format!(
+                        "{file}: the context of {} has no quantity `{}`",
+                        M::KEY,
+                        axis.name
+                    ))
+                    .note(format!("quantities: {}", names.join(", "))));
+            };
+            if axis.unit != quantity.unit().symbol {
+                return Err(cx
+                    .error(format!(
+                        "{file}: column `{}` is in {}, not in {}",
+                        axis.name,
+                        axis.unit,
+                        quantity.unit().symbol
+                    ))
+                    .mend(format!(
+                        "convert it and write `{} [{}]`",
+                        axis.name,
+                        quantity.unit().symbol
+                    )));
+            }
+            axes.push(quantity);
+        }
+        Ok(Self { table, axes })
+    }
+
+    /// The answer at a context, in the unit of the file.
+    ///
+    /// # Errors
+    /// Where the table ends.
+    pub fn value(&self, at: &M::At<'_>) -> Result<f64, Undefined> {
+        let mut inputs = [0.0; 4];
+        for (input, q) in inputs.iter_mut().zip(&self.axes) {
+            *input = q.unit().from_si((q.get)(at));
+        }
+        self.table.value(&inputs[..self.axes.len()])
+    }
+}
+
 fn build_table<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built, Diagnostic> {
     let params: TableParams = cx.params(value)?;
-    let text = cx.text(&params.file)?;
-    let outside = match params.outside {
-        OutsideEntry::Error => Outside::Error,
-        OutsideEntry::Clamp => Outside::Clamp,
-        OutsideEntry::Extrapolate => Outside::Extrapolate,
+    let unit = Unit::of_doc(M::ANSWER).map_or("-", |u| u.symbol);
+    let reading = Reading {
+        outside: params.outside,
+        interpolation: params.interpolation,
+        scales: params.scale.0,
     };
-    let table = Table::from_csv(&text, outside).map_err(|fault| cx.error(format!("{}: {fault}", params.file)))?;
-    let answer = Unit::of_doc(M::ANSWER).map_or("-", |u| u.symbol);
-    if let Some(unit) = table.unit().filter(|unit| *unit != answer) {
-        return Err(cx
-            .error(format!("{}: the answer is in {unit}, not in {answer}", params.file))
-            .mend(format!("convert it and write `[{answer}]` in the last column's header")));
-    }
-    let mut axes = Vec::new();
-    for axis in table.axes() {
-        let Some(quantity) = M::QUANTITIES.iter().find(|q| q.name == axis.name) else {
-            let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
-            return Err(cx
-                .error(format!(
-                    "{}: the context of {} has no quantity `{}`",
-                    params.file,
-                    M::KEY,
-                    axis.name
-                ))
-                .note(format!("quantities: {}", names.join(", "))));
-        };
-        if axis.unit != quantity.unit().symbol {
-            return Err(cx
-                .error(format!(
-                    "{}: column `{}` is in {}, not in {}",
-                    params.file,
-                    axis.name,
-                    axis.unit,
-                    quantity.unit().symbol
-                ))
-                .mend(format!(
-                    "convert it and write `{} [{}]`",
-                    axis.name,
-                    quantity.unit().symbol
-                )));
-        }
-        axes.push(quantity);
-    }
-    built::<M>(Law::Table { table, axes }, cx)
+    let lookup = Lookup::read(&params.file, &reading, unit, cx)?;
+    built::<M>(Law::Table(lookup), cx)
 }

@@ -1,5 +1,6 @@
 //! Involute geometry of pairs: working angles, diameters, the path of contact, load sharing, loss factors.
 
+mod contact_lines;
 mod factors;
 mod gauss;
 mod involute;

@@ -9,6 +9,7 @@ pub mod bearing;
 pub mod clutch;
 pub mod gear_drag;
 pub mod gear_mesh;
+pub mod mean_friction;
 pub mod seal;
 pub mod synchronizer;
 pub mod tooth_friction;

@@ -1,4 +1,11 @@
-//! Load-dependent loss of gear meshes.
+//! Loss of gear meshes.
 
+pub mod anderson_loewenthal;
+pub mod efficiency;
+pub mod even_share;
+mod factor;
+pub mod iso14179_1;
 pub mod iso14179_2;
+pub mod ohlendorf;
 pub mod path_integral;
+pub mod wimmer;

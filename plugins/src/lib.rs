@@ -4,8 +4,11 @@
 
 pub mod bearing;
 pub mod catalogues;
+pub mod contact;
 pub mod gear_drag;
 pub mod gear_mesh;
+pub mod mean_friction;
+pub mod path;
 pub mod seal;
 pub mod sets;
 pub mod synchronizer;

@@ -1,3 +1,26 @@
-//! Local friction between flanks.
+//! Friction between flanks along the path of contact.
 
+pub mod benedict_kelley;
+pub mod doleschel;
+pub mod drozdov_gavrikov;
+pub mod eyring;
+pub mod iso_tc60;
+pub mod mean;
+pub mod misharin;
+pub mod mixed;
+pub mod odonoghue_cameron;
 pub mod xu;
+
+use gearloss_framework::loss::Undefined;
+
+/// A coefficient that is a number, or the reason why not.
+fn finite(mu: f64) -> Result<f64, Undefined> {
+    if mu.is_finite() && mu >= 0.0 {
+        Ok(mu)
+    } else {
+        Err(Undefined {
+            what: "coefficient of friction",
+            value: mu,
+        })
+    }
+}

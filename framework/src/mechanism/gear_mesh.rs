@@ -104,6 +104,30 @@ impl MeshPart {
     }
 }
 
+impl MeshPart {
+    /// FZG C gears, for what stands alone.
+    ///
+    /// # Errors
+    /// None that occur: the geometry is sound.
+    pub fn fzg_c() -> Result<Self, String> {
+        let pair = Pair::new(&PairSpec {
+            z: [16, 24],
+            internal: false,
+            normal_module: 4.5e-3,
+            pressure_angle: 20.0_f64.to_radians(),
+            helix_angle: 0.0,
+            centre_distance: Some(91.5e-3),
+            profile_shift: [None, None],
+            tip_diameter: [Some(82.636e-3), Some(118.544e-3)],
+            root_diameter: [None, None],
+            facewidth: 14e-3,
+            tip_shortening: true,
+        })
+        .map_err(|faults| faults.iter().map(PairFault::to_string).collect::<Vec<_>>().join("; "))?;
+        Ok(Self::new(pair, [0.4e-6; 2], [0.5e-6; 2], steel(), steel_poisson()))
+    }
+}
+
 impl JsonSchema for MeshPart {
     fn inline_schema() -> bool {
         true
@@ -163,6 +187,10 @@ context! {
         rho: 820.0 in 500.0..=1300.0,
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0,
+        /// Relative fall of the oil's viscosity with temperature. [1/K]
+        beta: 0.03 in 0.001..=0.3,
+        /// Thermal conductivity of the oil. [W/(m K)]
+        conductivity: 0.135 in 0.05..=0.5,
         /// Lubricant factor of mean mesh friction that the oil states. [-]
         x_l: 1.0 in 0.1..=2.0,
     }

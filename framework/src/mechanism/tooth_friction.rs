@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::context;
 use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
+use crate::mechanism::mean_friction::MeanFrictionAt;
 use crate::mechanism::{Mechanism, NoPart, Quantity};
 
 /// Marker of the mechanism; never constructed.
@@ -39,6 +40,10 @@ context! {
         line_load: 200.0 in 0.0..=3000.0,
         /// Hertz pressure. [GPa]
         pressure: 0.8 in 0.0..=4.0,
+        /// Reduced modulus E/(1 - nu^2) of equal materials. [GPa]
+        modulus: 226.0 in 1.0..=500.0,
+        /// Length of the line of contact. [mm]
+        length: 20.0 in 0.1..=2000.0,
         /// Arithmetic mean roughness, mean of both flanks. [um]
         ra: 0.4 in 0.01..=5.0,
         /// Root mean square roughness of both flanks together. [um]
@@ -51,6 +56,10 @@ context! {
         eta: 8.0 in 0.5..=10000.0,
         /// Pressure-viscosity coefficient of that oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0,
+        /// Relative fall of the oil's viscosity with temperature. [1/K]
+        beta: 0.03 in 0.001..=0.3,
+        /// Thermal conductivity of the oil. [W/(m K)]
+        conductivity: 0.135 in 0.05..=0.5,
         /// Lubricant factor of mean mesh friction. [-]
         x_l: 1.0 in 0.1..=2.0,
     }
@@ -147,7 +156,7 @@ impl PathExtent {
 }
 
 /// The whole path of contact at one operating point. SI.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct PathAt<'a> {
     /// The places on the path.
     pub nodes: &'a [PathNode],
@@ -159,6 +168,8 @@ pub struct PathAt<'a> {
     pub line_load: f64,
     /// Reduced modulus E/(1 - nu^2) of equal materials. \[Pa\]
     pub modulus: f64,
+    /// Length of the line of contact of one pair. \[m\]
+    pub length: f64,
     /// Arithmetic mean roughness, mean of both flanks. \[m\]
     pub ra: f64,
     /// Root mean square roughness of both flanks together. \[m\]
@@ -171,8 +182,14 @@ pub struct PathAt<'a> {
     pub eta: f64,
     /// Pressure-viscosity coefficient. \[1/Pa\]
     pub alpha: f64,
+    /// Relative fall of the viscosity with temperature. \[1/K\]
+    pub beta: f64,
+    /// Thermal conductivity. \[W/(m K)\]
+    pub conductivity: f64,
     /// Lubricant factor of mean mesh friction.
     pub x_l: f64,
+    /// The mesh as a law of mean friction sees it.
+    pub mean: MeanFrictionAt<'a>,
     /// Where limits, observed quantities and steps are noted.
     pub notes: Notes<'a>,
 }
@@ -193,12 +210,16 @@ impl<'a> PathAt<'a> {
             radius: node.radius,
             line_load: node.share * self.line_load,
             pressure: node.root_load * self.unit_pressure(),
+            modulus: self.modulus,
+            length: self.length,
             ra: self.ra,
             rq: self.rq,
             temperature: self.temperature,
             nu: self.nu,
             eta: self.eta,
             alpha: self.alpha,
+            beta: self.beta,
+            conductivity: self.conductivity,
             x_l: self.x_l,
             notes: self.notes,
         }

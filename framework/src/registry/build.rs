@@ -146,6 +146,22 @@ impl<'a> Build<'a> {
         built
     }
 
+    /// Builds the model of a nested slot for a part of its own.
+    ///
+    /// # Errors
+    /// As [`Build::slot`].
+    pub fn slot_of<M: Mechanism>(
+        &mut self,
+        key: &str,
+        part: &Arc<M::Part>,
+        slot: &ModelRef<M>,
+    ) -> Result<Slot<M>, Diagnostic> {
+        let outer = self.part.replace(Arc::clone(part) as Arc<dyn Any + Send + Sync>);
+        let built = self.slot(key, slot);
+        self.part = outer;
+        built
+    }
+
     /// Builds a model at a path for a part.
     ///
     /// # Errors

@@ -5,18 +5,25 @@
 //! An option averages over the travel of one tooth with double contact counted twice, as equation 3 of Shen and Rinderknecht
 //! (Modelling of transmission losses with parameter identification) prints it: for constant friction that is 20 % above the
 //! cycle average of an FZG C gear, because double contact counts twice.
-//! Assumes rigid teeth with a stated sharing of the load; the line load is that of the pair over the face width.
-//! Rolling friction is optional: Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, isothermal.
+//! Assumes rigid teeth with a stated sharing of the load. The line load is that of the pair over the face width, with
+//! `contact_lines` over the inclined lines.
+//! Rolling friction is optional: Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, isothermal; or 9e7 N/m2 times film
+//! and width after Crook 1963 as Anderson and Loewenthal use it, with the least film of Dowson and Higginson, times the sum
+//! of the surface speeds (some authors take half of it, which is an option).
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
-use gearloss_framework::mechanism::tooth_friction::{PathAt, PathExtent, PathNode, ToothFriction};
+use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
+use gearloss_framework::mechanism::tooth_friction::ToothFriction;
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::contact::dowson_higginson;
+use crate::path::Path;
 
 const SLIDING: Term = Term::load(0, "sliding");
 const ROLLING: Term = Term::load(1, "rolling");
@@ -27,11 +34,6 @@ const MU_MEAN: Observed = Observed::new(
     "Coefficient of friction, weighted by load and sliding speed.",
 );
 const LOSS_FACTOR: Observed = Observed::new(1, "H_vL", "-", "Local tooth loss factor of the load sharing.");
-
-/// Quadrature points on each smooth piece of the path: the loss is then within 1e-4 of its limit (5e-5 in the two-speed example).
-const ORDER: usize = 3;
-/// The most points on a path.
-const MOST_NODES: usize = 64;
 
 /// Over what the loss is averaged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -53,6 +55,19 @@ pub enum Rolling {
     None,
     /// Goksem and Hargreaves, isothermal.
     GoksemHargreaves,
+    /// Crook, as Anderson and Loewenthal use him.
+    Crook,
+}
+
+/// Which speed the rolling force of Crook works against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RollingSpeed {
+    /// The sum of the surface speeds.
+    #[default]
+    Sum,
+    /// Their mean, which halves the loss.
+    Mean,
 }
 
 /// Mesh loss by integrating local friction along the path of contact.
@@ -69,12 +84,14 @@ pub struct PathIntegral {
     /// Whether rolling friction counts.
     #[serde(default)]
     pub rolling_friction: Rolling,
+    /// Which speed the rolling force of Crook works against.
+    #[serde(default)]
+    pub rolling_speed: RollingSpeed,
 }
 
 /// The path of one mesh, prepared.
-struct Path {
-    nodes: Vec<PathNode>,
-    extent: PathExtent,
+struct Integral {
+    path: Path,
     /// Sliding power per friction, normal force and speed of the first gear, by node. \[m\]
     weights: Vec<f64>,
     /// Weight of the rolling power at each node.
@@ -82,52 +99,41 @@ struct Path {
     loss_factor: f64,
     friction: Slot<ToothFriction>,
     rolling: Rolling,
+    rolling_speed: f64,
 }
 
-fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Path, Diagnostic> {
+fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnostic> {
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
     let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
     let pair = &part.pair;
-    let points = pair.path(params.load_sharing, ORDER);
-    if points.len() > MOST_NODES {
-        return Err(cx.error(format!(
-            "the contact ratio {:.2} is too high for a path integral",
-            pair.contact_ratio
-        )));
-    }
+    let path = Path::new(pair, params.load_sharing).map_err(|fault| cx.error(fault))?;
     let [start, .., end] = pair.points;
-    let nodes: Vec<PathNode> = points
-        .iter()
-        .map(|p| {
-            PathNode::new(
-                pair.sliding(p.x),
-                pair.sum_speed(p.x),
-                pair.relative_radius(p.x),
-                p.share,
-            )
-        })
-        .collect();
-    let per_length: Vec<f64> = points
+    let rolling_weights: Vec<f64> = path
+        .points()
         .iter()
         .map(|p| match params.average {
             Average::BasePitch => p.weight / pair.base_pitch,
             Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
         })
         .collect();
-    let weights = per_length
+    let weights = rolling_weights
         .iter()
-        .zip(&nodes)
-        .zip(&points)
-        .map(|((w, n), p)| w * p.share * n.sliding)
+        .zip(path.points())
+        .zip(path.nodes())
+        .map(|((w, p), n)| w * p.share * n.sliding)
         .collect();
-    Ok(Path {
-        rolling_weights: per_length,
+    Ok(Integral {
+        rolling_weights,
         weights,
         loss_factor: pair.loss_factor_local(params.load_sharing),
-        extent: PathExtent::of(&nodes),
-        nodes,
+        path,
         friction,
         rolling: params.rolling_friction,
+        rolling_speed: if params.rolling_speed == RollingSpeed::Sum {
+            1.0
+        } else {
+            0.5
+        },
     })
 }
 
@@ -142,7 +148,12 @@ fn goksem_hargreaves(line_load: f64, radius: f64, eta: f64, rolling: f64, alpha:
     4.318 * (g * u).powf(0.658) * w.powf(0.0126) * radius / alpha
 }
 
-impl GearMeshModel for Path {
+/// Rolling force per face width from the film. \[N/m\]
+fn crook(film: f64) -> f64 {
+    9.0e7 * film
+}
+
+impl GearMeshModel for Integral {
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
         if at.speed == 0.0 || at.torque == 0.0 {
             at.branch("no speed or no torque: no loss");
@@ -150,25 +161,12 @@ impl GearMeshModel for Path {
         }
         let pair = &at.part.pair;
         let speed = at.speed.abs();
-        let normal = at.show("F_bn", "N", at.torque / (pair.base_radius[0] * pair.base_helix.cos()));
-        let line_load = at.show("F_bn/b", "N/m", normal / pair.facewidth);
-        let path = PathAt {
-            nodes: &self.nodes,
-            extent: &self.extent,
-            speed,
-            line_load,
-            modulus: at.part.modulus,
-            ra: at.part.ra,
-            rq: at.part.rq,
-            temperature: at.temperature,
-            nu: at.nu,
-            eta: at.eta,
-            alpha: at.alpha,
-            x_l: at.x_l,
-            notes: at.notes.of(self.friction.notes),
-        };
-        let mut mu = [0.0; MOST_NODES];
-        let mu = &mut mu[..self.nodes.len()];
+        let mean = MeanFrictionAt::of(at, at.notes);
+        let normal = at.show("F_bn", "N", mean.normal_force);
+        let path = self.path.at(&mean, at.notes.of(self.friction.notes));
+        let line_load = at.show("F_bn/b", "N/m", path.line_load);
+        let mut mu = [0.0; Path::MOST];
+        let mu = &mut mu[..self.path.len()];
         self.friction.along(&path, mu)?;
         let (mut sum, mut whole) = (0.0, 0.0);
         for (weight, mu) in self.weights.iter().zip(mu.iter()) {
@@ -182,14 +180,22 @@ impl GearMeshModel for Path {
             return Ok(loss);
         }
         let rolling: f64 = self
-            .nodes
+            .path
+            .nodes()
             .iter()
             .zip(&self.rolling_weights)
             .map(|(node, weight)| {
                 let sum_speed = node.sum_speed * speed;
-                let w = node.share * line_load;
-                let force = goksem_hargreaves(w, node.radius, at.eta, 0.5 * sum_speed, at.alpha, at.part.modulus);
-                weight * force * pair.facewidth * sum_speed
+                let (w, modulus) = (node.share * line_load, at.part.modulus);
+                let power = match self.rolling {
+                    Rolling::Crook => {
+                        let u = at.eta * 0.5 * sum_speed / (modulus * node.radius);
+                        let h = node.radius * dowson_higginson(u, at.alpha * modulus, w / (modulus * node.radius));
+                        crook(h) * sum_speed * self.rolling_speed
+                    }
+                    _ => goksem_hargreaves(w, node.radius, at.eta, 0.5 * sum_speed, at.alpha, modulus) * sum_speed,
+                };
+                weight * power * pair.facewidth
             })
             .sum();
         Ok(loss.with(&ROLLING, at.show("P_r", "W", rolling)))
@@ -198,12 +204,13 @@ impl GearMeshModel for Path {
 
 register!(GearMesh, "path_integral", PathIntegral,
     meaning: "Local friction integrated along the path of contact.",
-    source: "Niemann/Winter, Maschinenelemente 2; Wimmer 2006; Goksem and Hargreaves 1978",
+    source: "Niemann/Winter, Maschinenelemente 2; Wimmer 2006; Goksem and Hargreaves 1978; Crook 1963",
     example: "{ type: path_integral, tooth_friction: { type: constant, value: 0.05 }, rolling_friction: goksem_hargreaves }",
     evidence: [
         formula(Evidence::Derived, "equals friction times loss factor for constant friction"),
         default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
         default_of("rolling_friction", Evidence::OneSource, "usually neglected beside sliding"),
+        default_of("rolling_speed", Evidence::Recalled, "Crook's coefficient as Anderson and Loewenthal use it"),
     ],
     terms: [SLIDING, ROLLING], observed: [MU_MEAN, LOSS_FACTOR], prepare: prepare);
 
@@ -237,6 +244,64 @@ pub(crate) mod tests {
         MeshPart::new(pair.unwrap(), [ra, ra], [one, one], 206e9, 0.3)
     }
 
+    /// A pair of the check cases.
+    #[derive(Debug, Clone, Copy)]
+    pub enum Kind {
+        /// FZG C14.
+        Spur,
+        /// FZG C14 with the wheel written first.
+        Swapped,
+        /// 31/96 of 1.6 mm, 27 deg.
+        Helical,
+        /// 24 in 72 of 2 mm.
+        Internal,
+    }
+
+    /// A pair of the check cases with its roughness.
+    pub fn pair_of(kind: Kind) -> MeshPart {
+        let spec = |z, module, pressure: f64, helix: f64, distance, tips: [f64; 2], facewidth| PairSpec {
+            z,
+            internal: false,
+            normal_module: module,
+            pressure_angle: pressure.to_radians(),
+            helix_angle: helix.to_radians(),
+            centre_distance: Some(distance),
+            profile_shift: [None, None],
+            tip_diameter: tips.map(Some),
+            root_diameter: [None, None],
+            facewidth,
+            tip_shortening: true,
+        };
+        let spec = match kind {
+            Kind::Spur => return fzg_c14(0.4e-6, 0.5e-6),
+            Kind::Swapped => spec([24, 16], 4.5e-3, 20.0, 0.0, 91.5e-3, [118.544e-3, 82.636e-3], 14e-3),
+            Kind::Helical => spec([31, 96], 1.6e-3, 17.5, 27.0, 115e-3, [60.2e-3, 176.251e-3], 17e-3),
+            Kind::Internal => PairSpec {
+                internal: true,
+                ..spec([24, 72], 2e-3, 20.0, 0.0, 48e-3, [52e-3, 140.8e-3], 20e-3)
+            },
+        };
+        MeshPart::new(Pair::new(&spec).unwrap(), [0.4e-6; 2], [0.35e-6; 2], 206e9, 0.3)
+    }
+
+    /// The loss factor that a model with mean friction uses on a pair: its loss over power and constant friction.
+    pub fn loss_factor(model: &Value, kind: Kind) -> f64 {
+        let registry = Registry::linked().unwrap();
+        let files = Files::default();
+        let part = Arc::new(pair_of(kind));
+        let mut model = model.clone();
+        model["mean_friction"] = json!({ "type": "constant", "value": 0.05 });
+        let slot = Build::new(&registry, &files)
+            .slot_at::<GearMesh>("model", &part, &model)
+            .unwrap();
+        let at = GearMeshAt {
+            torque: 100.0,
+            speed: 100.0,
+            ..GearMeshAt::usual(&part, Notes::MUTED)
+        };
+        slot.loss(&at).unwrap().sum() / (0.05 * 1e4)
+    }
+
     fn watts(model: &Value) -> f64 {
         let registry = Registry::linked().unwrap();
         let files = Files::default();
@@ -254,7 +319,7 @@ pub(crate) mod tests {
     }
 
     fn model(friction: Value, average: &str) -> Value {
-        json!({ "type": "path_integral", "load_sharing": "rigid", "average": average, "tooth_friction": friction, "rolling_friction": "none" })
+        json!({ "type": "path_integral", "load_sharing": "rigid", "average": average, "tooth_friction": friction, "rolling_friction": "none", "rolling_speed": "sum" })
     }
 
     #[test]
@@ -275,6 +340,46 @@ pub(crate) mod tests {
         assert!((cycle / 183.716 - 1.0).abs() < 2e-4, "{cycle}");
         let travel = watts(&model(friction, "tooth_travel"));
         assert!((travel / 221.384 - 1.0).abs() < 2e-4, "{travel}");
+    }
+
+    #[test]
+    fn b13_rolling_force_and_power() {
+        for (film, width, sum_speed, force, power) in
+            [(0.8e-6, 20e-3, 10.0, 1.44, 14.4), (0.3e-6, 30e-3, 25.0, 0.81, 20.25)]
+        {
+            let own = crook(film) * width;
+            assert!((own / force - 1.0_f64).abs() < 1e-12 && (own * sum_speed / power - 1.0_f64).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn rolling_after_crook_has_the_size_of_goksem_and_its_mean_speed_halves_it() {
+        let rolling = |law: &str, speed: &str| {
+            let mut model = model(json!({ "type": "constant", "value": 0.0 }), "base_pitch");
+            model["rolling_friction"] = law.into();
+            model["rolling_speed"] = speed.into();
+            watts(&model)
+        };
+        let (crook, goksem) = (rolling("crook", "sum"), rolling("goksem_hargreaves", "sum"));
+        // Two laws of one effect: 1.2 and 3.0 W of some 300 W sliding.
+        assert!((0.25..4.0).contains(&(crook / goksem)), "{crook} {goksem}");
+        assert!((rolling("crook", "mean") / crook - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_mean_law_along_the_path_is_a_constant_and_a_local_law_in_a_mean_slot_keeps_its_loss() {
+        let schlenk = json!({ "type": "schlenk", "x_l": 1.0, "clamp_line_load": true, "clamp_speed": "sum_speed" });
+        let along = watts(&model(
+            json!({ "type": "mean", "mean_friction": schlenk }),
+            "base_pitch",
+        ));
+        let factor = watts(&json!({ "type": "ohlendorf", "mean_friction": schlenk }));
+        assert!((along / factor - 1.0).abs() < 1e-6, "{along} {factor}");
+        let xu = json!({ "type": "xu", "roughness": "composite_rms" });
+        let integral = watts(&model(xu.clone(), "base_pitch"));
+        let local = json!({ "type": "local", "at": "path", "load_sharing": "rigid", "tooth_friction": xu });
+        let mean = watts(&json!({ "type": "wimmer", "load_sharing": "rigid", "mean_friction": local }));
+        assert!((mean / integral - 1.0).abs() < 1e-6, "{mean} {integral}");
     }
 
     #[test]

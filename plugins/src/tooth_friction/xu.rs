@@ -149,7 +149,9 @@ register!(ToothFriction, "xu", Xu,
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::gear_mesh::path_integral::tests::fzg_c14;
     use gearloss_framework::mechanism::NoPart;
+    use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
     use gearloss_framework::mechanism::tooth_friction::{PathExtent, PathNode};
 
     const LAW: Xu = Xu {
@@ -193,19 +195,24 @@ mod tests {
                 )
             })
             .collect();
+        let part = fzg_c14(0.4e-6, 0.5e-6);
         let path = PathAt {
             nodes: &nodes,
             extent: &PathExtent::of(&nodes),
             speed: 300.0,
             line_load: 2e5,
             modulus: 226e9,
+            length: 0.02,
             ra: 0.4e-6,
             rq: 0.5e-6,
             temperature: 80.0,
             nu: 10e-6,
             eta: 8e-3,
             alpha: 15e-9,
+            beta: 0.03,
+            conductivity: 0.135,
             x_l: 1.0,
+            mean: MeanFrictionAt::usual(&part, Notes::MUTED),
             notes: Notes::MUTED,
         };
         let mut along = [0.0; 9];

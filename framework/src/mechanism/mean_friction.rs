@@ -1,0 +1,134 @@
+//! One coefficient of friction for a whole mesh.
+
+use std::sync::Arc;
+
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Notes, Undefined};
+use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
+use crate::mechanism::{Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum MeanFriction {}
+
+/// Mean coefficient of friction of a mesh.
+pub trait MeanFrictionModel: Send + Sync {
+    /// Coefficient of friction. \[-\] Pure; must not allocate. Called with torque and speed above zero.
+    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined>;
+}
+
+context! {
+    /// All that a law of mean friction may look at: the mesh at its pitch point, in the frame of its carrier.
+    pub struct MeanFrictionAt of MeanFriction {
+        /// Tangential force at the base circle over the face width. [N/mm]
+        line_load: 200.0 in 0.0..=3000.0,
+        /// Normal force of the mesh. [N]
+        normal_force: 3000.0 in 0.0..=1000000.0,
+        /// Hertz pressure at the pitch point under the whole normal force. [GPa]
+        pressure: 0.8 in 0.0..=4.0,
+        /// Speed of the first gear relative to the carrier, magnitude. [rpm]
+        speed: 3000.0 in 0.0..=30000.0,
+        /// Pitch line speed. [m/s]
+        pitch_speed: 10.0 in 0.0..=200.0,
+        /// Sum of the surface speeds at the pitch point. [m/s]
+        sum_speed: 7.0 in 0.0..=200.0,
+        /// Radius of relative curvature at the pitch point, normal plane. [mm]
+        radius: 8.0 in 0.1..=500.0,
+        /// Arithmetic mean roughness, mean of both flanks. [um]
+        ra: 0.4 in 0.01..=5.0,
+        /// Root mean square roughness of both flanks together. [um]
+        rq: 0.5 in 0.01..=5.0,
+        /// Temperature of the oil. [degC]
+        temperature: 80.0 in -40.0..=200.0,
+        /// Kinematic viscosity of the oil. [mm2/s]
+        nu: 10.0 in 1.0..=10000.0,
+        /// Dynamic viscosity of the oil. [mPa s]
+        eta: 8.0 in 0.5..=10000.0,
+        /// Pressure-viscosity coefficient of the oil. [1/GPa]
+        alpha: 15.0 in 1.0..=60.0,
+        /// Relative fall of the oil's viscosity with temperature. [1/K]
+        beta: 0.03 in 0.001..=0.3,
+        /// Thermal conductivity of the oil. [W/(m K)]
+        conductivity: 0.135 in 0.05..=0.5,
+        /// Lubricant factor that the oil states. [-]
+        x_l: 1.0 in 0.1..=2.0,
+    }
+}
+
+impl<'a> MeanFrictionAt<'a> {
+    /// The mesh at its pitch point.
+    pub fn of(at: &GearMeshAt<'a>, notes: Notes<'a>) -> Self {
+        let part = at.part;
+        let pair = &part.pair;
+        let tangential = at.torque / pair.base_radius[0];
+        let normal_force = tangential / pair.base_helix.cos();
+        let pitch_speed = at.speed.abs() * pair.working_radius[0];
+        Self {
+            part,
+            line_load: tangential / pair.facewidth,
+            normal_force,
+            pressure: hertz(normal_force / pair.facewidth, part.modulus, pair.pitch_radius),
+            speed: at.speed.abs(),
+            pitch_speed,
+            sum_speed: 2.0 * pitch_speed * pair.working_angle.sin(),
+            radius: pair.pitch_radius,
+            ra: part.ra,
+            rq: part.rq,
+            temperature: at.temperature,
+            nu: at.nu,
+            eta: at.eta,
+            alpha: at.alpha,
+            beta: at.beta,
+            conductivity: at.conductivity,
+            x_l: at.x_l,
+            notes,
+        }
+    }
+}
+
+/// Hertz pressure of a line contact from line load in N/m, reduced modulus in Pa and radius in m. \[Pa\]
+pub fn hertz(line_load: f64, modulus: f64, radius: f64) -> f64 {
+    (line_load * modulus / (2.0 * std::f64::consts::PI * radius)).sqrt()
+}
+
+impl Mechanism for MeanFriction {
+    const KEY: &'static str = "mean_friction";
+    const MEANING: &'static str = "Mean coefficient of friction of a mesh.";
+    const ANSWER: &'static str = "Coefficient of friction. [-]";
+    const EXAMPLE: &'static str = crate::mechanism::gear_mesh::GearMesh::EXAMPLE;
+    const QUANTITIES: &'static [Quantity<Self>] = MeanFrictionAt::QUANTITIES;
+    type Part = MeshPart;
+    type At<'a> = MeanFrictionAt<'a>;
+    type Answer = f64;
+    type Model = dyn MeanFrictionModel;
+
+    fn usual<'a>(part: &'a MeshPart, notes: Notes<'a>) -> MeanFrictionAt<'a> {
+        MeanFrictionAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
+        model.mu(at)
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl MeanFrictionModel for Scalar<MeanFriction> {
+    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
+        self.value(at)
+    }
+}
+
+crate::register_mechanism!(MeanFriction);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn b12_hertz_pressure() {
+        let p = hertz(300e3, 226.374e9, 0.010);
+        assert!((p / 1.03964e9 - 1.0).abs() < 1e-5, "{p}");
+    }
+}

@@ -1,0 +1,64 @@
+//! Mesh loss by the tooth loss factor of an evenly spread load and a law of mean friction.
+//!
+//! Derived: P = P_in mu_m H_v with every pair at its even share 1/eps_alpha all along the path:
+//! H_v = pi (u + 1)/(z1 u cos beta_b) (eps_1^2 + eps_2^2)/eps_alpha, with u - 1 for internal pairs. The limit of helical gears with a
+//! large overlap ratio, and 10 to 25 % above Ohlendorf: the upper bracket.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Loss, Undefined};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::mean_friction::MeanFriction;
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, ModelRef, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
+
+/// Mesh loss by the tooth loss factor of an evenly spread load and a law of mean friction.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Law of the mean coefficient of friction.
+    pub mean_friction: ModelRef<MeanFriction>,
+}
+
+struct EvenShare(Factor);
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<EvenShare, Diagnostic> {
+    let friction = cx.slot("mean_friction", &params.mean_friction)?;
+    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    Ok(EvenShare(Factor {
+        value: part.pair.loss_factor_uniform(),
+        friction,
+    }))
+}
+
+impl GearMeshModel for EvenShare {
+    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+        self.0.loss(at)
+    }
+}
+
+register!(GearMesh, "even_share", Params,
+    meaning: "Mesh loss by the tooth loss factor of an evenly spread load and a law of mean friction.",
+    source: "derived; equals the geometry factor of ISO/TR 14179-1 for spur gears",
+    example: "{ type: even_share, mean_friction: { type: schlenk } }",
+    evidence: [formula(Evidence::Derived, "follows from the even share; equals 1/M of ISO/TR 14179-1 for spur gears")],
+    terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use crate::gear_mesh::path_integral::tests::{Kind, loss_factor};
+
+    #[test]
+    fn b1b_uniform_share() {
+        for (kind, printed) in [
+            (Kind::Spur, 0.239309),
+            (Kind::Helical, 0.116033),
+            (Kind::Internal, 0.0732882),
+        ] {
+            let factor = loss_factor(&serde_json::json!({ "type": "even_share" }), kind);
+            assert!((factor / printed - 1.0).abs() < 1e-5, "{factor} {printed}");
+        }
+    }
+}

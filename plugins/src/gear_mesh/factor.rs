@@ -1,0 +1,32 @@
+//! Power times mean friction times a tooth loss factor, which several models share.
+
+use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
+use gearloss_framework::registry::Slot;
+
+pub const SLIDING: Term = Term::load(0, "sliding");
+pub const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+pub const LOSS_FACTOR: Observed = Observed::new(1, "H_v", "-", "Tooth loss factor.");
+
+/// A loss factor with its law of mean friction.
+pub struct Factor {
+    pub value: f64,
+    pub friction: Slot<MeanFriction>,
+}
+
+impl Factor {
+    pub fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+        if at.speed == 0.0 || at.torque == 0.0 {
+            at.branch("no speed or no torque: no loss");
+            return Ok(Loss::POWERS);
+        }
+        let mu = self
+            .friction
+            .mu(&MeanFrictionAt::of(at, at.notes.of(self.friction.notes)))?;
+        let mu = at.observe(&MU, mu);
+        let factor = at.observe(&LOSS_FACTOR, self.value);
+        let input = at.show("P_in", "W", at.torque * at.speed.abs());
+        Ok(Loss::POWERS.with(&SLIDING, at.show("P", "W", input * mu * factor)))
+    }
+}

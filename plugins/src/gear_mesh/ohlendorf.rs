@@ -1,0 +1,71 @@
+//! Mesh loss by the tooth loss factor of Ohlendorf and a law of mean friction.
+//!
+//! Source: Ohlendorf 1958; Niemann/Winter: P = P_in mu_m H_v, H_v = pi (u + 1)/(z1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2),
+//! with u - 1 for internal pairs. It is the exact mean over the mesh cycle where the load is halved in double contact, friction
+//! is constant, the pitch point lies on the path and one to two pairs touch. Elsewhere take `wimmer` or `path_integral`.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Limit, Loss, Undefined};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::mean_friction::MeanFriction;
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, ModelRef, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
+
+const CONTACT_RATIO: Limit = Limit::new(0, "eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
+const ADDENDUM: Limit = Limit::new(1, "eps_1, eps_2", "-", 0.0, 1.0, "the pitch point lies on the path");
+
+/// Mesh loss by the tooth loss factor of Ohlendorf and a law of mean friction.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Law of the mean coefficient of friction.
+    pub mean_friction: ModelRef<MeanFriction>,
+}
+
+struct Ohlendorf(Factor);
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ohlendorf, Diagnostic> {
+    let friction = cx.slot("mean_friction", &params.mean_friction)?;
+    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    Ok(Ohlendorf(Factor {
+        value: part.pair.loss_factor_ohlendorf(),
+        friction,
+    }))
+}
+
+impl GearMeshModel for Ohlendorf {
+    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+        at.check(&CONTACT_RATIO, at.part.pair.contact_ratio);
+        for ratio in at.part.pair.addendum_ratio {
+            at.check(&ADDENDUM, ratio);
+        }
+        self.0.loss(at)
+    }
+}
+
+register!(GearMesh, "ohlendorf", Params,
+    meaning: "Mesh loss by the tooth loss factor of Ohlendorf and a law of mean friction.",
+    source: "Ohlendorf 1958; Niemann/Winter, Maschinenelemente 2",
+    example: "{ type: ohlendorf, mean_friction: { type: schlenk } }",
+    evidence: [formula(Evidence::SeveralSources, "four sources and the derivation agree")],
+    limits: [CONTACT_RATIO, ADDENDUM], terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use crate::gear_mesh::path_integral::tests::{Kind, loss_factor};
+
+    #[test]
+    fn b1_ohlendorf() {
+        for (kind, printed) in [
+            (Kind::Spur, 0.198635),
+            (Kind::Helical, 0.0995648),
+            (Kind::Internal, 0.0638342),
+        ] {
+            let factor = loss_factor(&serde_json::json!({ "type": "ohlendorf" }), kind);
+            assert!((factor / printed - 1.0).abs() < 1e-5, "{factor} {printed}");
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Mesh loss by the local tooth loss factor and a law of mean friction.
+//!
+//! Source: Wimmer 2006: P = P_in mu_m H_vL, H_vL = 1/p_et integral of K(x)/cos(beta_b) v_g/v_tb dx along the path of contact, v_tb
+//! the speed of the base circle. With halved load in double contact it equals the factor of Ohlendorf; it also holds where
+//! that one does not: pitch point off the path, more than two pairs, any sharing of the load.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::loss::{Loss, Undefined};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::mean_friction::MeanFriction;
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, ModelRef, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
+
+/// Mesh loss by the local tooth loss factor and a law of mean friction.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// How pairs in contact at once share the load.
+    #[serde(default)]
+    pub load_sharing: LoadSharing,
+    /// Law of the mean coefficient of friction.
+    pub mean_friction: ModelRef<MeanFriction>,
+}
+
+struct Wimmer(Factor);
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Wimmer, Diagnostic> {
+    let friction = cx.slot("mean_friction", &params.mean_friction)?;
+    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    Ok(Wimmer(Factor {
+        value: part.pair.loss_factor_local(params.load_sharing),
+        friction,
+    }))
+}
+
+impl GearMeshModel for Wimmer {
+    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+        self.0.loss(at)
+    }
+}
+
+register!(GearMesh, "wimmer", Params,
+    meaning: "Mesh loss by the local tooth loss factor and a law of mean friction.",
+    source: "Wimmer 2006",
+    example: "{ type: wimmer, load_sharing: contact_lines, mean_friction: { type: schlenk } }",
+    evidence: [
+        formula(Evidence::SeveralSources, "two sources and the derivation agree"),
+        default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
+    ],
+    terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use crate::gear_mesh::path_integral::tests::{Kind, loss_factor};
+
+    #[test]
+    fn b4_local_loss_factor() {
+        for (sharing, kind, printed) in [
+            ("rigid", Kind::Spur, 0.198635),
+            ("rigid", Kind::Helical, 0.0995648),
+            ("rigid", Kind::Internal, 0.0638342),
+            ("uniform", Kind::Spur, 0.239309),
+            ("uniform", Kind::Helical, 0.116033),
+            ("uniform", Kind::Internal, 0.0732882),
+        ] {
+            let factor = loss_factor(&serde_json::json!({ "type": "wimmer", "load_sharing": sharing }), kind);
+            assert!((factor / printed - 1.0).abs() < 1e-5, "{sharing} {factor} {printed}");
+        }
+    }
+
+    #[test]
+    fn contact_lines_lie_between_rigid_and_even_share() {
+        // Overlap ratio 1.54: the lines' length varies by half as much as that of spur gears.
+        let factor = |sharing: &str| {
+            loss_factor(
+                &serde_json::json!({ "type": "wimmer", "load_sharing": sharing }),
+                Kind::Helical,
+            )
+        };
+        let lines = factor("contact_lines");
+        assert!(factor("rigid") < lines && lines < 1.01 * factor("uniform"), "{lines}");
+    }
+}

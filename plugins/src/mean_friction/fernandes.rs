@@ -1,0 +1,104 @@
+//! Mean friction of a mesh after Fernandes, FEUP.
+//!
+//! Source: Fernandes, Marques, Martins, Seabra, Tribol. Int. 2015, as in his public programs: mu = 0.014 (1/S_p)^0.25 S_g^0.25 X_L
+//! with S_p = v_SC eta alpha^0.5/F_bn^0.5 and S_g = Ra/(l rho_redC)^0.5, SI throughout; l is the least length of all lines of
+//! contact. X_L was fitted to wind-turbine gear oils: 0.846 mineral, 0.65 polyalphaolefin and ester, 0.585 polyglycol.
+//! An older script has Ra^2/(eps_alpha l rho) with half the exponent: eps_alpha^-0.125 more.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+
+/// Mean friction of a mesh after Fernandes.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Lubricant factor; absent, that of the oil. [-]
+    #[schemars(range(min = 0.1, max = 2.0))]
+    pub x_l: Option<f64>,
+    /// Least length of all lines of contact; absent, that of one pair: face width over the cosine of the base helix. [mm]
+    #[schemars(range(min = 0.1, max = 5000.0))]
+    pub contact_length: Option<f64>,
+}
+
+struct Fernandes {
+    x_l: Option<f64>,
+    length: f64,
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> {
+    let part = cx.part::<MeanFriction>().ok_or_else(|| cx.error("bug: no pair"))?;
+    Ok(Fernandes {
+        x_l: params.x_l,
+        length: params
+            .contact_length
+            .unwrap_or(part.pair.facewidth / part.pair.base_helix.cos()),
+    })
+}
+
+#[allow(clippy::too_many_arguments)]
+fn mu(sum_speed: f64, eta: f64, alpha: f64, force: f64, ra: f64, length: f64, radius: f64, x_l: f64) -> f64 {
+    let s_p = sum_speed * eta * alpha.sqrt() / force.sqrt();
+    let s_g = ra / (length * radius).sqrt();
+    0.014 * (s_g / s_p).powf(0.25) * x_l
+}
+
+impl MeanFrictionModel for Fernandes {
+    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
+        if at.sum_speed == 0.0 {
+            return Err(Undefined {
+                what: "sum of the surface speeds at the pitch point [m/s]",
+                value: 0.0,
+            });
+        }
+        let x_l = at.show("X_L", "-", self.x_l.unwrap_or(at.x_l));
+        let force = at.show("F_bn", "N", at.normal_force);
+        Ok(at.observe(
+            &MU,
+            mu(
+                at.sum_speed,
+                at.eta,
+                at.alpha,
+                force,
+                at.ra,
+                self.length,
+                at.radius,
+                x_l,
+            ),
+        ))
+    }
+}
+
+register!(MeanFriction, "fernandes", Params,
+    meaning: "Mean friction of a mesh after Fernandes, from a dimensionless load and roughness.",
+    source: "Fernandes et al., FEUP, Tribol. Int. 2015 and public programs GEARpie",
+    example: "{ type: fernandes, x_l: 0.846 }",
+    evidence: [
+        formula(Evidence::OneSource, "public programs of the author; an older script differs by eps_alpha^-0.125"),
+        default_of("x_l", Evidence::Disputed, "the formula was fitted with factors of its own, 0.585 to 0.846"),
+        default_of("contact_length", Evidence::Assumed, "one pair; of spur gears the least length"),
+    ],
+    observed: [MU], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn b9_published_values() {
+        for (value, printed) in [
+            (
+                mu(4.7, 13.28e-3, 20.47e-9, 5912.0, 0.4e-6, 14e-3, 8.4e-3, 0.846),
+                0.0499995,
+            ),
+            (mu(10.0, 30e-3, 15e-9, 3000.0, 0.5e-6, 20e-3, 10e-3, 0.65), 0.024519),
+        ] {
+            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! A local law of friction for a whole mesh: its average along the path of contact, or its value at the pitch point.
+//!
+//! The average weighs every place by its share of the load and its sliding speed, so that mean friction times the local loss
+//! factor is the loss of the path integral. At the pitch point there is rolling alone: meant for laws of mixed friction
+//! whose publications evaluate them there.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::NoPart;
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::path::Path;
+
+const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+
+/// Where the local law counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Where {
+    /// Everywhere on the path, weighted by load and sliding speed.
+    #[default]
+    Path,
+    /// At the pitch point, under the whole load.
+    PitchPoint,
+}
+
+/// A local law of friction for a whole mesh.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Law of friction between the flanks.
+    pub tooth_friction: ModelRef<ToothFriction>,
+    /// Where it counts.
+    #[serde(default)]
+    pub at: Where,
+    /// How pairs in contact at once share the load.
+    #[serde(default)]
+    pub load_sharing: LoadSharing,
+}
+
+struct Local {
+    at: Where,
+    path: Path,
+    friction: Slot<ToothFriction>,
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
+    let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
+    let part = cx.part::<MeanFriction>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let path = Path::new(&part.pair, params.load_sharing).map_err(|fault| cx.error(fault))?;
+    Ok(Local {
+        at: params.at,
+        path,
+        friction,
+    })
+}
+
+impl MeanFrictionModel for Local {
+    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
+        if at.speed == 0.0 || at.normal_force == 0.0 {
+            return Err(Undefined {
+                what: "speed or load of the mesh, which is zero",
+                value: 0.0,
+            });
+        }
+        let notes = at.notes.of(self.friction.notes);
+        let mu = match self.at {
+            Where::Path => {
+                let mut mu = [0.0; Path::MOST];
+                let mu = &mut mu[..self.path.len()];
+                self.friction.along(&self.path.at(at, notes), mu)?;
+                self.path.average(mu)
+            }
+            Where::PitchPoint => self.friction.mu(&ContactAt {
+                part: &NoPart {},
+                sliding: 0.0,
+                sum_speed: at.sum_speed,
+                radius: at.radius,
+                line_load: at.normal_force / at.part.pair.facewidth,
+                pressure: at.pressure,
+                modulus: at.part.modulus,
+                length: at.part.pair.facewidth / at.part.pair.base_helix.cos(),
+                ra: at.ra,
+                rq: at.rq,
+                temperature: at.temperature,
+                nu: at.nu,
+                eta: at.eta,
+                alpha: at.alpha,
+                beta: at.beta,
+                conductivity: at.conductivity,
+                x_l: at.x_l,
+                notes,
+            })?,
+        };
+        Ok(at.observe(&MU, mu))
+    }
+}
+
+register!(MeanFriction, "local", Params,
+    meaning: "A local law of friction, averaged along the path of contact or taken at the pitch point.",
+    source: "definition of the mean: equal loss along the path of contact",
+    example: "{ type: local, tooth_friction: { type: xu } }",
+    evidence: [
+        formula(Evidence::Derived, "the average that gives the loss of the path integral"),
+        default_of("at", Evidence::Derived, "the average keeps the loss"),
+        default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
+    ],
+    observed: [MU], prepare: prepare);

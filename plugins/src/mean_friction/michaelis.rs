@@ -1,0 +1,83 @@
+//! Mean friction of a mesh after Michaelis, as in DIN 3990-4.
+//!
+//! Source: DIN 3990-4:1987 after Michaelis 1987, recalled: mu = 0.045 (w_Bt/(v_SC rho_redC))^0.2 eta^-0.05 X_R X_L with
+//! X_R = 2.2 (Ra/rho_redC)^0.25; w_Bt in N/mm and at least 150, v_SC in m/s, rho_redC in mm, eta in mPa s, Ra in um.
+//! The load factors of the standard (K_A and others) are the user's: this is the nominal load.
+
+use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const LINE_LOAD: Limit = Limit::new(0, "w_Bt", "N/mm", 150.0, 3000.0, "lower clamp of the method");
+const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+
+/// Mean friction of a mesh after Michaelis.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Michaelis {
+    /// Lubricant factor; absent, that of the oil. [-]
+    #[schemars(range(min = 0.1, max = 2.0))]
+    pub x_l: Option<f64>,
+    /// Below 150 N/mm the friction stays that of 150 N/mm.
+    #[serde(default = "yes")]
+    pub clamp_line_load: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// Friction from shop units: N/mm, m/s, mm, mPa s, um.
+fn mu(line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
+    let x_r = 2.2 * (ra / radius).powf(0.25);
+    0.045 * (line_load / (sum_speed * radius)).powf(0.2) * eta.powf(-0.05) * x_r * x_l
+}
+
+impl MeanFrictionModel for Michaelis {
+    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
+        if at.sum_speed == 0.0 {
+            return Err(Undefined {
+                what: "sum of the surface speeds at the pitch point [m/s]",
+                value: 0.0,
+            });
+        }
+        let line_load = at.check(&LINE_LOAD, at.line_load.n_mm());
+        let held = if self.clamp_line_load {
+            line_load.max(150.0)
+        } else {
+            line_load
+        };
+        let x_l = at.show("X_L", "-", self.x_l.unwrap_or(at.x_l));
+        let value = mu(held, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
+        Ok(at.observe(&MU, value))
+    }
+}
+
+register!(MeanFriction, "michaelis", Michaelis,
+    meaning: "Mean friction of a mesh after Michaelis, as in DIN 3990-4.",
+    source: "Michaelis 1987; DIN 3990-4:1987",
+    example: "{ type: michaelis }",
+    evidence: [
+        formula(Evidence::Recalled, "from memory of the standard"),
+        default_of("x_l", Evidence::Disputed, "tables of X_L differ between standards and tests"),
+        default_of("clamp_line_load", Evidence::Recalled, "from memory of the standard"),
+    ],
+    limits: [LINE_LOAD], observed: [MU]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn b2b_din_3990_4() {
+        for (value, printed) in [
+            (mu(300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0548927),
+            (mu(200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.0436267),
+        ] {
+            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Friction between flanks after Benedict and Kelley.
+//!
+//! Source: Benedict, Kelley: Instantaneous coefficients of gear tooth friction, ASLE Trans. 4 (1961) 59-70:
+//! mu = 0.0127 lg(0.02966 w/(eta v_g v_S^2)) with w in N/m, eta in Pa s, v_g and the sum speed v_S in m/s; the constant of the inch
+//! form converts to this one. Roughness, recalled, multiplies by 1.13/(1.13 - S), S in um rms of both flanks, below 1.13 um.
+//! Diverges at the pitch point, where the loss vanishes all the same: held at `greatest`. Zero where the logarithm is negative.
+
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+
+/// Friction between flanks after Benedict and Kelley.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct BenedictKelley {
+    /// Roughness counts.
+    #[serde(default)]
+    pub roughness: bool,
+    /// Greatest coefficient of friction, near the pitch point. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
+}
+
+fn greatest() -> f64 {
+    0.2
+}
+
+/// Friction of smooth flanks from N/m, Pa s and m/s; may be negative or infinite.
+pub(crate) fn smooth(line_load: f64, eta: f64, sliding: f64, sum_speed: f64) -> f64 {
+    0.0127 * (0.02966 * line_load / (eta * sliding * sum_speed * sum_speed)).log10()
+}
+
+fn rough(s: f64) -> f64 {
+    1.13 / (1.13 - s)
+}
+
+impl ToothFrictionModel for BenedictKelley {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        if at.line_load == 0.0 {
+            at.branch("no load: no friction");
+            return Ok(at.observe(&MU, 0.0));
+        }
+        let factor = if self.roughness {
+            let s = at.show("S", "um", at.rq.um());
+            if s >= 1.13 {
+                return Err(Undefined {
+                    what: "roughness S of both flanks [um], at least 1.13",
+                    value: s,
+                });
+            }
+            rough(s)
+        } else {
+            1.0
+        };
+        let mu = smooth(at.line_load, at.eta, at.sliding, at.sum_speed) * factor;
+        Ok(at.observe(&MU, mu.max(0.0).min(self.greatest)))
+    }
+}
+
+register!(ToothFriction, "benedict_kelley", BenedictKelley,
+    meaning: "Friction between flanks after Benedict and Kelley.",
+    source: "Benedict, Kelley, ASLE Trans. 4 (1961) 59-70",
+    example: "{ type: benedict_kelley }",
+    evidence: [
+        formula(Evidence::SeveralSources, "SI and inch form agree"),
+        default_of("roughness", Evidence::Recalled, "the roughness factor is recalled"),
+        default_of("greatest", Evidence::Assumed, "the formula diverges at the pitch point"),
+    ],
+    observed: [MU]);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    fn mu(roughness: bool, sliding: f64, line_load: f64) -> f64 {
+        let at = ContactAt {
+            line_load,
+            eta: 20e-3,
+            sliding,
+            sum_speed: 10.0,
+            rq: 0.4e-6,
+            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
+        };
+        BenedictKelley {
+            roughness,
+            greatest: 0.2,
+        }
+        .mu(&at)
+        .unwrap()
+    }
+
+    #[test]
+    fn b8_smooth_and_rough() {
+        assert!((mu(false, 2.0, 3e5) / 0.0425102 - 1.0).abs() < 1e-5);
+        assert!((mu(true, 2.0, 3e5) / 0.0658035 - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn held_at_the_pitch_point_and_never_negative() {
+        assert_eq!(
+            (mu(false, 0.0, 3e5), mu(false, 2.0, 100.0), mu(false, 2.0, 0.0)),
+            (0.2, 0.0, 0.0)
+        );
+    }
+}

@@ -1,0 +1,64 @@
+//! Power law of boundary or fluid friction after Doleschel.
+//!
+//! Source: Doleschel 2002 (FVA 345), recalled: mu = mu_R (p_H/1000 N/mm2)^a (v_S/v_R)^b (eta/20 mPa s)^c with v_R = 8.3 m/s for fluid and
+//! 0.2 m/s for boundary friction, where viscosity does not count. Coefficient and exponents belong to the oil and come from
+//! its FVA 345 test; no values of standard oils are public, so there are no defaults. Meant for the two slots of `mixed`.
+
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::finite;
+
+const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+
+/// Power law of boundary or fluid friction after Doleschel.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Doleschel {
+    /// Coefficient of friction at the reference. [-]
+    #[schemars(range(min = 0.0001, max = 0.5))]
+    pub mu: f64,
+    /// Exponent of the Hertz pressure over 1 GPa. [-]
+    #[schemars(range(min = -3.0, max = 3.0))]
+    pub pressure: f64,
+    /// Exponent of the sum of the surface speeds over the reference speed. [-]
+    #[schemars(range(min = -3.0, max = 3.0))]
+    pub speed: f64,
+    /// Exponent of the dynamic viscosity over 20 mPa s; zero for boundary friction. [-]
+    #[serde(default)]
+    #[schemars(range(min = -3.0, max = 3.0))]
+    pub viscosity: f64,
+    /// Reference speed: 8.3 m/s for fluid, 0.2 m/s for boundary friction. [m/s]
+    #[serde(default = "fluid")]
+    #[schemars(range(min = 0.001, max = 100.0))]
+    pub reference_speed: f64,
+}
+
+fn fluid() -> f64 {
+    8.3
+}
+
+impl ToothFrictionModel for Doleschel {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        let mu = self.mu
+            * at.pressure.gpa().powf(self.pressure)
+            * (at.sum_speed / self.reference_speed).powf(self.speed)
+            * (at.eta.mpa_s() / 20.0).powf(self.viscosity);
+        Ok(at.observe(&MU, finite(mu)?))
+    }
+}
+
+register!(ToothFriction, "doleschel", Doleschel,
+    meaning: "Power law of boundary or fluid friction after Doleschel, with constants of an oil's test.",
+    source: "Doleschel 2002; FVA 345",
+    example: "{ type: doleschel, mu: 0.02, pressure: 0.5, speed: -0.1, viscosity: -0.05 }",
+    evidence: [
+        formula(Evidence::Recalled, "form recalled"),
+        default_of("viscosity", Evidence::Recalled, "boundary friction has no viscosity"),
+        default_of("reference_speed", Evidence::Recalled, "reference of fluid friction"),
+    ],
+    observed: [MU]);

@@ -1,0 +1,81 @@
+//! Friction between flanks after Drozdov and Gavrikov.
+//!
+//! Source: Drozdov, Gavrikov: Friction and scoring under simultaneous rolling and sliding, Wear 11 (1968) 291-302, recalled:
+//! mu = 1/(0.8 nu^0.5 v_g + v_S phi + 13.4), phi = 0.47 - 0.13e-4 p - 0.4e-3 nu; nu in mm2/s, v_g and the sum speed v_S in m/s, Hertz
+//! pressure p in kgf/cm2. For v_g to 15, v_S from 3 to 20 m/s, nu from 4 to 500 mm2/s, p from 4000 to 20000 kgf/cm2.
+
+use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const FROM: &str = "range of the tests, recalled";
+const SLIDING: Limit = Limit::new(0, "v_g", "m/s", 0.0, 15.0, FROM);
+const SUM_SPEED: Limit = Limit::new(1, "v_S", "m/s", 3.0, 20.0, FROM);
+const VISCOSITY: Limit = Limit::new(2, "nu", "mm2/s", 4.0, 500.0, FROM);
+const PRESSURE: Limit = Limit::new(3, "p", "kgf/cm2", 4000.0, 20000.0, FROM);
+const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+
+/// One kgf/cm2. \[Pa\]
+const KGF_CM2: f64 = 98_066.5;
+
+/// Friction between flanks after Drozdov and Gavrikov.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct DrozdovGavrikov {}
+
+impl ToothFrictionModel for DrozdovGavrikov {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        let nu = at.check(&VISCOSITY, at.nu.mm2_s());
+        let p = at.check(&PRESSURE, at.pressure / KGF_CM2);
+        let v_g = at.check(&SLIDING, at.sliding);
+        let v_s = at.check(&SUM_SPEED, at.sum_speed);
+        let phi = at.show("phi", "-", 0.47 - 0.13e-4 * p - 0.4e-3 * nu);
+        let inverse = 0.8 * nu.sqrt() * v_g + v_s * phi + 13.4;
+        if inverse <= 0.0 {
+            return Err(Undefined {
+                what: "inverse of the coefficient of friction",
+                value: inverse,
+            });
+        }
+        Ok(at.observe(&MU, 1.0 / inverse))
+    }
+}
+
+register!(ToothFriction, "drozdov_gavrikov", DrozdovGavrikov,
+    meaning: "Friction between flanks after Drozdov and Gavrikov.",
+    source: "Drozdov, Gavrikov, Wear 11 (1968) 291-302",
+    example: "{ type: drozdov_gavrikov }",
+    evidence: [formula(Evidence::Recalled, "from memory; the magnitude is plausible")],
+    limits: [SLIDING, SUM_SPEED, VISCOSITY, PRESSURE], observed: [MU]);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    #[test]
+    fn b8_drozdov_gavrikov() {
+        let at = ContactAt {
+            sliding: 2.0,
+            sum_speed: 10.0,
+            nu: 20e-6,
+            pressure: 1e4 * KGF_CM2,
+            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
+        };
+        assert!((DrozdovGavrikov {}.mu(&at).unwrap() / 0.0418841 - 1.0).abs() < 1e-5);
+        // Far beyond the pressures of the tests the formula turns over.
+        let beyond = ContactAt {
+            pressure: 4e9,
+            sum_speed: 200.0,
+            sliding: 0.0,
+            nu: 1e-3,
+            ..at
+        };
+        assert!(DrozdovGavrikov {}.mu(&beyond).is_err());
+    }
+}

@@ -1,0 +1,56 @@
+//! Friction between flanks after a working draft of ISO TC 60.
+//!
+//! Source: ISO/TC 60 draft as quoted in reviews: mu = 0.12 (w S/(R v_e eta))^0.25; w in N/mm, S rms roughness of both flanks in um,
+//! R in mm, v_e mean rolling speed in m/s, eta in mPa s. A public SI form with 0.0254 and the sum speed is the same.
+
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::finite;
+
+const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+
+/// Friction between flanks after a working draft of ISO TC 60.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct IsoTc60 {}
+
+impl ToothFrictionModel for IsoTc60 {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        let ratio = at.line_load.n_mm() * at.rq.um() / (at.radius.mm() * 0.5 * at.sum_speed * at.eta.mpa_s());
+        Ok(at.observe(&MU, finite(0.12 * ratio.powf(0.25))?))
+    }
+}
+
+register!(ToothFriction, "iso_tc60", IsoTc60,
+    meaning: "Friction between flanks after a working draft of ISO TC 60.",
+    source: "ISO/TC 60 working draft, as quoted in reviews",
+    example: "{ type: iso_tc60 }",
+    evidence: [formula(Evidence::SeveralSources, "one open source and memory agree")],
+    observed: [MU]);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    #[test]
+    fn b8_iso_tc60() {
+        let at = ContactAt {
+            line_load: 3e5,
+            rq: 0.4e-6,
+            radius: 10e-3,
+            sum_speed: 10.0,
+            eta: 20e-3,
+            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
+        };
+        assert!((IsoTc60 {}.mu(&at).unwrap() / 0.0706279 - 1.0).abs() < 1e-5);
+        assert!(IsoTc60 {}.mu(&ContactAt { sum_speed: 0.0, ..at }).is_err());
+    }
+}

@@ -1,0 +1,68 @@
+//! Friction between flanks after Misharin.
+//!
+//! Source: Misharin 1958, recalled: mu = 0.325 (v_g v_S nu)^-0.25, nu in mm2/s, v_g and the sum speed v_S in m/s. Stated for 0.02 to
+//! 0.08, where it is held, and for Hertz pressures of 245 MPa and more; the range of slide-roll ratios is not remembered.
+
+use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const PRESSURE: Limit = Limit::new(0, "p_H", "GPa", 0.245, 4.0, "Misharin, recalled");
+const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+
+/// Friction between flanks after Misharin.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Misharin {
+    /// Held between 0.02 and 0.08, as stated.
+    #[serde(default = "yes")]
+    pub held: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl ToothFrictionModel for Misharin {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        at.check(&PRESSURE, at.pressure.gpa());
+        let mu = 0.325 * (at.sliding * at.sum_speed * at.nu.mm2_s()).powf(-0.25);
+        let mu = if self.held { mu.clamp(0.02, 0.08) } else { mu };
+        Ok(at.observe(&MU, super::finite(mu)?))
+    }
+}
+
+register!(ToothFriction, "misharin", Misharin,
+    meaning: "Friction between flanks after Misharin.",
+    source: "Misharin 1958",
+    example: "{ type: misharin }",
+    evidence: [
+        formula(Evidence::Recalled, "from memory of reviews"),
+        default_of("held", Evidence::Recalled, "the range stated with the formula"),
+    ],
+    limits: [PRESSURE], observed: [MU]);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    #[test]
+    fn b8_misharin() {
+        let at = ContactAt {
+            sliding: 2.0,
+            sum_speed: 10.0,
+            nu: 20e-6,
+            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
+        };
+        assert!((Misharin { held: true }.mu(&at).unwrap() / 0.0726722 - 1.0).abs() < 1e-5);
+        let still = ContactAt { sliding: 0.0, ..at };
+        assert_eq!(Misharin { held: true }.mu(&still).unwrap(), 0.08);
+        assert!(Misharin { held: false }.mu(&still).is_err());
+    }
+}

@@ -1,0 +1,63 @@
+//! Friction between flanks after O'Donoghue and Cameron.
+//!
+//! Source: O'Donoghue, Cameron: Friction and temperature in rolling sliding contacts, ASLE Trans. 9 (1966) 186-194, recalled:
+//! mu = 0.6 (S + 22)/35/(eta^(1/8) v_g^(1/3) v_S^(1/6) R^(1/2)), in inches: S centre line average in uin, eta in cP, speeds in in/s,
+//! R in inches. With metres the result is absurd. S was that of the discs before running; the mean Ra of the flanks stands
+//! for it. Not at the pitch point, where the formula diverges and the loss vanishes.
+
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::finite;
+
+const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+
+/// One inch. \[m\]
+const INCH: f64 = 25.4e-3;
+
+/// Friction between flanks after O'Donoghue and Cameron.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct ODonoghueCameron {}
+
+impl ToothFrictionModel for ODonoghueCameron {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        let s = at.show("S", "uin", at.ra / INCH * 1e6);
+        let speeds = (at.sliding / INCH).cbrt() * (at.sum_speed / INCH).powf(1.0 / 6.0);
+        let mu = 0.6 * (s + 22.0) / 35.0 / (at.eta.mpa_s().powf(0.125) * speeds * (at.radius / INCH).sqrt());
+        Ok(at.observe(&MU, finite(mu)?))
+    }
+}
+
+register!(ToothFriction, "odonoghue_cameron", ODonoghueCameron,
+    meaning: "Friction between flanks after O'Donoghue and Cameron.",
+    source: "O'Donoghue, Cameron, ASLE Trans. 9 (1966) 186-194",
+    example: "{ type: odonoghue_cameron }",
+    evidence: [formula(Evidence::Recalled, "from memory; the magnitude is plausible")],
+    observed: [MU]);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    #[test]
+    fn b8_odonoghue_cameron() {
+        let at = ContactAt {
+            sliding: 78.74 * INCH,
+            sum_speed: 393.7 * INCH,
+            eta: 20e-3,
+            ra: 13e-6 * INCH,
+            radius: 0.4 * INCH,
+            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
+        };
+        assert!((ODonoghueCameron {}.mu(&at).unwrap() / 0.0562212 - 1.0).abs() < 1e-5);
+        assert!(ODonoghueCameron {}.mu(&ContactAt { sliding: 0.0, ..at }).is_err());
+    }
+}
