@@ -16,9 +16,10 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::wetted::Wetted;
+use super::dipping::Dipping;
+use super::{CHURNING, GRAVITY};
 
-const CHURNING: Term = Term::no_load(0, "churning");
+const TERM: Term = Term::no_load(0, "churning");
 const RANGE: &str = "gears of the tests, recalled";
 const RADIUS: Limit = Limit::new(0, "R_p", "mm", 40.0, 110.0, RANGE);
 const MODULE: Limit = Limit::new(1, "m_n", "mm", 1.5, 5.0, RANGE);
@@ -26,8 +27,6 @@ const WIDTH: Limit = Limit::new(2, "b", "mm", 14.0, 40.0, RANGE);
 const SPEED: Limit = Limit::new(3, "n", "1/min", 0.0, 7000.0, RANGE);
 const C_M: Observed = Observed::new(0, "C_m", "-", "Dimensionless churning torque.");
 const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number.");
-
-const GRAVITY: f64 = 9.80665;
 
 /// Churning of one gear by flow regimes.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -80,39 +79,20 @@ fn c_m(re: f64, gamma: f64, fr: f64, h: f64, v: f64, b: f64) -> f64 {
 
 impl GearDragModel for Churning {
     fn covers(&self) -> Option<Covers> {
-        Some(Covers {
-            churning: true,
-            ..Covers::default()
-        })
+        Some(CHURNING)
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
-        let gear = &at.part.gear;
-        let omega = at.speed.abs();
-        if at.dip <= 0.0 || omega == 0.0 {
-            at.branch("dry or at rest: no churning");
+        let Some(dipping) = Dipping::of(at) else {
             return Ok(Loss::MOMENTS);
-        }
-        let radius = 0.5 * gear.reference_diameter;
+        };
+        let gear = &at.part.gear;
+        let Dipping { omega, radius, dip, .. } = dipping;
         let (diameter, b) = (gear.reference_diameter, gear.facewidth);
         at.check(&RADIUS, radius.mm());
         at.check(&MODULE, gear.normal_module.mm());
         at.check(&WIDTH, b.mm());
         at.check(&SPEED, omega.rpm());
-        let height = 0.5 * (gear.tip_diameter - gear.root_diameter).abs();
-        // A gear that is covered dips by its diameter, however deep it lies.
-        let dip = at.show("h", "m", at.dip.min(diameter));
-        let wetted = Wetted::new(
-            radius,
-            dip,
-            b,
-            f64::from(gear.z),
-            height,
-            gear.pressure_angle,
-            gear.helix_angle,
-        )
-        .sum();
-        at.show("S_m", "m2", wetted);
         let re = at.observe(&REYNOLDS, omega * radius * b / at.nu);
         let fr = at.show("Fr", "-", omega * omega * radius / GRAVITY);
         let gamma = at.show(
@@ -131,14 +111,14 @@ impl GearDragModel for Churning {
                 b / diameter,
             ),
         );
-        let torque = 0.5 * at.rho * omega * omega * radius.powi(3) * wetted * c_m;
+        let torque = dipping.torque(at.rho, c_m);
         let swell = if at.towards_mesh > 0.0 && self.swell > 0.0 {
             at.branch("the lowest point moves towards the mate: swell is added");
             1.0 + self.swell
         } else {
             1.0
         };
-        Ok(Loss::MOMENTS.with(&CHURNING, at.show("T", "Nm", torque * swell)))
+        Ok(Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque * swell)))
     }
 }
 
@@ -150,7 +130,7 @@ register!(GearDrag, "changenet_2011", Changenet,
         formula(Evidence::OneSource, "one open transcription; both lines meet at Re 4000, which confirms it"),
         default_of("swell", Evidence::Assumed, "no public formula"),
     ],
-    limits: [RADIUS, MODULE, WIDTH, SPEED], terms: [CHURNING], observed: [C_M, REYNOLDS], prepare: prepare);
+    limits: [RADIUS, MODULE, WIDTH, SPEED], terms: [TERM], observed: [C_M, REYNOLDS], prepare: prepare);
 
 #[cfg(test)]
 mod tests {

@@ -1,0 +1,89 @@
+//! Windage of one gear after Dawson.
+//!
+//! Source: Dawson: Windage loss in larger high-speed gears, Proc. IMechE 198A (1984) 51-59, recalled:
+//! P = 1e-20 n^2.9 (0.16 D^3.9 + D^2.9 b^0.75 m^1.15) Phi lambda in kW; n in 1/min, D root diameter, b and m in mm.
+//! Phi is 1 in air and more in oil mist; lambda is 1 for a free gear, 0.7 in a loose and 0.5 to 0.6 in a tight case.
+//! For gears of 300 to 1160 mm.
+
+use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::WINDAGE;
+
+const TERM: Term = Term::no_load(0, "windage");
+const DIAMETER: Limit = Limit::new(0, "D", "mm", 300.0, 1160.0, "gears of the tests, recalled");
+
+/// Windage of one gear after Dawson.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Dawson {
+    /// Factor of the medium: 1 in air, more in oil mist. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.1, max = 10.0))]
+    pub phi: f64,
+    /// Factor of the case: 1 free, 0.7 loose, 0.5 to 0.6 tight. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.1, max = 1.0))]
+    pub lambda: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl Dawson {
+    /// Power from shop units. \[W\]
+    fn power(&self, n: f64, d: f64, b: f64, m: f64) -> f64 {
+        1e-20
+            * n.powf(2.9)
+            * (0.16 * d.powf(3.9) + d.powf(2.9) * b.powf(0.75) * m.powf(1.15))
+            * self.phi
+            * self.lambda
+            * 1e3
+    }
+}
+
+impl GearDragModel for Dawson {
+    fn covers(&self) -> Option<Covers> {
+        Some(WINDAGE)
+    }
+
+    fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        let gear = &at.part.gear;
+        let d = at.check(&DIAMETER, gear.root_diameter.mm());
+        let power = self.power(at.speed.abs().rpm(), d, gear.facewidth.mm(), gear.normal_module.mm());
+        Ok(Loss::POWERS.with(&TERM, at.show("P", "W", power)))
+    }
+}
+
+register!(GearDrag, "dawson", Dawson,
+    meaning: "Windage of one gear after Dawson.",
+    source: "Dawson, Proc. IMechE 198A (1984) 51-59",
+    example: "{ type: dawson, lambda: 0.6 }",
+    evidence: [
+        formula(Evidence::Recalled, "four independent windage laws agree within a factor of two"),
+        default_of("phi", Evidence::Recalled, "air"),
+        default_of("lambda", Evidence::Recalled, "a free gear"),
+    ],
+    limits: [DIAMETER], terms: [TERM]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn c12_large_and_small() {
+        let power = |lambda, n, d, b, m| Dawson { phi: 1.0, lambda }.power(n, d, b, m);
+        for (value, printed) in [
+            (power(1.0, 3000.0, 1000.0, 200.0, 10.0), 55370.6),
+            (power(0.6, 12000.0, 180.0, 30.0, 3.0), 1042.68),
+        ] {
+            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
+        }
+        assert_eq!(power(1.0, 0.0, 180.0, 30.0, 3.0), 0.0);
+    }
+}

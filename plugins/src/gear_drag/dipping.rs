@@ -1,0 +1,54 @@
+//! What the dimensional churning laws share: T = 1/2 rho w^2 R^3 S_m C_m of a dipping gear.
+
+use gearloss_framework::mechanism::gear_drag::GearDragAt;
+
+use super::wetted::Wetted;
+
+/// A gear that dips and turns.
+pub struct Dipping {
+    /// Speed, magnitude. \[rad/s\]
+    pub omega: f64,
+    /// Radius of the reference circle. \[m\]
+    pub radius: f64,
+    /// Depth of the reference circle, at most its diameter. \[m\]
+    pub dip: f64,
+    /// Wetted surface. \[m2\]
+    pub surface: f64,
+}
+
+impl Dipping {
+    /// The gear; absent where it is dry or rests, so that nothing is lost.
+    pub fn of(at: &GearDragAt<'_>) -> Option<Self> {
+        let gear = &at.part.gear;
+        let omega = at.speed.abs();
+        if at.dip <= 0.0 || omega == 0.0 {
+            at.branch("dry or at rest: no churning");
+            return None;
+        }
+        let radius = 0.5 * gear.reference_diameter;
+        let height = 0.5 * (gear.tip_diameter - gear.root_diameter).abs();
+        // A gear that is covered dips by its diameter, however deep it lies.
+        let dip = at.show("h", "m", at.dip.min(gear.reference_diameter));
+        let surface = Wetted::new(
+            radius,
+            dip,
+            gear.facewidth,
+            f64::from(gear.z),
+            height,
+            gear.pressure_angle,
+            gear.helix_angle,
+        )
+        .sum();
+        Some(Self {
+            omega,
+            radius,
+            dip,
+            surface: at.show("S_m", "m2", surface),
+        })
+    }
+
+    /// Torque from the dimensionless torque. \[Nm\]
+    pub fn torque(&self, rho: f64, c_m: f64) -> f64 {
+        0.5 * rho * self.omega * self.omega * self.radius.powi(3) * self.surface * c_m
+    }
+}

@@ -1,0 +1,64 @@
+//! Ventilation of one gear after Maurer.
+//!
+//! Source: Maurer 1994, as a public gearbox program quotes him: T = 1.37e-9 v_t^1.9 d^1.6 b^0.52 m_n^0.69 in N m; v_t in m/s, d, b, m_n in mm.
+
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::WINDAGE;
+
+const TERM: Term = Term::no_load(0, "windage");
+
+/// Ventilation of one gear after Maurer.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Maurer {}
+
+/// Torque from m/s and mm. \[Nm\]
+fn torque(v_t: f64, d: f64, b: f64, m_n: f64) -> f64 {
+    1.37e-9 * v_t.powf(1.9) * d.powf(1.6) * b.powf(0.52) * m_n.powf(0.69)
+}
+
+impl GearDragModel for Maurer {
+    fn covers(&self) -> Option<Covers> {
+        Some(WINDAGE)
+    }
+
+    fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        let gear = &at.part.gear;
+        let v_t = at.show("v_t", "m/s", at.speed.abs() * 0.5 * gear.working_diameter);
+        let torque = torque(
+            v_t,
+            gear.working_diameter.mm(),
+            gear.facewidth.mm(),
+            gear.normal_module.mm(),
+        );
+        Ok(Loss::MOMENTS.with(&TERM, at.show("T_V", "Nm", torque)))
+    }
+}
+
+register!(GearDrag, "maurer", Maurer,
+    meaning: "Ventilation of one gear after Maurer.",
+    source: "Maurer 1994",
+    example: "{ type: maurer }",
+    evidence: [formula(Evidence::OneSource, "one public program and memory agree")],
+    terms: [TERM]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn c17_published_gears() {
+        for (value, printed) in [
+            (torque(50.0, 200.0, 30.0, 4.0), 0.169799),
+            (torque(80.0, 120.0, 25.0, 2.0), 0.103257),
+        ] {
+            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
+        }
+    }
+}
