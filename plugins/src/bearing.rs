@@ -2,3 +2,4 @@
 
 pub mod iso14179_2;
 pub mod skf;
+pub mod skf_seal;

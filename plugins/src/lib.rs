@@ -2,8 +2,10 @@
 //!
 //! The crate uses the framework exactly as an in-house crate does. A program links it by `use gearloss_plugins as _;`.
 
+pub mod auxiliary;
 pub mod bearing;
 pub mod catalogues;
+pub mod clutch;
 pub mod contact;
 pub mod gear_drag;
 pub mod gear_mesh;

@@ -1,0 +1,71 @@
+//! An auxiliary that takes the same power at any speed, such as an alternator under control.
+//!
+//! The user's own. At rest it takes none; at vanishing speed its moment grows without bound, so below `least_speed` the moment
+//! of that speed stays.
+
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const POWER: Term = Term::no_load(0, "power");
+
+/// An auxiliary that takes the same power at any speed.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct ConstantPower {
+    /// Power taken from the shaft. [W]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub power: f64,
+    /// Speed below which the moment stays. [rpm]
+    #[serde(default = "least")]
+    #[schemars(range(min = 0.01, max = 1e5))]
+    pub least_speed: f64,
+}
+
+/// One hundred revolutions per minute. \[rad/s\]
+fn least() -> f64 {
+    100.0 * std::f64::consts::PI / 30.0
+}
+
+impl AuxiliaryModel for ConstantPower {
+    fn loss(&self, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined> {
+        Ok(Loss::MOMENTS.with(&POWER, self.power / at.speed.abs().max(self.least_speed)))
+    }
+}
+
+register!(Auxiliary, "constant_power", ConstantPower,
+    meaning: "The same power at any speed.",
+    source: "the user's own",
+    example: "{ type: constant_power, power: 150 W }",
+    evidence: [
+        formula(Evidence::User, "the user states it"),
+        default_of("least_speed", Evidence::Assumed, "keeps the moment finite"),
+    ],
+    terms: [POWER]);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    #[test]
+    fn power_stays_and_vanishes_with_speed() {
+        let law = ConstantPower {
+            power: 150.0,
+            least_speed: 10.0,
+        };
+        let watts = |speed: f64| {
+            let at = AuxiliaryAt {
+                speed,
+                ..AuxiliaryAt::usual(&NoPart {}, Notes::MUTED)
+            };
+            law.loss(&at).unwrap().total_watts(speed)
+        };
+        assert!((watts(200.0) - 150.0).abs() < 1e-9 && (watts(-20.0) - 150.0).abs() < 1e-9);
+        assert_eq!((watts(5.0), watts(0.0)), (75.0, 0.0));
+    }
+}

@@ -1,0 +1,128 @@
+//! Shaft moment of an oil pump from pressure, flow and efficiency.
+//!
+//! Source: P = dp Q/eta (textbook; ISO/TR 14179-1 uses it with about 0.85). Either a flow that does not change with speed, as a pump
+//! behind a regulator delivers it, or a displacement per turn: T = dp V_g/(2 pi eta_hm), with the flow n V_g eta_vol for information.
+//! The whole power ends as heat in the oil where the pressure is throttled inside the gearbox.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const PUMP: Term = Term::no_load(0, "pump");
+const FLOW: Observed = Observed::new(0, "Q", "l/min", "Flow that the pump delivers.");
+
+/// Shaft moment of an oil pump.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Pressure rise. [bar]
+    #[schemars(range(min = 0.0, max = 500.0))]
+    pub pressure: f64,
+    /// Flow at any speed, in place of a displacement. [l/min]
+    #[schemars(range(min = 0.0, max = 10000.0))]
+    pub flow: Option<f64>,
+    /// Displacement per turn. [cm3]
+    #[schemars(range(min = 0.0, max = 10000.0))]
+    pub displacement: Option<f64>,
+    /// Whole efficiency with a flow, hydraulic-mechanical efficiency with a displacement. [-]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub efficiency: f64,
+    /// Volumetric efficiency with a displacement. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub volumetric_efficiency: f64,
+    /// Speed below which the moment stays, with a flow. [rpm]
+    #[serde(default = "least")]
+    #[schemars(range(min = 0.01, max = 1e5))]
+    pub least_speed: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// One hundred revolutions per minute. \[rad/s\]
+fn least() -> f64 {
+    100.0 * std::f64::consts::PI / 30.0
+}
+
+enum Pump {
+    Flow { power: f64, flow: f64, least_speed: f64 },
+    Displacement { moment: f64, per_radian: f64 },
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Pump, Diagnostic> {
+    let turn = 2.0 * std::f64::consts::PI;
+    match (params.flow, params.displacement) {
+        (Some(flow), None) => Ok(Pump::Flow {
+            power: params.pressure * flow / params.efficiency,
+            flow,
+            least_speed: params.least_speed,
+        }),
+        (None, Some(volume)) => Ok(Pump::Displacement {
+            moment: params.pressure * volume / (turn * params.efficiency),
+            per_radian: volume * params.volumetric_efficiency / turn,
+        }),
+        _ => Err(cx
+            .error("pump needs one of `flow` and `displacement`")
+            .mend("write `flow: 8 l/min` or `displacement: 12 cm3`")),
+    }
+}
+
+impl AuxiliaryModel for Pump {
+    fn loss(&self, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined> {
+        let speed = at.speed.abs();
+        let (moment, flow) = match self {
+            Self::Flow {
+                power,
+                flow,
+                least_speed,
+            } => (power / speed.max(*least_speed), *flow),
+            Self::Displacement { moment, per_radian } => (*moment, per_radian * speed),
+        };
+        at.observe(&FLOW, flow * 6e4);
+        Ok(Loss::MOMENTS.with(&PUMP, at.show("T", "Nm", moment)))
+    }
+}
+
+register!(Auxiliary, "pump", Params,
+    meaning: "Oil pump from pressure, flow or displacement, and efficiency.",
+    source: "P = dp Q/eta; ISO/TR 14179-1:2001",
+    example: "{ type: pump, pressure: 5 bar, flow: 8 l/min, efficiency: 0.5 }",
+    evidence: [
+        formula(Evidence::SeveralSources, "textbook"),
+        default_of("volumetric_efficiency", Evidence::Assumed, "no leakage; it changes the flow only"),
+        default_of("least_speed", Evidence::Assumed, "keeps the moment finite"),
+    ],
+    terms: [PUMP], observed: [FLOW], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    #[test]
+    fn c4_pump_of_5_bar() {
+        let pump = Pump::Flow {
+            power: 5e5 * 8e-3 / 60.0 / 0.5,
+            flow: 8e-3 / 60.0,
+            least_speed: 1.0,
+        };
+        let at = AuxiliaryAt::usual(&NoPart {}, Notes::MUTED);
+        let watts = pump.loss(&at).unwrap().total_watts(at.speed);
+        assert!((watts / 133.333 - 1.0).abs() < 1e-5, "{watts}");
+        // The same pump by its displacement at that speed.
+        let turn = at.speed / (2.0 * std::f64::consts::PI);
+        let volume = 8e-3 / 60.0 / turn;
+        let by_volume = Pump::Displacement {
+            moment: 5e5 * volume / (2.0 * std::f64::consts::PI * 0.5),
+            per_radian: 0.0,
+        };
+        assert!((by_volume.loss(&at).unwrap().total_watts(at.speed) / watts - 1.0).abs() < 1e-12);
+    }
+}

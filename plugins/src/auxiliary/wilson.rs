@@ -1,0 +1,83 @@
+//! Shaft moment of a displacement pump with friction by pressure, viscosity and a constant, after Wilson.
+//!
+//! Source: Wilson 1946, recalled: T = V_g/(2 pi) (dp (1 + C_f) + C_v eta w) + T_c. The coefficients are those of the pump.
+
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const PRESSURE: Term = Term::no_load(0, "pressure");
+const VISCOUS: Term = Term::no_load(1, "viscous");
+const CONSTANT: Term = Term::no_load(2, "constant");
+
+/// Shaft moment of a displacement pump after Wilson.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Wilson {
+    /// Pressure rise. [bar]
+    #[schemars(range(min = 0.0, max = 500.0))]
+    pub pressure: f64,
+    /// Displacement per turn. [cm3]
+    #[schemars(range(min = 0.0, max = 10000.0))]
+    pub displacement: f64,
+    /// Friction coefficient C_f with pressure. [-]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub c_f: f64,
+    /// Friction coefficient C_v with viscosity. [-]
+    #[schemars(range(min = 0.0, max = 1e8))]
+    pub c_v: f64,
+    /// Constant moment. [Nm]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub t_c: f64,
+}
+
+impl AuxiliaryModel for Wilson {
+    fn loss(&self, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined> {
+        let volume = self.displacement / (2.0 * std::f64::consts::PI);
+        let pressure = at.show("T_p", "Nm", volume * self.pressure * (1.0 + self.c_f));
+        let viscous = at.show("T_v", "Nm", volume * self.c_v * at.eta * at.speed.abs());
+        Ok(Loss::MOMENTS
+            .with(&PRESSURE, pressure)
+            .with(&VISCOUS, viscous)
+            .with(&CONSTANT, self.t_c))
+    }
+}
+
+register!(Auxiliary, "wilson", Wilson,
+    meaning: "Displacement pump with friction by pressure, viscosity and a constant, after Wilson.",
+    source: "Wilson 1946",
+    example: "{ type: wilson, pressure: 5 bar, displacement: 8 cm3, c_f: 0.05, c_v: 1e5, t_c: 0.05 Nm }",
+    evidence: [
+        formula(Evidence::Recalled, "recalled; the coefficients are the user's"),
+        default_of("t_c", Evidence::Assumed, "no constant part"),
+    ],
+    terms: [PRESSURE, VISCOUS, CONSTANT]);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    #[test]
+    fn c4_wilson() {
+        let law = Wilson {
+            pressure: 5e5,
+            displacement: 8e-6,
+            c_f: 0.05,
+            c_v: 1e5,
+            t_c: 0.05,
+        };
+        let at = AuxiliaryAt {
+            speed: 2000.0 * std::f64::consts::PI / 30.0,
+            eta: 0.010,
+            ..AuxiliaryAt::usual(&NoPart {}, Notes::MUTED)
+        };
+        let moment = law.loss(&at).unwrap().sum();
+        assert!((moment / 0.985117 - 1.0).abs() < 1e-5, "{moment}");
+    }
+}

@@ -1,0 +1,3 @@
+//! Drag of open wet clutches and brakes.
+
+pub mod disc_gap;

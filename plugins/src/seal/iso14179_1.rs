@@ -1,0 +1,71 @@
+//! Radial lip seals after ISO/TR 14179-1, of AGMA origin.
+//!
+//! Source: ISO/TR 14179-1:2001, recalled: T = 3.737e-3 d for fluoro rubber, 2.429e-3 d for nitrile rubber, in N m with d in mm; one lip.
+
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+const LIP: Term = Term::no_load(0, "lip");
+
+/// Material of the lip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Material {
+    /// Fluoro rubber, FKM.
+    Fkm,
+    /// Nitrile rubber, NBR.
+    Nbr,
+}
+
+/// Radial lip seals after ISO/TR 14179-1.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Iso14179 {
+    /// Material of the lip.
+    pub material: Material,
+}
+
+impl Iso14179 {
+    /// Friction moment from the diameter in mm. \[Nm\]
+    fn moment(&self, d: f64) -> f64 {
+        match self.material {
+            Material::Fkm => 3.737e-3 * d,
+            Material::Nbr => 2.429e-3 * d,
+        }
+    }
+}
+
+impl SealModel for Iso14179 {
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        if at.part.kind == SealKind::NonContact {
+            at.branch("no contact: no friction");
+            return Ok(Loss::MOMENTS);
+        }
+        Ok(Loss::MOMENTS.with(&LIP, at.show("T_s", "Nm", self.moment(at.part.diameter.mm()))))
+    }
+}
+
+register!(Seal, "iso14179_1", Iso14179,
+    meaning: "Radial lip seals after ISO/TR 14179-1: moment with diameter and material.",
+    source: "ISO/TR 14179-1:2001",
+    example: "{ type: iso14179_1, material: fkm }",
+    evidence: [formula(Evidence::Recalled, "recalled; the law of Linke lies between both materials at 40 mm")],
+    terms: [LIP]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn b3_both_materials() {
+        for (material, moment, watts) in [(Material::Fkm, 0.149480, 46.9605), (Material::Nbr, 0.0971600, 30.5237)] {
+            let own = Iso14179 { material }.moment(40.0);
+            assert!((own / moment - 1.0).abs() < 1e-5, "{own}");
+            assert!((own * 3000.0 * std::f64::consts::PI / 30.0 / watts - 1.0_f64).abs() < 1e-5);
+        }
+    }
+}

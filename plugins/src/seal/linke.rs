@@ -1,0 +1,51 @@
+//! Radial lip seals after Linke.
+//!
+//! Source: Linke, Stirnradverzahnung: P = 7.69e-6 d^2 n in W, d in mm, n in 1/min; one lip. The moment does not depend on speed, oil or
+//! temperature. Some programs print it under the name of ISO/TR 14179-2, which it is not.
+
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const LIP: Term = Term::no_load(0, "lip");
+
+/// Radial lip seals after Linke.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Linke {}
+
+/// Friction moment from the diameter in mm. \[Nm\]
+fn moment(d: f64) -> f64 {
+    7.69e-6 * d * d / (std::f64::consts::PI / 30.0)
+}
+
+impl SealModel for Linke {
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        if at.part.kind == SealKind::NonContact {
+            at.branch("no contact: no friction");
+            return Ok(Loss::MOMENTS);
+        }
+        Ok(Loss::MOMENTS.with(&LIP, at.show("T", "Nm", moment(at.part.diameter.mm()))))
+    }
+}
+
+register!(Seal, "linke", Linke,
+    meaning: "Radial lip seals after Linke: moment with the square of the diameter.",
+    source: "Linke, Stirnradverzahnung",
+    example: "{ type: linke }",
+    evidence: [formula(Evidence::SeveralSources, "a public program, a method list and memory agree")],
+    terms: [LIP]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn b2_linke() {
+        let watts = moment(40.0) * 3000.0 * std::f64::consts::PI / 30.0;
+        assert!((watts / 36.9120 - 1.0).abs() < 1e-5, "{watts}");
+    }
+}

@@ -1,0 +1,65 @@
+//! Radial lip seals from line load and friction of the lip.
+//!
+//! Derived: T = mu q pi d^2/2 with the radial load q per length of the lip, 50 to 150 N/m as a rule, and a coefficient of friction
+//! of 0.2 to 0.5 when lubricated.
+
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const LIP: Term = Term::no_load(0, "lip");
+
+/// Radial lip seals from line load and friction of the lip.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct LipLoad {
+    /// Radial load per length of the lip: 50 to 150 N/m as a rule. [N/m]
+    #[schemars(range(min = 0.0, max = 5000.0))]
+    pub line_load: f64,
+    /// Coefficient of friction: 0.2 to 0.5 as a rule. [-]
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub mu: f64,
+}
+
+impl LipLoad {
+    /// Friction moment from the diameter in m. \[Nm\]
+    fn moment(&self, d: f64) -> f64 {
+        self.mu * self.line_load * std::f64::consts::PI * d * d / 2.0
+    }
+}
+
+impl SealModel for LipLoad {
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        if at.part.kind == SealKind::NonContact {
+            at.branch("no contact: no friction");
+            return Ok(Loss::MOMENTS);
+        }
+        at.show("d", "mm", at.part.diameter.mm());
+        Ok(Loss::MOMENTS.with(&LIP, at.show("T", "Nm", self.moment(at.part.diameter))))
+    }
+}
+
+register!(Seal, "lip_load", LipLoad,
+    meaning: "Radial lip seals from line load and friction of the lip.",
+    source: "derived: Coulomb friction of a loaded ring",
+    example: "{ type: lip_load, line_load: 100 N/m, mu: 0.3 }",
+    evidence: [formula(Evidence::Derived, "load and friction are the user's")],
+    terms: [LIP]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn b6_lip_of_40_mm() {
+        let law = LipLoad {
+            line_load: 100.0,
+            mu: 0.3,
+        };
+        let watts = law.moment(0.040) * 3000.0 * std::f64::consts::PI / 30.0;
+        assert!((watts / 23.6871 - 1.0).abs() < 1e-5, "{watts}");
+    }
+}

@@ -1,0 +1,96 @@
+//! Radial lip seals after Niemann and Winter, with a coefficient of the user.
+//!
+//! Source: Niemann/Winter, Maschinenelemente 2, as Concli quotes it: P = lambda_L d^2 n/1000 in W, d in mm, n in 1/min. No value of
+//! lambda_L is printed; it depends on temperature and wear. 7.69e-3 gives the law of Linke. A number, or a table over
+//! quantities of the seal such as `temperature [degC]`.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::generic::Lookup;
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::table::{Outside, Reading};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const LIP: Term = Term::no_load(0, "lip");
+
+/// Radial lip seals after Niemann and Winter.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Coefficient lambda_L, in place of a table. [-]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub lambda_l: Option<f64>,
+    /// CSV file with lambda_L over one to four quantities.
+    pub file: Option<String>,
+    /// What holds beyond the ends of the table.
+    #[serde(default)]
+    pub outside: Outside,
+}
+
+enum NiemannWinter {
+    Value(f64),
+    Table(Lookup<Seal>),
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<NiemannWinter, Diagnostic> {
+    match (params.lambda_l, params.file) {
+        (Some(value), None) => Ok(NiemannWinter::Value(value)),
+        (None, Some(file)) => {
+            let reading = Reading {
+                outside: params.outside,
+                ..Reading::default()
+            };
+            Ok(NiemannWinter::Table(Lookup::read(&file, &reading, "-", cx)?))
+        }
+        _ => Err(cx
+            .error("niemann_winter needs one of `lambda_l` and `file`")
+            .mend("write `lambda_l: 7.69e-3`, which is the law of Linke, or your own figure")),
+    }
+}
+
+/// Friction moment from the coefficient and the diameter in mm. \[Nm\]
+fn moment(lambda: f64, d: f64) -> f64 {
+    lambda * d * d * 1e-3 / (std::f64::consts::PI / 30.0)
+}
+
+impl SealModel for NiemannWinter {
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        if at.part.kind == SealKind::NonContact {
+            at.branch("no contact: no friction");
+            return Ok(Loss::MOMENTS);
+        }
+        let lambda = match self {
+            Self::Value(value) => *value,
+            Self::Table(table) => table.value(at)?,
+        };
+        if lambda < 0.0 {
+            return Err(Undefined {
+                what: "coefficient lambda_L, which is negative",
+                value: lambda,
+            });
+        }
+        let lambda = at.show("lambda_L", "-", lambda);
+        Ok(Loss::MOMENTS.with(&LIP, at.show("T", "Nm", moment(lambda, at.part.diameter.mm()))))
+    }
+}
+
+register!(Seal, "niemann_winter", Params,
+    meaning: "Radial lip seals with a coefficient of the user, a number or a table.",
+    source: "Niemann/Winter, Maschinenelemente 2, as Concli 2015 quotes it",
+    example: "{ type: niemann_winter, lambda_l: 7.69e-3 }",
+    evidence: [formula(Evidence::OneSource, "one article; the coefficient is the user's")],
+    terms: [LIP], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn b4_with_the_coefficient_of_linke() {
+        let watts = moment(7.69e-3, 40.0) * 3000.0 * std::f64::consts::PI / 30.0;
+        assert!((watts / 36.9120 - 1.0).abs() < 1e-5, "{watts}");
+    }
+}

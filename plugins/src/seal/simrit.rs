@@ -1,0 +1,54 @@
+//! Radial lip seals by a rule of thumb of a maker of seals: an upper bracket.
+//!
+//! Source: Freudenberg/Simrit, recalled: P = 0.5 d v in W, d in mm, v circumferential speed in m/s. Three to four times the law of Linke.
+
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+const LIP: Term = Term::no_load(0, "lip");
+
+/// Radial lip seals by a rule of thumb.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Simrit {}
+
+/// Friction moment from the diameter in m. \[Nm\]
+fn moment(d: f64) -> f64 {
+    0.5 * d.mm() * 0.5 * d
+}
+
+impl SealModel for Simrit {
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        if at.part.kind == SealKind::NonContact {
+            at.branch("no contact: no friction");
+            return Ok(Loss::MOMENTS);
+        }
+        Ok(Loss::MOMENTS.with(&LIP, at.show("T", "Nm", moment(at.part.diameter))))
+    }
+}
+
+register!(Seal, "simrit", Simrit,
+    meaning: "Radial lip seals by a rule of thumb of a maker: an upper bracket.",
+    source: "Freudenberg/Simrit",
+    example: "{ type: simrit }",
+    evidence: [formula(Evidence::Disputed, "recalled, and three to four times other laws")],
+    terms: [LIP]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_to_four_times_linke_at_40_mm() {
+        let linke = 36.9120 / (3000.0 * std::f64::consts::PI / 30.0);
+        assert!(
+            (3.0..4.0).contains(&(moment(0.040) / linke)),
+            "{}",
+            moment(0.040) / linke
+        );
+    }
+}

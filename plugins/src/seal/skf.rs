@@ -1,0 +1,66 @@
+//! Contact seals of rolling bearings after the SKF catalogue, as seals of their own.
+//!
+//! Source: SKF Rolling bearings, PUB 10000 (2013) and 17000 (2018): M = K_S1 d_s^beta + K_S2 in N mm for both seals of a bearing,
+//! d_s the diameter of the counterface in mm; constants by seal, bearing and outside diameter. One seal alone takes half, but
+//! RSL above 25 mm the whole. Seals without contact lose nothing. `diameter` of the seal is d_s. In a bearing's own model
+//! `skf` the same seals are its parameter `seals`.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::bearing::skf_seal::{Code, SealRow};
+
+const LIP: Term = Term::no_load(0, "lip");
+
+/// Contact seals of rolling bearings.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Seal and bearing.
+    pub code: Code,
+    /// Outside diameter of the bearing. [mm]
+    #[schemars(range(min = 1.0, max = 5000.0))]
+    pub outside: f64,
+    /// Number of seals of the bearing: one or two. [-]
+    #[serde(default = "two")]
+    #[schemars(range(min = 1, max = 2))]
+    pub seals: u32,
+}
+
+fn two() -> u32 {
+    2
+}
+
+struct Skf(SealRow);
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Skf, Diagnostic> {
+    SealRow::new(params.code, params.outside.mm(), params.seals)
+        .map(Skf)
+        .map_err(|(message, mend)| cx.error(message).mend(mend))
+}
+
+impl SealModel for Skf {
+    fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+        if at.part.kind == SealKind::NonContact {
+            at.branch("no contact: no friction");
+            return Ok(Loss::MOMENTS);
+        }
+        let moment = at.show("M_seal", "N mm", self.0.moment(at.part.diameter.mm()));
+        Ok(Loss::MOMENTS.with(&LIP, moment.nmm_in_nm()))
+    }
+}
+
+register!(Seal, "skf", Params,
+    meaning: "Contact seals of rolling bearings after the SKF catalogue.",
+    source: "SKF Rolling bearings, PUB 10000 (2013) and PUB 17000 (2018)",
+    example: "{ type: skf, code: rs1_deep_groove, outside: 72 mm }",
+    evidence: [
+        formula(Evidence::SeveralSources, "two transcriptions agree"),
+        default_of("seals", Evidence::SeveralSources, "the constants are for both"),
+    ],
+    terms: [LIP], prepare: prepare);
