@@ -86,6 +86,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
         meaning,
         source: "the user's own",
         example,
+        part: None,
         limits: &[],
         terms: if name == "none" { &[] } else { const { &[M::TOTAL] } },
         observed: &[],

@@ -164,7 +164,7 @@ impl Language {
     /// What reading and the walk find in either.
     pub fn example_of(&self, entry: &Entry) -> Result<(Value, Value), Vec<Diagnostic>> {
         let mechanism = self.registry.mechanism(entry.mechanism);
-        let part = mechanism.map_or("{}", |m| m.example);
+        let part = entry.part.unwrap_or_else(|| mechanism.map_or("{}", |m| m.example));
         let indented = part
             .trim()
             .lines()

@@ -155,6 +155,8 @@ pub struct Entry {
     pub source: &'static str,
     /// A valid `model:` record, in YAML flow style.
     pub example: &'static str,
+    /// A part that the example is made for, in YAML; absent, that of the mechanism.
+    pub part: Option<&'static str>,
     /// Ranges in which the source states the formula to hold.
     pub limits: &'static [Limit],
     /// Named shares of the answer.
@@ -451,14 +453,14 @@ macro_rules! register_component {
 #[macro_export]
 macro_rules! register {
     ($M:ty, $name:literal, $Params:ty,
-        meaning: $meaning:expr, source: $source:expr, example: $example:expr,
+        meaning: $meaning:expr, source: $source:expr, example: $example:expr, $(part: $part:expr,)?
         evidence: [$($graded:expr),* $(,)?]
         $(, limits: [$($limit:expr),* $(,)?])? $(, terms: [$($term:expr),* $(,)?])? $(, observed: [$($observed:expr),* $(,)?])?
         $(, scope: $scope:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
         $crate::registry::inventory::submit! {
             $crate::registry::Entry {
                 mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, meaning: $meaning, source: $source,
-                example: $example, evidence: &[$($graded),*],
+                example: $example, part: $crate::register!(@part $($part)?), evidence: &[$($graded),*],
                 limits: &[$($($limit),*)?], terms: &[$($($term),*)?], observed: &[$($($observed),*)?],
                 scope: $crate::register!(@scope $($scope)?),
                 origin: $crate::origin!(),
@@ -472,6 +474,8 @@ macro_rules! register {
             }
         }
     };
+    (@part) => { None };
+    (@part $part:expr) => { Some($part) };
     (@scope) => { $crate::mechanism::gear_drag::Scope::Gear };
     (@scope $scope:expr) => { $scope };
     (@model $params:ident, $cx:ident) => { $params };

@@ -1,5 +1,11 @@
 //! Friction of rolling bearings.
 
+pub mod harris;
+pub mod iso14179_1;
 pub mod iso14179_2;
+mod palmgren;
+mod rows;
+pub mod schaeffler;
 pub mod skf;
 pub mod skf_seal;
+pub mod timken;

@@ -49,6 +49,10 @@ pub enum BearingKind {
     TaperedRoller,
     /// Spherical roller bearing.
     SphericalRoller,
+    /// Toroidal roller bearing (CARB) with a cage.
+    ToroidalRoller,
+    /// Toroidal roller bearing (CARB), full complement.
+    ToroidalRollerFullComplement,
     /// Cylindrical roller thrust bearing.
     CylindricalRollerThrust,
     /// Needle roller thrust bearing.

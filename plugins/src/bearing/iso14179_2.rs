@@ -7,33 +7,15 @@
 //! f0 and f1 are tables by kind, series and lubrication; a range stands for light to heavy series. Where the table has no
 //! value, or a row needs a series or a load factor that is not given, building fails and says what to give.
 
-mod rows;
-
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
-use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel, BearingPart};
+use gearloss_framework::mechanism::bearing::{Bearing, BearingPart};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
-use rows::{Lack, LoadLaw};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const LOAD: Term = Term::load(0, "load");
-const NO_LOAD: Term = Term::no_load(1, "no_load");
-const AXIAL_RATIO: Limit = Limit::new(0, "Fa/Fr", "-", 0.0, 0.5, "axial load on cylindrical rollers, SKF 1994");
-const RADIAL_RATIO: Limit = Limit::new(
-    1,
-    "Fr/Fa",
-    "-",
-    0.0,
-    0.55,
-    "radial load on spherical roller thrust bearings, SKF 1994",
-);
-const P1: Observed = Observed::new(0, "P1", "N", "Load that decides the load-dependent moment.");
-
-/// Where the viscous branch begins. \[mm2/s 1/min\]
-const VISCOUS: f64 = 2000.0;
+use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO, flanged};
+use super::rows::{self, Lack};
 
 /// Rolling bearings after Palmgren, as ISO/TR 14179-2 uses him.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -65,117 +47,24 @@ fn axial_factor() -> f64 {
     3.0
 }
 
-/// One bearing, prepared.
-#[derive(Debug)]
-struct Palmgren {
-    f0: f64,
-    f2: f64,
-    law: LoadLaw,
-    c0: f64,
-    /// f0 d_m^3.
-    f0_cube: f64,
-    /// Mean diameter. \[mm\]
-    d_m: f64,
-    /// d_m to the power b of the load law.
-    d_m_b: f64,
-    /// Rollers that carry axial load on flanges.
-    flanged: bool,
-    spherical_thrust: bool,
-}
-
-impl Palmgren {
-    fn new(params: &Iso14179, part: &BearingPart) -> Result<Self, Lack> {
-        let mut law = rows::load_law(part, params.exponent, params.axial_factor, params.f1.is_some())?;
-        law.z = params.f1.unwrap_or(law.z);
-        let c0 = match part.c0 {
-            Some(c0) => c0,
-            // A constant f1 does not ask for it.
-            None if law.exponent == 0.0 => 1.0,
-            None => {
-                let mend = "add `c0:`, or a `designation` of a catalogue";
-                return Err(("a ball bearing needs `c0`".to_owned(), mend.to_owned()));
-            }
-        };
-        let d_m = part.mean_diameter().mm();
-        let flanged = matches!(
-            part.kind,
-            BearingKind::CylindricalRoller | BearingKind::CylindricalRollerFullComplement
-        );
-        if params.f2.is_some() && !flanged {
+impl Iso14179 {
+    fn model(&self, part: &BearingPart) -> Result<Palmgren, Lack> {
+        let mut law = rows::load_law(part, self.exponent, self.axial_factor, self.f1.is_some())?;
+        law.z = self.f1.unwrap_or(law.z);
+        if self.f2.is_some() && !flanged(part) {
             let mend = "leave f2 out; f1 counts the axial load of other bearings";
             return Err(("f2 belongs to cylindrical roller bearings".to_owned(), mend.to_owned()));
         }
-        let f0 = params.f0.map_or_else(|| rows::f0(part), Ok)?;
-        Ok(Self {
-            f0,
-            f0_cube: f0 * d_m.powi(3),
-            f2: params.f2.unwrap_or(rows::f2(part)),
-            law,
-            c0,
-            d_m,
-            d_m_b: d_m.powf(law.b),
-            flanged,
-            spherical_thrust: part.kind == BearingKind::SphericalRollerThrust,
-        })
+        let f0 = self.f0.map_or_else(|| rows::f0(part), Ok)?;
+        Palmgren::new(part, F0::Fixed(f0), law, self.f2.unwrap_or(rows::f2(part)))
     }
 }
 
 fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic> {
     let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
-    Palmgren::new(&params, part).map_err(|(message, mend)| cx.error(message).mend(mend))
-}
-
-/// Ratio of two loads; without bound where the second is absent.
-fn ratio(load: f64, other: f64) -> f64 {
-    if other > 0.0 {
-        load / other
-    } else if load > 0.0 {
-        f64::INFINITY
-    } else {
-        0.0
-    }
-}
-
-impl BearingModel for Palmgren {
-    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
-        let (fr, fa) = (at.show("Fr", "N", at.radial), at.show("Fa", "N", at.axial));
-        let law = &self.law;
-        let (p0, p1) = law.rule.equivalent(fr, fa);
-        let f1 = if law.exponent == 0.0 {
-            law.z
-        } else {
-            law.z * (at.show("P0", "N", p0) / self.c0).powf(law.exponent)
-        };
-        let f1 = at.show("f1", "-", f1);
-        let p1 = at.observe(&P1, p1);
-        if self.spherical_thrust {
-            at.check(&RADIAL_RATIO, ratio(fr, fa));
-        }
-        let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
-        let m0 = if product >= VISCOUS {
-            at.branch("nu n at least 2000: viscous");
-            1e-7 * self.f0_cube * product.powf(2.0 / 3.0)
-        } else {
-            at.branch("nu n below 2000: constant");
-            160e-7 * self.f0_cube
-        };
-        at.show("f0", "-", self.f0);
-        let m0 = at.show("M0", "N mm", m0);
-        let m1 = at.show(
-            "M1",
-            "N mm",
-            f1 * if law.a == 1.0 { p1 } else { p1.powf(law.a) } * self.d_m_b,
-        );
-        let m2 = if self.flanged && fa > 0.0 {
-            at.check(&AXIAL_RATIO, ratio(fa, fr));
-            at.show("M2", "N mm", self.f2 * fa * self.d_m)
-        } else {
-            0.0
-        };
-        Ok(Loss::MOMENTS
-            .with(&LOAD, (m1 + m2).nmm_in_nm())
-            .with(&NO_LOAD, m0.nmm_in_nm()))
-    }
+    params
+        .model(part)
+        .map_err(|(message, mend)| cx.error(message).mend(mend))
 }
 
 register!(Bearing, "iso14179_2", Iso14179,
@@ -197,7 +86,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::bearing::BearingEntry;
+    use gearloss_framework::mechanism::bearing::{BearingAt, BearingEntry, BearingKind, BearingModel};
 
     fn params() -> Iso14179 {
         Iso14179 {
@@ -240,10 +129,10 @@ mod tests {
     #[test]
     fn a1_1_deep_groove_6308() {
         let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
-        let model = Palmgren::new(&params(), &part).unwrap();
+        let model = params().model(&part).unwrap();
         assert_eq!(
             (model.f0, model.law.rule.equivalent(3000.0, 1000.0)),
-            (2.0, (3000.0, 3000.0))
+            (F0::Fixed(2.0), (3000.0, 3000.0))
         );
         close(model.law.z * (3000.0_f64 / 24000.0).powf(0.55), 2.86776e-4);
         let [load, no_load] = moments(&model, &part, 3000.0, 15.0, 3000.0, 1000.0);
@@ -255,7 +144,7 @@ mod tests {
     #[test]
     fn a1_2_below_the_viscous_branch() {
         let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
-        let model = Palmgren::new(&params(), &part).unwrap();
+        let model = params().model(&part).unwrap();
         close(moments(&model, &part, 100.0, 15.0, 0.0, 0.0)[1], 8.78800);
         // The published step: the upper branch begins 0.8 % lower.
         let below = moments(&model, &part, 1999.9 / 15.0, 15.0, 0.0, 0.0)[1];
@@ -266,13 +155,11 @@ mod tests {
     #[test]
     fn a1_3_cylindrical_roller_with_axial_load() {
         let part = part(BearingKind::CylindricalRoller, "2", 40.0, 80.0, None);
-        let model = Palmgren::new(
-            &Iso14179 {
-                f0: Some(2.2),
-                ..params()
-            },
-            &part,
-        )
+        let model = Iso14179 {
+            f0: Some(2.2),
+            ..params()
+        }
+        .model(&part)
         .unwrap();
         let [load, no_load] = moments(&model, &part, 1500.0, 40.0, 5000.0, 500.0);
         close(no_load, 72.8300);
@@ -282,51 +169,47 @@ mod tests {
     #[test]
     fn needle_cages_have_a_row_and_ball_bearings_need_a_rating() {
         let cage = part(BearingKind::NeedleCage, "", 28.0, 33.0, None);
-        let model = Palmgren::new(&params(), &cage).unwrap();
-        assert_eq!((model.f0, model.law.z), (12.0, 0.002));
+        let model = params().model(&cage).unwrap();
+        assert_eq!((model.f0, model.law.z), (F0::Fixed(12.0), 0.002));
         let ball = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, None);
-        assert!(Palmgren::new(&params(), &ball).unwrap_err().0.contains("c0"));
+        assert!(params().model(&ball).unwrap_err().0.contains("c0"));
     }
 
     #[test]
     fn a_missing_series_or_an_empty_cell_says_what_to_give() {
         let nameless = part(BearingKind::DeepGrooveBall, "", 40.0, 90.0, Some(24000.0));
-        assert!(Palmgren::new(&params(), &nameless).unwrap_err().1.contains("63"));
+        assert!(params().model(&nameless).unwrap_err().1.contains("63"));
         // With f1 written and a single f0 for the bath no series is asked for.
         assert!(
-            Palmgren::new(
-                &Iso14179 {
-                    f1: Some(0.0009),
-                    ..params()
-                },
-                &nameless
-            )
+            Iso14179 {
+                f1: Some(0.0009),
+                ..params()
+            }
+            .model(&nameless)
             .is_ok()
         );
         let mut thrust = part(BearingKind::NeedleRollerThrust, "", 30.0, 52.0, None);
-        assert_eq!(Palmgren::new(&params(), &thrust).unwrap().f0, 5.0);
+        assert_eq!(params().model(&thrust).unwrap().f0, F0::Fixed(5.0));
         thrust.lubrication = gearloss_framework::mechanism::bearing::Lubrication::OilAir;
-        assert!(Palmgren::new(&params(), &thrust).unwrap_err().1.contains("f0"));
+        assert!(params().model(&thrust).unwrap_err().1.contains("f0"));
         assert_eq!(
-            Palmgren::new(
-                &Iso14179 {
-                    f0: Some(4.0),
-                    ..params()
-                },
-                &thrust
-            )
+            Iso14179 {
+                f0: Some(4.0),
+                ..params()
+            }
+            .model(&thrust)
             .unwrap()
             .f0,
-            4.0
+            F0::Fixed(4.0)
         );
     }
 
     #[test]
     fn spherical_rollers_have_powers_of_their_own() {
         let mut part = part(BearingKind::SphericalRoller, "222E", 50.0, 90.0, None);
-        assert!(Palmgren::new(&params(), &part).unwrap_err().0.contains("`y`"));
+        assert!(params().model(&part).unwrap_err().0.contains("`y`"));
         part.y = Some(2.8);
-        let model = Palmgren::new(&params(), &part).unwrap();
+        let model = params().model(&part).unwrap();
         // 0.00015 10^5.4 70^0.3, a purely radial load.
         close(moments(&model, &part, 1000.0, 40.0, 10000.0, 0.0)[0], 134.778516);
     }
@@ -334,7 +217,7 @@ mod tests {
     #[test]
     fn without_load_only_the_oil_resists_and_rest_is_finite() {
         let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
-        let model = Palmgren::new(&params(), &part).unwrap();
+        let model = params().model(&part).unwrap();
         let [load, no_load] = moments(&model, &part, 0.0, 15.0, 0.0, 0.0);
         assert!(load == 0.0 && no_load > 0.0);
     }

@@ -3,11 +3,11 @@
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart, Lubrication};
 
 /// What is missing, and what the user can write.
-pub(super) type Lack = (String, String);
+pub type Lack = (String, String);
 
 /// How P0 and P1 follow from the loads.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Rule {
+pub enum Rule {
     DeepGroove {
         k: f64,
     },
@@ -29,6 +29,15 @@ pub(super) enum Rule {
         y: f64,
     },
     Thrust,
+    /// P1 = k Fa cot(alpha) - 0.1 Fr of balls, after Harris; P0 as angular contact bearings.
+    Ball {
+        k_cot: f64,
+        y0: f64,
+    },
+    /// P1 = k Fa cot(alpha), after Harris.
+    Roller {
+        k_cot: f64,
+    },
 }
 
 impl Rule {
@@ -45,6 +54,8 @@ impl Rule {
             Self::Spherical { y } if fr > 0.0 => (fr, fr * (1.0 + 0.35 * (y * fa / fr).powi(3))),
             Self::Spherical { .. } => (fr, 0.0),
             Self::Thrust => (fa, fa),
+            Self::Ball { k_cot, y0 } => (fr.max(0.5 * fr + y0 * fa), k_cot * fa - 0.1 * fr),
+            Self::Roller { k_cot } => (fr, k_cot * fa),
         };
         (p0, p1.max(fr))
     }
@@ -52,7 +63,7 @@ impl Rule {
 
 /// f1 = z (P0/C0)^exponent with the powers a of P1 and b of d_m.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct LoadLaw {
+pub struct LoadLaw {
     pub z: f64,
     /// Zero where f1 is constant.
     pub exponent: f64,
@@ -62,7 +73,8 @@ pub(super) struct LoadLaw {
 }
 
 impl LoadLaw {
-    fn new(z: f64, exponent: f64, rule: Rule) -> Self {
+    /// A law with a power of one.
+    pub fn new(z: f64, exponent: f64, rule: Rule) -> Self {
         Self {
             z,
             exponent,
@@ -117,11 +129,11 @@ fn series(part: &BearingPart) -> Option<&str> {
 fn no_series(part: &BearingPart, what: &str, known: &str) -> Lack {
     match &part.series {
         Some(series) => (
-            format!("iso14179_2 has no {what} for series `{series}`"),
+            format!("the table has no {what} for series `{series}`"),
             format!("set `series` to one of {known}"),
         ),
         None => (
-            format!("iso14179_2 needs `series` for {what}"),
+            format!("`series` is needed for {what}"),
             format!("add `series:`, one of {known}, or a `designation`"),
         ),
     }
@@ -131,7 +143,15 @@ fn no_series(part: &BearingPart, what: &str, known: &str) -> Lack {
 ///
 /// # Errors
 /// A cell that the table leaves empty; a range without a series to choose from it.
-pub(super) fn f0(part: &BearingPart) -> Result<f64, Lack> {
+pub fn f0(part: &BearingPart) -> Result<f64, Lack> {
+    f0_under(part, part.lubrication)
+}
+
+/// f0 under another lubrication than the bearing's own.
+///
+/// # Errors
+/// As [`f0`].
+pub fn f0_under(part: &BearingPart, lubrication: Lubrication) -> Result<f64, Lack> {
     use BearingKind as K;
     let one = |x: f64| Some((x, x));
     // Grease, oil and air, bath, jet; a range stands for light to heavy series.
@@ -151,8 +171,9 @@ pub(super) fn f0(part: &BearingPart) -> Result<f64, Lack> {
         K::CylindricalRollerThrust => [one(9.0), None, one(3.5), one(8.0)],
         K::NeedleRollerThrust => [one(14.0), None, one(5.0), one(11.0)],
         K::SphericalRollerThrust => [None, None, Some((2.5, 5.0)), Some((5.0, 10.0))],
+        K::ToroidalRoller | K::ToroidalRollerFullComplement => [None; 4],
     };
-    let (cell, lubrication) = match part.lubrication {
+    let (cell, lubrication) = match lubrication {
         Lubrication::Grease => (grease, "grease"),
         Lubrication::OilAir => (air, "oil and air"),
         Lubrication::Bath => (bath, "an oil bath"),
@@ -160,7 +181,7 @@ pub(super) fn f0(part: &BearingPart) -> Result<f64, Lack> {
     };
     let (low, high) = cell.ok_or_else(|| {
         (
-            format!("iso14179_2 has no f0 for this kind of bearing under {lubrication}"),
+            format!("the table has no f0 for this kind of bearing under {lubrication}"),
             "write `f0:` in the model with your figure, or another `lubrication:`".to_owned(),
         )
     })?;
@@ -183,12 +204,12 @@ pub(super) fn f0(part: &BearingPart) -> Result<f64, Lack> {
 ///
 /// # Errors
 /// A series or a load factor that the row needs.
-pub(super) fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: bool) -> Result<LoadLaw, Lack> {
+pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: bool) -> Result<LoadLaw, Lack> {
     use BearingKind as K;
     let need = |value: Option<f64>, key: &str, hint: &str| {
         value.ok_or_else(|| {
             (
-                format!("iso14179_2 needs `{key}` for this kind of bearing"),
+                format!("`{key}` is needed for this kind of bearing"),
                 format!("add `{key}:` {hint}"),
             )
         })
@@ -244,6 +265,12 @@ pub(super) fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_g
                 rule: Rule::Spherical { y: y()? },
             }
         }
+        K::ToroidalRoller | K::ToroidalRollerFullComplement => {
+            return Err((
+                "the tables of Palmgren's form have no toroidal roller bearings".to_owned(),
+                "give this bearing a model of its own, such as `model: { type: skf }`".to_owned(),
+            ));
+        }
         K::CylindricalRollerThrust | K::NeedleRollerThrust => LoadLaw::new(0.0015, 0.0, Rule::Thrust),
         K::SphericalRollerThrust => {
             let z = match name {
@@ -259,7 +286,7 @@ pub(super) fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_g
 }
 
 /// f2 of the moment from axial load on cylindrical rollers with flanges of the EC design; zero for other kinds.
-pub(super) fn f2(part: &BearingPart) -> f64 {
+pub fn f2(part: &BearingPart) -> f64 {
     let grease = part.lubrication == Lubrication::Grease;
     match part.kind {
         BearingKind::CylindricalRoller if grease => 0.003,

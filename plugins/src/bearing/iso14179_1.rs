@@ -1,0 +1,106 @@
+//! Rolling bearings after ISO/TR 14179-1, of AGMA origin: Palmgren's form with f0 by the depth of the oil.
+//!
+//! Source: ISO/TR 14179-1:2001, recalled: the load-dependent moment is that of ISO/TR 14179-2; f0 = f0_min + (f0_max - f0_min) H/H_max
+//! with f0_min where no rolling element dips and f0_max for a covered bearing. The report's table of both could not be opened:
+//! by a convention of this program they are the values for oil mist and for an oil jet of the table of ISO/TR 14179-2, and H_max is
+//! the height of the outer raceway.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::mechanism::bearing::{Bearing, BearingPart, Lubrication};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
+use super::rows::{self, Lack};
+
+/// Rolling bearings after ISO/TR 14179-1.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Least f0, where no rolling element dips; absent, that of oil mist. [-]
+    #[schemars(range(min = 0.0, max = 50.0))]
+    pub f0_min: Option<f64>,
+    /// Greatest f0, covered; absent, that of an oil jet. [-]
+    #[schemars(range(min = 0.0, max = 50.0))]
+    pub f0_max: Option<f64>,
+}
+
+impl Params {
+    fn model(&self, part: &BearingPart) -> Result<Palmgren, Lack> {
+        let f0 = |own: Option<f64>, lubrication| own.map_or_else(|| rows::f0_under(part, lubrication), Ok);
+        let f0 = F0::Dip {
+            least: f0(self.f0_min, Lubrication::OilAir)?,
+            most: f0(self.f0_max, Lubrication::Jet)?,
+            covered: 2.0 * part.raceway,
+        };
+        Palmgren::new(part, f0, rows::load_law(part, 0.55, 3.0, false)?, rows::f2(part))
+    }
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic> {
+    let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
+    params
+        .model(part)
+        .map_err(|(message, mend)| cx.error(message).mend(mend))
+}
+
+register!(Bearing, "iso14179_1", Params,
+    meaning: "Palmgren's form with the load-independent factor by the depth of the oil, as in ISO/TR 14179-1.",
+    source: "ISO/TR 14179-1:2001",
+    example: "{ type: iso14179_1 }",
+    evidence: [
+        formula(Evidence::Recalled, "structure recalled and met in one program"),
+        default_of("f0_min", Evidence::Assumed, "the report's table could not be opened"),
+        default_of("f0_max", Evidence::Assumed, "the report's table could not be opened"),
+    ],
+    limits: [AXIAL_RATIO, RADIAL_RATIO], terms: [LOAD, NO_LOAD], observed: [P1], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::bearing::{BearingAt, BearingEntry, BearingKind, BearingModel};
+
+    fn part(kind: BearingKind, series: &str, d: f64, big_d: f64, c0: Option<f64>) -> BearingPart {
+        let entry = BearingEntry {
+            kind: Some(kind),
+            series: Some(series.to_owned()),
+            bore: Some(d * 1e-3),
+            outside: Some(big_d * 1e-3),
+            c0,
+            ..BearingEntry::default()
+        };
+        BearingPart::try_from(entry).unwrap()
+    }
+
+    fn moments(model: &Palmgren, part: &BearingPart, height: f64) -> [f64; 2] {
+        let at = BearingAt {
+            speed: 3000.0 * std::f64::consts::PI / 30.0,
+            nu: 15e-6,
+            radial: 3000.0,
+            axial: 1000.0,
+            oil_height: height,
+            ..BearingAt::usual(part, Notes::MUTED)
+        };
+        let loss = model.loss(&at).unwrap();
+        [loss.value(0) * 1e3, loss.value(1) * 1e3]
+    }
+
+    #[test]
+    fn f0_rises_with_the_oil_from_mist_to_jet() {
+        let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
+        let model = Params {
+            f0_min: None,
+            f0_max: None,
+        }
+        .model(&part)
+        .unwrap();
+        let no_load = |height| moments(&model, &part, height)[1];
+        // 69.4883 N mm belongs to f0 = 2.
+        assert!((no_load(0.0) / (69.4883 / 2.0) - 1.0).abs() < 1e-5);
+        assert!((no_load(1.0) / (69.4883 * 2.0) - 1.0).abs() < 1e-5);
+        assert!((no_load(part.raceway) / (69.4883 * 1.25) - 1.0).abs() < 1e-5);
+    }
+}

@@ -1,0 +1,158 @@
+//! The form of Palmgren that four models share: M = M0 + M1 + M2, N mm.
+//!
+//! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is kept); M1 = f1 P1^a dm^b with
+//! f1 = z (P0/C0)^y; M2 = f2 Fa dm of cylindrical rollers under axial load.
+
+use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::bearing::{BearingAt, BearingKind, BearingModel, BearingPart};
+
+use super::rows::{Lack, LoadLaw};
+
+pub const LOAD: Term = Term::load(0, "load");
+pub const NO_LOAD: Term = Term::no_load(1, "no_load");
+pub const AXIAL_RATIO: Limit = Limit::new(0, "Fa/Fr", "-", 0.0, 0.5, "axial load on cylindrical rollers, SKF 1994");
+pub const RADIAL_RATIO: Limit = Limit::new(
+    1,
+    "Fr/Fa",
+    "-",
+    0.0,
+    0.55,
+    "radial load on spherical roller thrust bearings, SKF 1994",
+);
+pub const P1: Observed = Observed::new(0, "P1", "N", "Load that decides the load-dependent moment.");
+
+/// Where the viscous branch begins. \[mm2/s 1/min\]
+const VISCOUS: f64 = 2000.0;
+
+/// Factor of the load-independent moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum F0 {
+    /// One factor.
+    Fixed(f64),
+    /// From nothing to full depth in the oil, linear in the height over a height in m.
+    Dip {
+        /// Without oil among the rolling elements.
+        least: f64,
+        /// Covered.
+        most: f64,
+        /// Height at which the bearing is covered. \[m\]
+        covered: f64,
+    },
+}
+
+/// One bearing, prepared.
+#[derive(Debug)]
+pub struct Palmgren {
+    pub f0: F0,
+    pub f2: f64,
+    pub law: LoadLaw,
+    c0: f64,
+    /// Mean diameter. \[mm\]
+    d_m: f64,
+    /// d_m^3.
+    cube: f64,
+    /// d_m to the power b of the load law.
+    d_m_b: f64,
+    /// Rollers that carry axial load on flanges.
+    flanged: bool,
+    spherical_thrust: bool,
+}
+
+impl Palmgren {
+    /// A bearing with its factors.
+    ///
+    /// # Errors
+    /// Where the load law asks for a rating that is not given.
+    pub fn new(part: &BearingPart, f0: F0, law: LoadLaw, f2: f64) -> Result<Self, Lack> {
+        let c0 = match part.c0 {
+            Some(c0) => c0,
+            // A constant f1 does not ask for it.
+            None if law.exponent == 0.0 => 1.0,
+            None => {
+                let mend = "add `c0:`, or a `designation` of a catalogue";
+                return Err(("a ball bearing needs `c0`".to_owned(), mend.to_owned()));
+            }
+        };
+        let d_m = part.mean_diameter().mm();
+        Ok(Self {
+            f0,
+            f2,
+            law,
+            c0,
+            d_m,
+            cube: d_m.powi(3),
+            d_m_b: d_m.powf(law.b),
+            flanged: flanged(part),
+            spherical_thrust: part.kind == BearingKind::SphericalRollerThrust,
+        })
+    }
+}
+
+/// True for rollers that carry axial load on flanges.
+pub fn flanged(part: &BearingPart) -> bool {
+    matches!(
+        part.kind,
+        BearingKind::CylindricalRoller | BearingKind::CylindricalRollerFullComplement
+    )
+}
+
+/// Ratio of two loads; without bound where the second is absent.
+fn ratio(load: f64, other: f64) -> f64 {
+    if other > 0.0 {
+        load / other
+    } else if load > 0.0 {
+        f64::INFINITY
+    } else {
+        0.0
+    }
+}
+
+impl BearingModel for Palmgren {
+    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
+        let (fr, fa) = (at.show("Fr", "N", at.radial), at.show("Fa", "N", at.axial));
+        let law = &self.law;
+        let (p0, p1) = law.rule.equivalent(fr, fa);
+        let f1 = if law.exponent == 0.0 {
+            law.z
+        } else {
+            law.z * (at.show("P0", "N", p0) / self.c0).powf(law.exponent)
+        };
+        let f1 = at.show("f1", "-", f1);
+        let p1 = at.observe(&P1, p1);
+        if self.spherical_thrust {
+            at.check(&RADIAL_RATIO, ratio(fr, fa));
+        }
+        let f0 = match self.f0 {
+            F0::Fixed(f0) => f0,
+            F0::Dip { least, most, covered } => {
+                let dip = at.show("dip", "-", (at.oil_height / covered).clamp(0.0, 1.0));
+                least + (most - least) * dip
+            }
+        };
+        let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
+        let m0 = if product >= VISCOUS {
+            at.branch("nu n at least 2000: viscous");
+            1e-7 * f0 * self.cube * product.powf(2.0 / 3.0)
+        } else {
+            at.branch("nu n below 2000: constant");
+            160e-7 * f0 * self.cube
+        };
+        at.show("f0", "-", f0);
+        let m0 = at.show("M0", "N mm", m0);
+        let m1 = at.show(
+            "M1",
+            "N mm",
+            f1 * if law.a == 1.0 { p1 } else { p1.powf(law.a) } * self.d_m_b,
+        );
+        let m2 = if self.flanged && fa > 0.0 {
+            at.check(&AXIAL_RATIO, ratio(fa, fr));
+            at.show("M2", "N mm", self.f2 * fa * self.d_m)
+        } else {
+            0.0
+        };
+        Ok(Loss::MOMENTS
+            .with(&LOAD, (m1 + m2).nmm_in_nm())
+            .with(&NO_LOAD, m0.nmm_in_nm()))
+    }
+}
