@@ -233,7 +233,7 @@ fn models_lists_explains_and_finds_needs() {
         "{needs}"
     );
     assert!(
-        needs.contains("missing: skf covers deep groove ball bearings"),
+        needs.contains("missing: skf publishes no row for needle roller bearings"),
         "{needs}"
     );
 }

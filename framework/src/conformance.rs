@@ -10,8 +10,8 @@ use serde_json::Value;
 
 use crate::language::Language;
 use crate::loss::{Extent, Notes, Undefined};
-use crate::mechanism::{Answer, Mechanism};
-use crate::registry::{Build, Entry, Files, Registry, from_resolved};
+use crate::mechanism::{Answer, Mechanism, Quantity};
+use crate::registry::{Build, Entry, Evidence, Files, Registry, from_resolved};
 
 /// Checks every linked model on its mechanism's example part. Empty when all is well; else one line for each fault.
 pub fn check_all(language: &Language) -> Vec<String> {
@@ -137,8 +137,48 @@ pub fn conform<M: Mechanism>(
             }
         }
     }
+    // What the user states himself may hang on the sense of rotation.
+    if entry.evidence.iter().all(|g| g.grade != Evidence::User) {
+        faults.extend(rest_and_reversal::<M>(&slot, &usual));
+    }
     faults.dedup();
     faults.truncate(12);
+    faults
+}
+
+/// What a loss owes at rest and in the other sense: no power, and the same power.
+fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_>) -> Vec<String> {
+    let speeds: Vec<&Quantity<M>> = M::QUANTITIES
+        .iter()
+        .filter(|q| q.unit().symbol == "rpm" && q.least < 0.0)
+        .collect();
+    let mut faults = Vec::new();
+    if speeds.is_empty() {
+        return faults;
+    }
+    let with = |change: fn(f64) -> f64| {
+        let mut at = *usual;
+        for q in &speeds {
+            (q.set)(&mut at, change((q.get)(usual)));
+        }
+        (M::answer(model, &at), M::speed(&at))
+    };
+    if let (Ok(rest), speed) = with(|_| 0.0)
+        && rest.moment(speed).is_some()
+        && rest.total(speed) != 0.0
+    {
+        faults.push("loses power at rest".to_owned());
+    }
+    match (with(|x| x), with(|x| -x)) {
+        ((Ok(forward), w), (Ok(backward), v)) => {
+            let (a, b) = (forward.total(w), backward.total(v));
+            if (a - b).abs() > 1e-9 * a.abs() {
+                faults.push(format!("loses {a} in one sense and {b} in the other"));
+            }
+        }
+        ((Err(_), _), (Err(_), _)) => {}
+        _ => faults.push("is undefined in one sense only".to_owned()),
+    }
     faults
 }
 
