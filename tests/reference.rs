@@ -1,0 +1,291 @@
+//! The reference of the models in `docs/models` is that of the program: text from the heads of the model files, tables from
+//! their registrations, answers from running them.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fmt::Write as _;
+
+use gearloss_framework::language::{Kind, Language};
+use gearloss_framework::registry::{Entry, Files, MechanismEntry};
+use serde_json::{Map, Value};
+
+/// Models of the field that are not here.
+const LEFT_OUT: &str = "\
+## Left out, and why
+- Terekhov and Lauster-Boos (churning): the constants that are remembered give 12 to 60 times and 2 to 7 times less than every
+  other law on car gears, so a factor is wrong; no original could be opened. `dimensional` takes them from whoever has one.
+- Boness 1989 (churning): jumps of 8 and 25 % between its branches and 32 N m on a car gear near Re = 1e5; no original.
+- Swell of a gear pair, housing distances after Changenet and Velex 2008, bevel gears after Laruelle: formulas not public.
+  `swell` is the user's own share.
+- Root filling and pocketing after Seetharaman and Kahraman: not public in full; the two known terms are a model that says so.
+- Mauz with his functions of wall distance and oil volume, Walter, Butsch (FVA): not public.
+- Carrier losses after Kettler, no-load losses of planetary sets after Höhn: not public.
+- Talboom's tooth loss factor, Doleschel's constants of standard oils: not public.
+- Drag of bearings above n d_m = 0.5e6 mm/min after Morales-Espejel and Wemekamp: not public. `beyond: hold` is a convention.
+- Raceway torques of tapered rollers after Aihara, Zhou and Hoeprich, Matsuyama, Houpert: they need the inside of the bearing.
+- Dawson's update of 1988 needs a chart that is not public. SKF diagrams of shaft seals and Engelke's model: no closed form.
+- Torque converters, belts, leakage of hydraulic actuation: outside of the program; `table` takes a measured map.
+";
+
+fn head_of(entry: &Entry) -> String {
+    // The module path is the file: crate::a::b is in src/a/b.rs.
+    let parts: Vec<&str> = entry.origin.module.split("::").collect();
+    let folder = match parts[0] {
+        "gearloss_plugins" => "plugins/src",
+        _ => return String::new(),
+    };
+    let path = common::file(&format!("{folder}/{}.rs", parts[1..].join("/")));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let lines: Vec<&str> = text
+        .lines()
+        .take_while(|l| l.starts_with("//!"))
+        .map(|l| l.trim_start_matches("//!").trim())
+        .collect();
+    // The first line says what the table says already.
+    lines[1..].join("\n").trim().to_owned()
+}
+
+fn row(out: &mut String, cells: &[&str]) {
+    let cells: Vec<String> = cells.iter().map(|c| c.replace('|', "\\|").replace('\n', " ")).collect();
+    writeln!(out, "| {} |", cells.join(" | ")).unwrap();
+}
+
+fn header(out: &mut String, cells: &[&str]) {
+    row(out, cells);
+    row(out, &vec!["---"; cells.len()]);
+}
+
+fn significant(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x}");
+    }
+    let digits = (4 - x.abs().log10().floor() as i32).clamp(0, 12) as usize;
+    let text = format!("{x:.digits$}");
+    if !(1e-4..1e7).contains(&x.abs()) {
+        return format!("{x:.4e}");
+    }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// The values that an enumeration takes, with their meaning.
+fn choices(schema: &Value, field: &Value) -> String {
+    let reference = [field, &field["allOf"][0], &field["anyOf"][0], &field["oneOf"][0]]
+        .into_iter()
+        .find_map(|f| f["$ref"].as_str());
+    let Some(name) = reference.and_then(|r| r.strip_prefix("#/definitions/")) else {
+        return String::new();
+    };
+    let values: Vec<String> = schema["definitions"][name]["oneOf"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|choice| {
+            let value = choice["const"].as_str()?;
+            let meaning = choice["description"].as_str().unwrap_or_default();
+            Some(format!("`{value}`: {}", meaning.trim_end_matches('.')))
+        })
+        .collect();
+    if values.is_empty() {
+        String::new()
+    } else {
+        format!("{}.", values.join("; "))
+    }
+}
+
+fn parameters(out: &mut String, language: &Language, entry: &Entry) {
+    let schema = language.published(Kind::Gearbox);
+    let union = &schema["definitions"][format!("{}_model", entry.mechanism)]["oneOf"];
+    let own = union
+        .as_array()
+        .into_iter()
+        .flatten()
+        .find(|v| v["properties"]["type"]["const"] == entry.name);
+    let fields: Vec<(&String, &Value)> = own
+        .and_then(|v| v["properties"].as_object())
+        .into_iter()
+        .flatten()
+        .filter(|(name, _)| *name != "type")
+        .collect();
+    if fields.is_empty() {
+        out.push_str("No parameters.\n\n");
+        return;
+    }
+    header(
+        out,
+        &["parameter", "default", "range", "what it is", "evidence of the default"],
+    );
+    for (name, field) in fields {
+        let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
+            (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
+            _ => String::new(),
+        };
+        let default = match &field["default"] {
+            Value::Null => "-".to_owned(),
+            Value::Number(n) => n.as_f64().map_or_else(|| n.to_string(), significant),
+            value => value.to_string(),
+        };
+        let graded = entry.evidence.iter().find(|g| g.key == name);
+        let evidence = graded.map_or_else(String::new, |g| format!("{}: {}", g.grade.name(), g.because));
+        let doc = field["description"].as_str().unwrap_or_default();
+        let choices = choices(&schema, field);
+        let doc = if choices.is_empty() {
+            doc.to_owned()
+        } else {
+            format!("{doc} {choices}")
+        };
+        row(out, &[&format!("`{name}`"), &default, &range, &doc, &evidence]);
+    }
+    out.push('\n');
+}
+
+fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entry: &Entry) {
+    writeln!(out, "## {}\n\n{}\n", entry.name, entry.meaning).unwrap();
+    let head = head_of(entry);
+    if !head.is_empty() {
+        writeln!(out, "{head}\n").unwrap();
+    }
+    parameters(out, language, entry);
+    for graded in entry.evidence.iter().filter(|g| g.key.is_empty()) {
+        writeln!(out, "Evidence: {} ({}).", graded.grade.name(), graded.because).unwrap();
+    }
+    writeln!(out, "Source: {}.\n", entry.source).unwrap();
+    for limit in entry.limits {
+        writeln!(
+            out,
+            "- Stated range of {} [{}]: {} to {} ({}).",
+            limit.name,
+            limit.unit,
+            significant(limit.least),
+            significant(limit.greatest),
+            limit.origin
+        )
+        .unwrap();
+    }
+    for term in entry.terms {
+        let kind = if term.load_dependent {
+            "load-dependent"
+        } else {
+            "not load-dependent"
+        };
+        writeln!(out, "- Term `{}`, {kind}.", term.name).unwrap();
+    }
+    for observed in entry.observed {
+        writeln!(
+            out,
+            "- Observed {} [{}]: {}",
+            observed.name, observed.unit, observed.meaning
+        )
+        .unwrap();
+    }
+    if entry.name == "table" {
+        writeln!(out, "\n```yaml\nmodel: {}\n```\n", entry.example).unwrap();
+        return;
+    }
+    let (value, part) = language.example_of(entry).unwrap();
+    let files = Files::default();
+    let answer = (mechanism.eval)(language.registry(), &files, &value, &part, &Map::new()).unwrap();
+    writeln!(
+        out,
+        "\n```yaml\nmodel: {}\n```\n`gearloss eval {}/{}` answers {} for it at the usual point.\n",
+        entry.example,
+        mechanism.key,
+        entry.name,
+        match answer.moment {
+            Some(moment) => format!("{} W, {} N m", significant(answer.total), significant(moment)),
+            None => significant(answer.total),
+        }
+    )
+    .unwrap();
+}
+
+fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
+    let mut out = format!(
+        "# {}\n\n{} A model answers: {}\n\n",
+        mechanism.key, mechanism.meaning, mechanism.answer
+    );
+    if let Some(section) = &mechanism.section {
+        writeln!(out, "Its parts stand in the section `{}`.\n", section.name).unwrap();
+    }
+    out.push_str("What a model sees, and what formulas and tables may name:\n\n");
+    header(&mut out, &["quantity", "usual", "least", "greatest", "what it is"]);
+    for q in (mechanism.quantities)() {
+        row(
+            &mut out,
+            &[
+                &format!("`{}`", q.name),
+                &significant(q.usual),
+                &significant(q.least),
+                &significant(q.greatest),
+                q.doc.trim(),
+            ],
+        );
+    }
+    out.push('\n');
+    for entry in language.registry().models(mechanism.key) {
+        model(&mut out, language, mechanism, entry);
+    }
+    out.trim_end().to_owned() + "\n"
+}
+
+fn index(language: &Language) -> String {
+    let mut out = String::from(
+        "# Models\n\nGenerated from the program: `UPDATE=1 cargo test --test reference`. Evidence grades are explained in \
+         [CONTRIBUTING.md](../../CONTRIBUTING.md).\n\n",
+    );
+    let mut count = 0;
+    for mechanism in language.registry().mechanisms() {
+        writeln!(out, "## [{0}]({0}.md)\n\n{1}\n", mechanism.key, mechanism.meaning).unwrap();
+        header(&mut out, &["model", "what it is", "evidence", "source"]);
+        for entry in language.registry().models(mechanism.key) {
+            let grade = entry
+                .evidence
+                .iter()
+                .find(|g| g.key.is_empty())
+                .map_or("", |g| g.grade.name());
+            let link = format!("[{0}]({1}.md#{0})", entry.name, mechanism.key);
+            row(&mut out, &[&link, entry.meaning, grade, entry.source]);
+            count += 1;
+        }
+        out.push('\n');
+    }
+    writeln!(
+        out,
+        "{count} models, the four generic ones of each mechanism included.\n"
+    )
+    .unwrap();
+    out.push_str(LEFT_OUT);
+    out
+}
+
+#[test]
+fn the_reference_is_not_stale() {
+    let language = common::language();
+    let mut pages = vec![("README".to_owned(), index(&language))];
+    for mechanism in language.registry().mechanisms() {
+        pages.push((mechanism.key.to_owned(), mechanism_page(&language, mechanism)));
+    }
+    for (name, own) in &pages {
+        let path = common::file(&format!("docs/models/{name}.md"));
+        if std::env::var_os("UPDATE").is_some() {
+            std::fs::write(&path, own).unwrap();
+        }
+        let committed = std::fs::read_to_string(&path).unwrap_or_default();
+        assert!(
+            committed == *own,
+            "docs/models/{name}.md is stale: run `UPDATE=1 cargo test --test reference`"
+        );
+    }
+    let mut committed: Vec<String> = std::fs::read_dir(common::file("docs/models"))
+        .unwrap()
+        .map(|e| e.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+        .collect();
+    committed.sort();
+    let mut names: Vec<String> = pages.into_iter().map(|p| p.0).collect();
+    names.sort();
+    assert_eq!(committed, names, "a page belongs to no mechanism");
+}
