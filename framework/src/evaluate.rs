@@ -270,9 +270,25 @@ impl Transmission {
         state: &State<'_>,
         notes: Notes<'_>,
     ) -> Result<Loss, Undefined> {
+        sound(
+            self.meshes[index]
+                .model
+                .loss(&self.mesh_at(index, tangential, drives, state, notes)),
+        )
+    }
+
+    /// What the model of a mesh sees, one copy.
+    fn mesh_at<'a>(
+        &'a self,
+        index: usize,
+        tangential: f64,
+        drives: Drive,
+        state: &State<'_>,
+        notes: Notes<'a>,
+    ) -> GearMeshAt<'a> {
         let mesh = &self.meshes[index];
         let oil = &state.oils[mesh.oil as usize];
-        sound(mesh.model.loss(&GearMeshAt {
+        GearMeshAt {
             part: &mesh.part,
             torque: (tangential * mesh.seat.pair.working_radius[0]).abs(),
             speed: self.mesh_speed(index, state.speeds),
@@ -286,7 +302,7 @@ impl Transmission {
             conductivity: oil.conductivity,
             x_l: oil.x_l,
             notes,
-        }))
+        }
     }
 
     /// Speed of a mesh's first gear in its carrier's frame; zero where it is rounding. \[rad/s\]

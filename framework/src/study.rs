@@ -96,6 +96,10 @@ pub enum Analysis {
     Compare(CompareEntry),
     /// Losses by mechanism or component over speed.
     Breakdown(BreakdownEntry),
+    /// Several models of one component over speed.
+    ComponentCompare(ComponentCompareEntry),
+    /// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
+    ContactPath(ContactPathEntry),
 }
 
 /// Losses and efficiency over a grid.
@@ -159,6 +163,62 @@ pub struct BreakdownEntry {
     /// Formats to write; absent, both.
     #[serde(default = "both")]
     pub write: Vec<Write>,
+}
+
+/// Several models of one component over speed.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ComponentCompareEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Path of the component, such as `bearings.B1`, `meshes.M1` or `gears.G4.drag.churning`.
+    pub component: String,
+    /// Models by name, each as in a gearbox: `{ type: skf }`. The other components keep theirs.
+    pub models: Ordered<Value>,
+    /// Set of models for everything else; absent, the models of the gearbox.
+    pub model_set: Option<String>,
+    /// Torques.
+    pub torque: TorqueAxis,
+    /// Speeds.
+    pub speed: SpeedAxis,
+    /// CSV file with measured points: columns `torque [Nm]` and `speed [rpm]` of the study's ports, and `loss [W]`. Each is
+    /// compared with every model at that torque and speed.
+    pub measured: Option<String>,
+    /// Formats to write; absent, both.
+    #[serde(default = "both")]
+    pub write: Vec<Write>,
+}
+
+/// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ContactPathEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Mesh, one of `meshes`.
+    pub mesh: String,
+    /// Torque. [Nm]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub torque: f64,
+    /// Speed. [rpm]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub speed: f64,
+    /// Number of places. [-]
+    #[serde(default = "places")]
+    #[schemars(range(min = 3, max = 2001))]
+    pub places: u32,
+    /// Formats to write; absent, both.
+    #[serde(default = "both")]
+    pub write: Vec<Write>,
+}
+
+fn places() -> u32 {
+    101
 }
 
 fn both() -> Vec<Write> {

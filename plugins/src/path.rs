@@ -34,6 +34,10 @@ impl Path {
                 pair.contact_ratio
             ));
         }
+        Ok(Self::of(pair, points))
+    }
+
+    fn of(pair: &Pair, points: Vec<PathPoint>) -> Self {
         let nodes: Vec<PathNode> = points
             .iter()
             .map(|p| {
@@ -50,13 +54,18 @@ impl Path {
             .zip(&nodes)
             .map(|(p, n)| p.weight / pair.base_pitch * p.share * n.sliding)
             .collect();
-        Ok(Self {
+        Self {
             extent: PathExtent::of(&nodes),
             nodes,
             points,
             weights,
             length: pair.facewidth / pair.base_helix.cos(),
-        })
+        }
+    }
+
+    /// Places at even distances over the whole path, its ends included; for looking at, not for integrals.
+    pub fn even(pair: &Pair, sharing: LoadSharing, places: usize) -> Self {
+        Self::of(pair, pair.even_path(sharing, places))
     }
 
     /// Number of points.

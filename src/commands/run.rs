@@ -2,6 +2,8 @@
 
 mod breakdown;
 mod compare;
+mod component_compare;
+mod contact_path;
 mod map;
 mod write;
 
@@ -108,6 +110,8 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::Map(entry) => map::run(&runner, name, entry, out),
             Analysis::Compare(entry) => compare::run(&runner, name, entry, out),
             Analysis::Breakdown(entry) => breakdown::run(&runner, name, entry, out),
+            Analysis::ComponentCompare(entry) => component_compare::run(&runner, name, entry, out),
+            Analysis::ContactPath(entry) => contact_path::run(&runner, name, entry, out),
         };
         match done {
             Ok(()) => {}

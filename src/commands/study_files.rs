@@ -129,6 +129,8 @@ impl Study {
                     (compare.gearbox.as_ref(), Some(&compare.grid), sets)
                 }
                 Analysis::Breakdown(b) => (b.gearbox.as_ref(), None, b.model_sets.iter().collect()),
+                Analysis::ComponentCompare(c) => (c.gearbox.as_ref(), None, c.model_set.iter().collect()),
+                Analysis::ContactPath(c) => (c.gearbox.as_ref(), None, c.model_sets.iter().collect()),
             };
             if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
                 found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));

@@ -4,6 +4,7 @@ use super::Scratch;
 use crate::flow::Status;
 use crate::loads::SupportLoad;
 use crate::loss::{Extent, Loss, Notes, Trace, Undefined};
+use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::transmission::{Case, PartInfo, PartKind, Transmission};
 
 /// Loss of one part, all copies together.
@@ -202,6 +203,19 @@ impl Solution<'_> {
     /// Torque of one copy of a mesh on its first gear, signed. \[Nm\]
     pub fn mesh_torque(&self, mesh: usize) -> f64 {
         self.scratch.tangential[mesh] * self.transmission.meshes[mesh].seat.pair.working_radius[0]
+    }
+
+    /// What the model of a mesh saw, one copy, with nothing noted.
+    pub fn mesh_at(&self, mesh: usize) -> GearMeshAt<'_> {
+        let s = &*self.scratch;
+        let state = crate::attach::State {
+            speeds: &s.speeds,
+            oils: &s.oils,
+            surface: s.surface,
+            loads: &s.loads,
+        };
+        self.transmission
+            .mesh_at(mesh, s.tangential[mesh], s.work.drives[mesh], &state, Notes::MUTED)
     }
 
     /// Loss of each part, in the order of the parts.

@@ -91,6 +91,35 @@ impl Pair {
         }
     }
 
+    /// Places at even distances over the whole path, its ends included, with no weight.
+    pub fn even_path(&self, sharing: LoadSharing, places: usize) -> Vec<PathPoint> {
+        let lines = match sharing {
+            LoadSharing::ContactLines => ContactLines::new(self),
+            _ => None,
+        };
+        let [start, .., end] = self.points;
+        let step = (end - start) / (places.max(2) - 1) as f64;
+        (0..places.max(2))
+            .map(|i| self.place(start + step * i as f64, 0.0, sharing, lines.as_ref()))
+            .collect()
+    }
+
+    fn place(&self, x: f64, weight: f64, sharing: LoadSharing, lines: Option<&ContactLines>) -> PathPoint {
+        let share = lines.map_or_else(|| self.share(sharing, x), |lines| lines.share(x));
+        PathPoint {
+            x,
+            weight,
+            share,
+            // An inclined line is longer than the face is wide.
+            line: if lines.is_some() {
+                share * self.base_helix.cos()
+            } else {
+                share
+            },
+            pairs: self.pairs_at(x),
+        }
+    }
+
     /// Quadrature points, `order` on each smooth piece.
     pub fn path(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
         let rule = gauss::rule(order);
@@ -108,23 +137,7 @@ impl Pair {
         for piece in breaks.windows(2) {
             let (middle, half) = (0.5 * (piece[0] + piece[1]), 0.5 * (piece[1] - piece[0]));
             for (t, w) in &rule {
-                let x = middle + half * t;
-                let share = lines
-                    .as_ref()
-                    .map_or_else(|| self.share(sharing, x), |lines| lines.share(x));
-                // An inclined line is longer than the face is wide.
-                let line = if lines.is_some() {
-                    share * self.base_helix.cos()
-                } else {
-                    share
-                };
-                points.push(PathPoint {
-                    x,
-                    weight: half * w,
-                    share,
-                    line,
-                    pairs: self.pairs_at(middle),
-                });
+                points.push(self.place(middle + half * t, half * w, sharing, lines.as_ref()));
             }
         }
         points

@@ -172,6 +172,19 @@ impl<'a> Build<'a> {
         part: &Arc<M::Part>,
         value: &Value,
     ) -> Result<Slot<M>, Diagnostic> {
+        self.slot_beside(path, part, value)
+    }
+
+    /// Builds a model at a path beside a part of another mechanism, as a nested model sees it.
+    ///
+    /// # Errors
+    /// What building the model finds.
+    pub fn slot_beside<M: Mechanism, P: Any + Send + Sync>(
+        &mut self,
+        path: &str,
+        part: &Arc<P>,
+        value: &Value,
+    ) -> Result<Slot<M>, Diagnostic> {
         path.clone_into(&mut self.path);
         self.part = Some(Arc::clone(part) as Arc<dyn Any + Send + Sync>);
         let built = self.slot_here(value);

@@ -1,0 +1,335 @@
+//! Several models of one component over speed, term by term, with measured points beside them.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::evaluate::{PartLoss, Point};
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::loss::Term;
+use gearloss_framework::resolve::Choice;
+use gearloss_framework::study::ComponentCompareEntry;
+use gearloss_framework::transmission::Transmission;
+use serde_json::{Value, json};
+
+use super::super::solve::RPM;
+use super::map::{spread, tidy};
+use super::write::{cell, head, write};
+use super::{Built, Runner, axis};
+use crate::output::{Failure, Out, Table, number};
+
+/// The component under one model at one point.
+struct Answer {
+    torque: f64,
+    speed: f64,
+    loss: PartLoss,
+}
+
+/// One model with its answers.
+struct Model<'a> {
+    built: Built<'a>,
+    terms: &'static [Term],
+    answers: Vec<Answer>,
+}
+
+/// One measured point. \[Nm, rad/s, W\]
+struct Measured {
+    torque: f64,
+    speed: f64,
+    watts: f64,
+}
+
+/// The slot of a component: drags are slots themselves.
+fn slot(component: &str) -> String {
+    if component.contains(".drag.") {
+        component.to_owned()
+    } else {
+        format!("{component}.model")
+    }
+}
+
+pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: &mut Out) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let torques = axis(runner, &format!("{path}.torque"), entry.torque.values())?;
+    let speeds = axis(runner, &format!("{path}.speed"), entry.speed.values())?;
+    let points: Vec<(f64, f64)> = torques
+        .iter()
+        .flat_map(|t| speeds.iter().map(move |w| (*t, *w)))
+        .collect();
+    let measured = match &entry.measured {
+        Some(file) => read(runner, &format!("{path}.measured"), file)?,
+        None => Vec::new(),
+    };
+    let mut models = Vec::new();
+    for (model, value) in entry.models.iter() {
+        let mut choice: Choice = runner.study.choice(entry.model_set.as_deref());
+        choice.overrides.push((slot(&entry.component), value.clone()));
+        let resolved = gearbox.resolve(runner.language, &choice)?;
+        let transmission = gearbox.build(runner.language, &resolved)?;
+        let first = transmission.states().first().map_or("", |s| s.name.as_str());
+        let gear = entry.gear.clone().unwrap_or_else(|| first.to_owned());
+        let part = transmission.parts().iter().position(|p| p.path == entry.component);
+        let Some(part) = part else {
+            return Err(no_part(runner, &path, &entry.component, &transmission));
+        };
+        let mut answers = answers(runner, &transmission, &gear, part, &points)
+            .map_err(|list| Failure::from(gearbox.findings(list)))?;
+        let at_measured: Vec<(f64, f64)> = measured.iter().map(|m| (m.torque, m.speed)).collect();
+        answers.extend(
+            self::answers(runner, &transmission, &gear, part, &at_measured)
+                .map_err(|list| Failure::from(gearbox.findings(list)))?,
+        );
+        let notes = transmission.parts()[part].notes;
+        models.push(Model {
+            terms: transmission.instances()[notes.instance].entry.terms,
+            built: Built {
+                name: model.to_owned(),
+                gearbox,
+                resolved,
+                transmission,
+            },
+            answers,
+        });
+    }
+    let rows = rows(&models, &points, &measured);
+    show(name, entry, &models, &torques, &speeds, out)?;
+    let deviations = deviations(&models, &points, &measured);
+    for (model, mean, rms) in &deviations {
+        out.line(format!(
+            "{model}: model minus measurement {} % in the mean, {} % rms, {} points",
+            number(Some(*mean), 1),
+            number(Some(*rms), 1),
+            measured.len()
+        ))?;
+    }
+    out.line("")?;
+    let header = [
+        "model",
+        "torque_nm",
+        "speed_rpm",
+        "term",
+        "loss_w",
+        "moment_nm",
+        "undefined",
+    ]
+    .map(str::to_owned);
+    let mut value = head(runner, name, &models.iter().map(|m| &m.built).collect::<Vec<_>>());
+    value["component"] = entry.component.clone().into();
+    value["models"] = models.iter().map(|m| json_of(m, points.len())).collect();
+    value["measured"] = measured
+        .iter()
+        .map(|m| json!({ "torque_nm": m.torque, "speed_rpm": tidy(m.speed * RPM), "loss_w": m.watts }))
+        .collect();
+    value["deviations"] = deviations
+        .iter()
+        .map(|(model, mean, rms)| json!({ "model": model, "mean_percent": mean, "rms_percent": rms }))
+        .collect();
+    write(runner, name, &entry.write, &header, &rows, &value)?;
+    Ok(())
+}
+
+fn no_part(runner: &Runner<'_>, path: &str, component: &str, transmission: &Transmission) -> Failure {
+    let paths: Vec<&str> = transmission.parts().iter().map(|p| p.path.as_str()).collect();
+    let error = gearloss_framework::attach::dangling(&format!("{path}.component"), "component", component, &paths);
+    runner.study.findings(vec![error]).into()
+}
+
+fn answers(
+    runner: &Runner<'_>,
+    transmission: &Transmission,
+    gear: &str,
+    part: usize,
+    points: &[(f64, f64)],
+) -> Result<Vec<Answer>, Vec<Diagnostic>> {
+    let given = runner.points(transmission, gear, Vec::new(), Vec::new());
+    let case = given.case(transmission)?;
+    let temperatures = vec![given.temperature; transmission.nodes()];
+    let mut scratch = transmission.scratch(&case);
+    Ok(points
+        .iter()
+        .map(|(torque, speed)| {
+            let torques = [*torque];
+            let point = Point {
+                speeds: &[*speed],
+                torques: &torques[..case.torque_ports.len()],
+                flow: given.flow,
+                tolerance: Tolerance::default(),
+            };
+            let solution = transmission.evaluate(&case, &point, &temperatures, &mut scratch);
+            let loss = solution.explain(part).0;
+            Answer {
+                torque: *torque,
+                speed: *speed,
+                loss,
+            }
+        })
+        .collect())
+}
+
+/// Loss of all copies, where it has a value.
+fn watts(answer: &Answer) -> Option<f64> {
+    answer.loss.result.is_ok().then(|| answer.loss.watts())
+}
+
+fn rows(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
+    let mut row = |model: &str, torque: f64, speed: f64, term: &str, rest: [String; 3]| {
+        let mut cells = vec![
+            model.to_owned(),
+            cell(Some(torque)),
+            cell(Some(tidy(speed * RPM))),
+            term.to_owned(),
+        ];
+        cells.extend(rest);
+        rows.push(cells);
+    };
+    for model in models {
+        for answer in &model.answers[..points.len()] {
+            let reason = answer.loss.result.err().map_or_else(String::new, |u| u.to_string());
+            let (name, t, w) = (&model.built.name, answer.torque, answer.speed);
+            let whole = [cell(watts(answer)), cell(answer.loss.moment()), reason.clone()];
+            row(name, t, w, "total", whole);
+            for term in model.terms {
+                let power = watts(answer).map(|_| answer.loss.term_watts(term.index));
+                row(name, t, w, term.name, [cell(power), String::new(), reason.clone()]);
+            }
+        }
+    }
+    for point in measured {
+        let rest = [cell(Some(point.watts)), String::new(), String::new()];
+        row("measured", point.torque, point.speed, "total", rest);
+    }
+    rows
+}
+
+fn json_of(model: &Model<'_>, points: usize) -> Value {
+    let answers: Vec<Value> = model.answers[..points]
+        .iter()
+        .map(|a| {
+            let terms: serde_json::Map<String, Value> = model
+                .terms
+                .iter()
+                .map(|t| (t.name.to_owned(), json!(watts(a).map(|_| a.loss.term_watts(t.index)))))
+                .collect();
+            json!({
+                "torque_nm": a.torque,
+                "speed_rpm": tidy(a.speed * RPM),
+                "loss_w": watts(a),
+                "moment_nm": a.loss.moment(),
+                "terms_w": terms,
+                "undefined": a.loss.result.err().map(|u| u.to_string()),
+            })
+        })
+        .collect();
+    json!({ "model": model.built.name, "points": answers })
+}
+
+fn show(
+    name: &str,
+    entry: &ComponentCompareEntry,
+    models: &[Model<'_>],
+    torques: &[f64],
+    speeds: &[f64],
+    out: &mut Out,
+) -> Result<(), Failure> {
+    let shown = spread(speeds.len());
+    for (t, torque) in torques.iter().enumerate() {
+        out.line(format!("{name}: loss in W of {}, {torque} Nm", entry.component))?;
+        let mut titles = vec!["model".to_owned(), "term".to_owned()];
+        titles.extend(shown.iter().map(|i| format!("{:.0} rpm", speeds[*i] * RPM)));
+        let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+        for model in models {
+            let at = |i: usize| &model.answers[t * speeds.len() + i];
+            let mut row = vec![model.built.name.clone(), "total".to_owned()];
+            row.extend(shown.iter().map(|i| number(watts(at(*i)), 3)));
+            table.row(row);
+            for term in model.terms.iter().filter(|_| model.terms.len() > 1) {
+                let mut row = vec![String::new(), term.name.to_owned()];
+                row.extend(shown.iter().map(|i| {
+                    let answer = at(*i);
+                    number(watts(answer).map(|_| answer.loss.term_watts(term.index)), 3)
+                }));
+                table.row(row);
+            }
+        }
+        out.text(&table.render())?;
+        out.line("")?;
+    }
+    Ok(())
+}
+
+/// Mean and rms deviation from the measured points in percent, by model; points without a value are left out.
+fn deviations(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]) -> Vec<(String, f64, f64)> {
+    models
+        .iter()
+        .filter_map(|model| {
+            let gaps: Vec<f64> = model.answers[points.len()..]
+                .iter()
+                .zip(measured)
+                .filter_map(|(answer, m)| watts(answer).map(|w| 100.0 * (w - m.watts) / m.watts))
+                .collect();
+            let count = gaps.len() as f64;
+            (!gaps.is_empty()).then(|| {
+                let mean = gaps.iter().sum::<f64>() / count;
+                let rms = (gaps.iter().map(|g| g * g).sum::<f64>() / count).sqrt();
+                (model.built.name.clone(), mean, rms)
+            })
+        })
+        .collect()
+}
+
+/// Reads measured points.
+fn read(runner: &Runner<'_>, path: &str, file: &str) -> Result<Vec<Measured>, Failure> {
+    let full = runner.study.folder.join(file);
+    let fault = |reason: String, mend: &str| -> Failure {
+        runner
+            .study
+            .findings(vec![
+                Diagnostic::error(path, format!("{file}: {reason}")).mend(mend.to_owned()),
+            ])
+            .into()
+    };
+    let columns = "name the columns `torque [Nm]`, `speed [rpm]` and `loss [W]`";
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_path(&full)
+        .map_err(|e| fault(e.to_string(), "file names are relative to the study"))?;
+    let header = reader.headers().map_err(|e| fault(e.to_string(), columns))?.clone();
+    let mut places = [0; 3];
+    for (place, name) in places.iter_mut().zip(["torque [Nm]", "speed [rpm]", "loss [W]"]) {
+        *place = header
+            .iter()
+            .position(|h| h == name)
+            .ok_or_else(|| fault(format!("no column `{name}`"), columns))?;
+    }
+    let mut points = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|e| fault(e.to_string(), "give every row as many cells"))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let mut numbers = [0.0; 3];
+        for (number, place) in numbers.iter_mut().zip(places) {
+            *number = record[place]
+                .parse::<f64>()
+                .ok()
+                .filter(|x| x.is_finite())
+                .ok_or_else(|| {
+                    fault(
+                        format!("line {line}: `{}` is not a number", &record[place]),
+                        "correct the cell",
+                    )
+                })?;
+        }
+        let [torque, speed, watts] = numbers;
+        if watts <= 0.0 {
+            return Err(fault(
+                format!("line {line}: a loss of {watts} W"),
+                "give losses above zero",
+            ));
+        }
+        points.push(Measured {
+            torque,
+            speed: speed / RPM,
+            watts,
+        });
+    }
+    Ok(points)
+}

@@ -1,0 +1,245 @@
+//! Sliding and rolling speed, load share, Hertz pressure, friction, film and loss along the path of contact of one mesh.
+
+use std::sync::Arc;
+
+use gearloss_framework::evaluate::Point;
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::loss::Notes;
+use gearloss_framework::mechanism::gear_mesh::MeshPart;
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
+use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
+use gearloss_framework::registry::{Build, ModelRef, Slot};
+use gearloss_framework::study::ContactPathEntry;
+use gearloss_plugins::contact::{self, Film};
+use gearloss_plugins::path::Path;
+use serde_json::{Value, json};
+
+use super::super::solve::RPM;
+use super::map::{spread, tidy};
+use super::write::{cell, head, write};
+use super::{Built, Runner};
+use crate::output::{Failure, Out, Table, number};
+
+/// One place on the path.
+struct Place {
+    /// Distance from the pitch point, towards the tip of the first gear. \[mm\]
+    from_pitch: f64,
+    /// Share of the normal force on one pair.
+    share: f64,
+    /// \[m/s\]
+    sliding: f64,
+    /// \[m/s\]
+    sum_speed: f64,
+    /// \[mm\]
+    radius: f64,
+    /// \[GPa\]
+    pressure: f64,
+    /// Least film, isothermal, Dowson and Higginson. \[um\]
+    film: f64,
+    /// Coefficient of friction, where the model has one.
+    mu: Option<f64>,
+    /// Power lost in sliding of one pair there. \[W\]
+    loss: Option<f64>,
+}
+
+/// The law of friction within the model of a mesh.
+enum Friction {
+    Local(Slot<ToothFriction>),
+    Mean(Slot<MeanFriction>),
+    /// The model of the mesh shows none.
+    Hidden,
+}
+
+impl Friction {
+    /// The law that the model of a mesh holds in a slot.
+    fn of(build: &mut Build<'_>, path: &str, part: &Arc<MeshPart>, model: &Value) -> Result<Self, Failure> {
+        let failed = |d: gearloss_framework::document::Diagnostic| Failure::Input(format!("{d}\n"));
+        if let Some(value) = model.get("tooth_friction") {
+            let slot = ModelRef::<ToothFriction>::new(value.clone());
+            let built = build.slot_beside(&format!("{path}.tooth_friction"), part, &slot.value);
+            return built.map(Self::Local).map_err(failed);
+        }
+        if let Some(value) = model.get("mean_friction") {
+            let built = build.slot_at(&format!("{path}.mean_friction"), part, value);
+            return built.map(Self::Mean).map_err(failed);
+        }
+        Ok(Self::Hidden)
+    }
+}
+
+pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut Out) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let built = runner.built(gearbox, &entry.model_sets)?;
+    let header = [
+        "model_set",
+        "mesh",
+        "from_pitch_point_mm",
+        "load_share",
+        "sliding_speed_m_s",
+        "sum_speed_m_s",
+        "radius_mm",
+        "hertz_pressure_gpa",
+        "film_um",
+        "mu",
+        "sliding_loss_w",
+    ]
+    .map(str::to_owned);
+    let (mut rows, mut results) = (Vec::new(), Vec::new());
+    for b in &built {
+        let (places, torque) = places(runner, &path, entry, b)?;
+        for p in &places {
+            let mut row = vec![b.name.clone(), entry.mesh.clone()];
+            row.extend(
+                [
+                    p.from_pitch,
+                    p.share,
+                    p.sliding,
+                    p.sum_speed,
+                    p.radius,
+                    p.pressure,
+                    p.film,
+                ]
+                .map(|x| cell(Some(x))),
+            );
+            row.extend([cell(p.mu), cell(p.loss)]);
+            rows.push(row);
+        }
+        show(name, entry, b, torque, &places, out)?;
+        results.push(json!({
+            "model_set": b.name,
+            "mesh": entry.mesh,
+            "mesh_torque_nm": torque,
+            "places": places.iter().map(|p| json!({
+                "from_pitch_point_mm": p.from_pitch, "load_share": p.share, "sliding_speed_m_s": p.sliding,
+                "sum_speed_m_s": p.sum_speed, "radius_mm": p.radius, "hertz_pressure_gpa": p.pressure,
+                "film_um": p.film, "mu": p.mu, "sliding_loss_w": p.loss,
+            })).collect::<Vec<_>>(),
+        }));
+    }
+    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
+    value["torque_nm"] = json!(entry.torque);
+    value["speed_rpm"] = json!(tidy(entry.speed * RPM));
+    value["paths"] = Value::Array(results);
+    write(runner, name, &entry.write, &header, &rows, &value)?;
+    Ok(())
+}
+
+/// The places along the path under one set, and the torque of the mesh on its first gear.
+fn places(
+    runner: &Runner<'_>,
+    path: &str,
+    entry: &ContactPathEntry,
+    built: &Built<'_>,
+) -> Result<(Vec<Place>, f64), Failure> {
+    let t = &built.transmission;
+    let own = format!("meshes.{}", entry.mesh);
+    let Some(index) = t.meshes().position(|(path, _)| path == own) else {
+        let names: Vec<&str> = t.meshes().map(|(path, _)| path.trim_start_matches("meshes.")).collect();
+        let error = gearloss_framework::attach::dangling(&format!("{path}.mesh"), "mesh", &entry.mesh, &names);
+        return Err(runner.study.findings(vec![error]).into());
+    };
+    let first = t.states().first().map_or("", |s| s.name.as_str());
+    let given = runner.points(t, entry.gear.as_deref().unwrap_or(first), Vec::new(), Vec::new());
+    let case = given
+        .case(t)
+        .map_err(|list| Failure::from(built.gearbox.findings(list)))?;
+    let torques = [entry.torque];
+    let point = Point {
+        speeds: &[entry.speed],
+        torques: &torques[..case.torque_ports.len()],
+        flow: given.flow,
+        tolerance: Tolerance::default(),
+    };
+    let mut scratch = t.scratch(&case);
+    let solution = t.evaluate(&case, &point, &vec![given.temperature; t.nodes()], &mut scratch);
+    let at = solution.mesh_at(index);
+    let part = Arc::new(at.part.clone());
+    let model = &built.resolved.value["meshes"][&entry.mesh]["model"];
+    let sharing: LoadSharing = serde_json::from_value(model["load_sharing"].clone()).unwrap_or_default();
+    let mut build = Build::new(runner.language.registry(), &built.gearbox.files);
+    let friction = Friction::of(&mut build, &format!("{own}.model"), &part, model)?;
+    let mean = MeanFrictionAt::of(&at, Notes::MUTED);
+    let fine = Path::even(&part.pair, sharing, entry.places as usize);
+    let along: PathAt<'_> = fine.at(&mean, Notes::MUTED);
+    let loaded = at.speed != 0.0 && at.torque != 0.0;
+    let mu: Option<Vec<f64>> = match &friction {
+        _ if !loaded => None,
+        Friction::Hidden => None,
+        Friction::Local(slot) => {
+            let mut mu = vec![0.0; fine.len()];
+            slot.along(&along, &mut mu).is_ok().then_some(mu)
+        }
+        Friction::Mean(slot) => slot.mu(&mean).ok().map(|mu| vec![mu; fine.len()]),
+    };
+    let pitch = part.pair.points[2];
+    let places = fine
+        .nodes()
+        .iter()
+        .zip(fine.points())
+        .enumerate()
+        .map(|(i, (node, p))| {
+            let contact = along.contact(node);
+            let mu = mu.as_ref().map(|mu| mu[i]);
+            Place {
+                from_pitch: (p.x - pitch) * 1e3,
+                share: p.share,
+                sliding: contact.sliding,
+                sum_speed: contact.sum_speed,
+                radius: contact.radius * 1e3,
+                pressure: contact.pressure * 1e-9,
+                film: contact::film(&contact, Film::DowsonHigginson, false) * 1e6,
+                mu,
+                loss: mu.map(|mu| mu * p.share * mean.normal_force * contact.sliding),
+            }
+        })
+        .collect();
+    Ok((places, solution.mesh_torque(index)))
+}
+
+fn show(
+    name: &str,
+    entry: &ContactPathEntry,
+    built: &Built<'_>,
+    torque: f64,
+    places: &[Place],
+    out: &mut Out,
+) -> Result<(), Failure> {
+    out.line(format!(
+        "{name}: path of contact of {}, {torque:.3} Nm on its first gear, models {}",
+        entry.mesh, built.name
+    ))?;
+    let mut table = Table::new(&[
+        "mm from pitch",
+        "share",
+        "sliding m/s",
+        "sum m/s",
+        "p_H GPa",
+        "film um",
+        "mu",
+        "loss W",
+    ]);
+    for i in spread(places.len()) {
+        let p = &places[i];
+        table.row(vec![
+            format!("{:.3}", p.from_pitch),
+            format!("{:.3}", p.share),
+            format!("{:.3}", p.sliding),
+            format!("{:.3}", p.sum_speed),
+            format!("{:.3}", p.pressure),
+            format!("{:.3}", p.film),
+            number(p.mu, 4),
+            number(p.loss, 2),
+        ]);
+    }
+    out.text(&table.render())?;
+    if places.iter().all(|p| p.mu.is_none()) {
+        out.line(format!(
+            "the model of {} shows no friction along the path: only geometry, load and film",
+            entry.mesh
+        ))?;
+    }
+    out.line("")?;
+    Ok(())
+}

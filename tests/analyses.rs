@@ -1,0 +1,112 @@
+//! The analyses of one component and of one path of contact agree with the whole transmission.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+/// Runs a study on the two-speed example; the folder of its results.
+fn run(name: &str, analyses: &str, files: &[(&str, &str)]) -> (PathBuf, String) {
+    let folder = std::env::temp_dir().join(format!("gearloss-analyses-{}-{name}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
+    let study = format!(
+        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nanalyses:\n{analyses}",
+        gearbox.display()
+    );
+    std::fs::write(folder.join("study.yaml"), study).unwrap();
+    for (file, text) in files {
+        std::fs::write(folder.join(file), text).unwrap();
+    }
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .arg("run")
+        .arg(folder.join("study.yaml"))
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    (folder, text)
+}
+
+fn json(folder: &std::path::Path, name: &str) -> Value {
+    let path = folder.join(format!("results/{name}.json"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+const POINT: &str = "torque: 10 Nm, speed: 10000 rpm";
+
+#[test]
+fn the_loss_along_the_path_is_that_of_the_mesh() {
+    let analyses = format!(
+        "  contact: {{ type: contact_path, model_sets: [joint], mesh: M1, {POINT}, places: 2001 }}\n  \
+           whole: {{ type: breakdown, model_sets: [joint], by: component, {POINT} }}\n"
+    );
+    let (folder, text) = run("path", &analyses, &[]);
+    let contact = json(&folder, "contact");
+    let places = contact["paths"][0]["places"].as_array().expect(&text);
+    let column = |key: &str| -> Vec<f64> { places.iter().map(|p| p[key].as_f64().unwrap()).collect() };
+    let integral = |values: &[f64]| -> f64 {
+        let x = column("from_pitch_point_mm");
+        x.windows(2)
+            .zip(values.windows(2))
+            .map(|(x, y)| 0.5 * (y[0] + y[1]) * (x[1] - x[0]))
+            .sum()
+    };
+    // The shares add up to one base pitch, so the mean over a cycle needs no other length.
+    let mean = integral(&column("sliding_loss_w")) / integral(&column("load_share"));
+    let whole = json(&folder, "whole");
+    let breakdown = &whole["breakdowns"][0];
+    let shares = breakdown["shares"].as_array().unwrap();
+    let place = shares.iter().position(|s| s == "meshes.M1").unwrap();
+    let mesh = breakdown["points"][0]["loss"][place].as_f64().unwrap();
+    // The trapezium crosses four jumps of the share.
+    assert!((mean / mesh - 1.0).abs() < 3e-3, "{mean} {mesh}");
+}
+
+#[test]
+fn models_of_one_component_stand_beside_measured_points() {
+    let analyses = "  b1:\n    type: component_compare\n    component: bearings.B1\n    torque: [10 Nm]\n    speed: [5000 rpm, 10000 rpm]\n    \
+                    measured: measured.csv\n    models: { iso: { type: iso14179_2 }, double: { type: iso14179_2, f1: 0.0018 }, off: none }\n";
+    let first = run(
+        "compare",
+        analyses,
+        &[("measured.csv", "torque [Nm],speed [rpm],loss [W]\n10,5000,1\n")],
+    );
+    let compared = json(&first.0, "b1");
+    let loss = |model: usize, point: usize| compared["models"][model]["points"][point]["loss_w"].as_f64().unwrap();
+    let term = |model: usize, name: &str| {
+        compared["models"][model]["points"][0]["terms_w"][name]
+            .as_f64()
+            .unwrap()
+    };
+    assert!(loss(0, 1) > loss(0, 0) && loss(2, 0) == 0.0);
+    assert!((term(0, "load") + term(0, "no_load") - loss(0, 0)).abs() < 1e-12);
+    // A bearing that loses 0.1 % more of the power leaves that much less load, to the power of 1.55.
+    assert!((term(1, "load") / term(0, "load") - 2.0).abs() < 1e-2);
+    let percent = compared["deviations"][0]["mean_percent"].as_f64().unwrap();
+    assert!((percent - 100.0 * (loss(0, 0) - 1.0)).abs() < 1e-9, "{percent}");
+    let csv = std::fs::read_to_string(first.0.join("results/b1.csv")).unwrap();
+    assert!(csv.contains("measured,10,5000,total,1,"), "{csv}");
+}
+
+#[test]
+fn wrong_names_and_files_say_what_to_write() {
+    let (_, text) = run(
+        "wrong",
+        "  a: { type: contact_path, mesh: M9, torque: 1 Nm, speed: 100 rpm }\n  \
+           b: { type: component_compare, component: bearings.B9, models: { x: { type: skf } }, torque: 1 Nm, speed: 100 rpm }\n  \
+           c: { type: component_compare, component: bearings.B1, models: { x: { type: skff } }, torque: 1 Nm, speed: 100 rpm }\n  \
+           d: { type: component_compare, component: bearings.B1, models: { x: { type: skf } }, torque: 1 Nm, speed: 100 rpm, measured: none.csv }\n",
+        &[],
+    );
+    for words in [
+        "no mesh is called `M9`",
+        "B9",
+        "write `skf`",
+        "none.csv",
+        "4 of 4 analyses failed",
+    ] {
+        assert!(text.contains(words), "{words} is missing:\n{text}");
+    }
+}
