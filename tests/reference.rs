@@ -263,6 +263,14 @@ fn index(language: &Language) -> String {
 }
 
 #[test]
+fn the_model_shown_to_contributors_is_the_one_that_ships() {
+    let text = std::fs::read_to_string(common::file("CONTRIBUTING.md")).unwrap();
+    let shown = text.split("```rust\n").nth(1).unwrap().split("\n```").next().unwrap();
+    let ships = std::fs::read_to_string(common::file("plugins/src/seal/linke.rs")).unwrap();
+    assert!(ships.starts_with(shown), "CONTRIBUTING.md shows another seal/linke.rs");
+}
+
+#[test]
 fn the_reference_is_not_stale() {
     let language = common::language();
     let mut pages = vec![("README".to_owned(), index(&language))];
