@@ -138,7 +138,7 @@ struct NoParams {}
 /// A formula.
 #[derive(Deserialize, JsonSchema)]
 struct FormulaParams {
-    /// Formula over the quantities of the context, such as `0.02 + 1e-6 * speed * nu`. `gearloss models` lists them with
+    /// Formula over the quantities of the context, such as `0.02 + 1e-6 * abs(speed) * nu`. `gearloss models` lists them with
     /// their units.
     formula: String,
 }
@@ -245,6 +245,12 @@ impl<M: Mechanism> Lookup<M> {
         let mut inputs = [0.0; 4];
         for (input, q) in inputs.iter_mut().zip(&self.axes) {
             *input = q.unit().from_si((q.get)(at));
+        }
+        // A table over speeds that are not negative holds for both senses of rotation.
+        for (input, (axis, q)) in inputs.iter_mut().zip(self.table.axes().iter().zip(&self.axes)) {
+            if q.least < 0.0 && q.unit().symbol == "rpm" && axis.values[0] >= 0.0 {
+                *input = input.abs();
+            }
         }
         self.table.value(&inputs[..self.axes.len()])
     }

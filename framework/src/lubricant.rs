@@ -50,23 +50,26 @@ struct Usual {
     gold: (f64, f64),
     /// Thermal expansion, in the middle of the usual range. \[1/K\]
     expansion: f64,
+    /// Density at 15 degC. \[kg/m3\]
+    density: f64,
     mu_ehl: f64,
     x_l: f64,
 }
 
 fn usual(kind: LubricantKind) -> Usual {
-    let usual = |gold, expansion, mu_ehl, x_l| Usual {
+    let usual = |gold, expansion, density, mu_ehl, x_l| Usual {
         gold,
         expansion,
+        density,
         mu_ehl,
         x_l,
     };
     match kind {
-        LubricantKind::Mineral => usual((9.904, 0.1390), 6.2e-4, 0.05, 1.0),
-        LubricantKind::Polyalphaolefin => usual((7.382, 0.1335), 6.2e-4, 0.04, 0.8),
-        LubricantKind::Ester => usual((6.605, 0.1360), 7.4e-4, 0.04, 0.8),
-        LubricantKind::Polyglycol => usual((5.489, 0.1485), 7.1e-4, 0.04, 0.75),
-        LubricantKind::TransmissionFluid => usual((9.904, 0.1390), 7.0e-4, 0.10, 1.0),
+        LubricantKind::Mineral => usual((9.904, 0.1390), 6.2e-4, 900.0, 0.05, 1.0),
+        LubricantKind::Polyalphaolefin => usual((7.382, 0.1335), 6.2e-4, 855.0, 0.04, 0.8),
+        LubricantKind::Ester => usual((6.605, 0.1360), 7.4e-4, 915.0, 0.04, 0.8),
+        LubricantKind::Polyglycol => usual((5.489, 0.1485), 7.1e-4, 1059.0, 0.04, 0.75),
+        LubricantKind::TransmissionFluid => usual((9.904, 0.1390), 7.0e-4, 850.0, 0.10, 1.0),
     }
 }
 
@@ -182,10 +185,11 @@ fn viscosity(entry: &ViscosityEntry, density: &Density) -> Result<Viscosity, Fau
 }
 
 fn density(entry: &DensityEntry, usual: &Usual) -> Density {
+    let value = entry.value.unwrap_or(usual.density);
     match entry.law {
-        DensityLaw::Linear => Density::linear(entry.value, entry.at, entry.expansion.unwrap_or(usual.expansion)),
-        DensityLaw::Din51757 => Density::din_51757(entry.value, entry.at),
-        DensityLaw::Api => Density::api(entry.value, entry.at),
+        DensityLaw::Linear => Density::linear(value, entry.at, entry.expansion.unwrap_or(usual.expansion)),
+        DensityLaw::Din51757 => Density::din_51757(value, entry.at),
+        DensityLaw::Api => Density::api(value, entry.at),
     }
 }
 

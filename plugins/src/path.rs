@@ -20,7 +20,7 @@ pub struct Path {
 
 impl Path {
     /// The most points on a path.
-    pub const MOST: usize = 96;
+    const MOST: usize = 96;
 
     /// The path of a pair with its load shared.
     ///
@@ -89,7 +89,7 @@ impl Path {
     }
 
     /// The path at one operating point.
-    pub fn at<'a>(&'a self, mean: &MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
+    pub fn at<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
         PathAt {
             nodes: &self.nodes,
             extent: &self.extent,
@@ -106,8 +106,18 @@ impl Path {
             beta: mean.beta,
             conductivity: mean.conductivity,
             x_l: mean.x_l,
-            mean: *mean,
+            mean,
             notes,
+        }
+    }
+
+    /// Runs with space for friction at each point; most paths need little, and zeroing more costs time.
+    pub fn with_space<R>(&self, run: impl FnOnce(&mut [f64]) -> R) -> R {
+        const FEW: usize = 24;
+        if self.len() <= FEW {
+            run(&mut [0.0; FEW][..self.len()])
+        } else {
+            run(&mut [0.0; Self::MOST][..self.len()])
         }
     }
 

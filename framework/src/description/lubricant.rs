@@ -12,7 +12,7 @@ pub struct LubricantEntry {
     pub kind: Option<LubricantKind>,
     /// Viscosity over temperature; absent, that of the catalogue.
     pub viscosity: Option<ViscosityEntry>,
-    /// Density at a reference temperature; absent, that of the catalogue, else 870 kg/m3 at 15 degC.
+    /// Density at a reference temperature; absent, that of the catalogue, else by kind.
     pub density: Option<DensityEntry>,
     /// How viscosity rises with pressure.
     #[serde(default)]
@@ -116,10 +116,9 @@ pub struct DensityEntry {
     #[serde(default = "fifteen")]
     #[schemars(range(min = -50.0, max = 150.0))]
     pub at: f64,
-    /// Density. [kg/m3]
-    #[serde(default = "usual_density")]
+    /// Density; absent, by kind: 900 mineral, 855 polyalphaolefin, 915 ester, 1059 polyglycol, 850 transmission fluid. [kg/m3]
     #[schemars(range(min = 500.0, max = 1300.0))]
-    pub value: f64,
+    pub value: Option<f64>,
     /// How it falls with temperature.
     #[serde(default)]
     pub law: DensityLaw,
@@ -145,15 +144,11 @@ fn fifteen() -> f64 {
     15.0
 }
 
-fn usual_density() -> f64 {
-    870.0
-}
-
 impl Default for DensityEntry {
     fn default() -> Self {
         Self {
             at: fifteen(),
-            value: usual_density(),
+            value: None,
             law: DensityLaw::default(),
             expansion: None,
         }

@@ -18,7 +18,8 @@ impl Pair {
     /// Evenly spread load: the limit of helical gears with a large overlap ratio.
     pub fn loss_factor_uniform(&self) -> f64 {
         let [e1, e2] = self.addendum_ratio;
-        self.factor() * (e1 * e1 + e2 * e2) / self.contact_ratio
+        // Off the path, one side of the pitch point has a negative part.
+        self.factor() * (e1 * e1.abs() + e2 * e2.abs()).abs() / self.contact_ratio
     }
 
     /// Wimmer 2006: the local loss factor for any load sharing.

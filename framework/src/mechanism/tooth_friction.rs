@@ -189,7 +189,7 @@ pub struct PathAt<'a> {
     /// Lubricant factor of mean mesh friction.
     pub x_l: f64,
     /// The mesh as a law of mean friction sees it.
-    pub mean: MeanFrictionAt<'a>,
+    pub mean: &'a MeanFrictionAt<'a>,
     /// Where limits, observed quantities and steps are noted.
     pub notes: Notes<'a>,
 }

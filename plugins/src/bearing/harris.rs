@@ -24,7 +24,8 @@ pub struct Params {
     /// Factor z; absent, by kind and series. [-]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub z: Option<f64>,
-    /// Contact angle of angular contact, self-aligning, tapered and spherical bearings; absent, 40, 10, 14 and 10 deg. [deg]
+    /// Contact angle of angular contact, self-aligning, tapered and spherical bearings; absent, 40, 10, 14 and 10 deg. Other
+    /// kinds have none. [deg]
     #[schemars(range(min = 1.0, max = 80.0))]
     pub contact_angle: Option<f64>,
 }
@@ -33,28 +34,41 @@ impl Params {
     fn model(&self, part: &BearingPart) -> Result<Palmgren, Lack> {
         use BearingKind as K;
         let cot = |usual: f64| 1.0 / self.contact_angle.unwrap_or(usual.to_radians()).tan();
+        // Static factor of angular contact bearings: 0.26 at 40 deg grows as the cotangent; twice that for two rows.
         let ball = |z, y, usual: f64| {
-            let k_cot = 0.9 * cot(usual);
-            // Static factor of angular contact bearings: 0.26 at 40 deg grows as the cotangent.
             let y0 = part.y0.unwrap_or(0.22 * cot(usual));
-            LoadLaw::new(z, y, Rule::Ball { k_cot, y0 })
+            LoadLaw::new(
+                z,
+                y,
+                Rule::Ball {
+                    k_cot: 0.9 * cot(usual),
+                    y0,
+                },
+            )
+        };
+        let two_rows = |z, y, usual: f64| {
+            let y0 = part.y0.unwrap_or(0.44 * cot(usual));
+            LoadLaw::new(
+                z,
+                y,
+                Rule::BallTwoRows {
+                    k_cot: 0.9 * cot(usual),
+                    y0,
+                },
+            )
         };
         let mut law = match part.kind {
             K::DeepGrooveBall | K::DeepGrooveBallDoubleRow => {
-                // SKF 1994 states 0.0006 to 0.0009 over the same span of series.
                 let skf = rows::load_law(part, 0.55, 3.0, self.z.is_some())?;
-                LoadLaw { z: skf.z / 1.5, ..skf }
+                // The light series of SKF 1994 have less than 0.0009 there.
+                let z = if skf.z < 0.0009 { 0.0004 } else { 0.0006 };
+                LoadLaw { z, ..skf }
             }
-            K::AngularContactBall | K::AngularContactBallDoubleRow | K::FourPointContactBall => ball(0.001, 0.33, 40.0),
-            K::SelfAligningBall => ball(0.0003, 0.40, 10.0),
+            K::AngularContactBall | K::FourPointContactBall => ball(0.001, 0.33, 40.0),
+            K::AngularContactBallDoubleRow => two_rows(0.001, 0.33, 40.0),
+            K::SelfAligningBall => two_rows(0.0003, 0.40, 10.0),
             K::TaperedRoller => LoadLaw::new(0.0004, 0.0, Rule::Roller { k_cot: 0.8 * cot(14.0) }),
-            K::SphericalRoller => {
-                let skf = rows::load_law(part, 0.55, 3.0, self.z.is_some())?;
-                LoadLaw {
-                    rule: Rule::Roller { k_cot: 0.8 * cot(10.0) },
-                    ..skf
-                }
-            }
+            K::SphericalRoller => rows::spherical(part, Rule::Roller { k_cot: 0.8 * cot(10.0) })?,
             _ => rows::load_law(part, 0.55, 3.0, self.z.is_some())?,
         };
         law.z = self.z.unwrap_or(law.z);

@@ -34,6 +34,11 @@ pub enum Rule {
         k_cot: f64,
         y0: f64,
     },
+    /// The same of two rows: P0 = Fr + y0 Fa.
+    BallTwoRows {
+        k_cot: f64,
+        y0: f64,
+    },
     /// P1 = k Fa cot(alpha), after Harris.
     Roller {
         k_cot: f64,
@@ -55,6 +60,7 @@ impl Rule {
             Self::Spherical { .. } => (fr, 0.0),
             Self::Thrust => (fa, fa),
             Self::Ball { k_cot, y0 } => (fr.max(0.5 * fr + y0 * fa), k_cot * fa - 0.1 * fr),
+            Self::BallTwoRows { k_cot, y0 } => (fr + y0 * fa, k_cot * fa - 0.1 * fr),
             Self::Roller { k_cot } => (fr, k_cot * fa),
         };
         (p0, p1.max(fr))
@@ -86,9 +92,9 @@ impl LoadLaw {
 }
 
 /// Where a series stands between light and heavy cross sections.
-const LIGHT: [&str; 22] = [
+const LIGHT: [&str; 23] = [
     "10", "60", "630", "160", "161", "617", "618", "619", "628", "637", "638", "639", "130", "139", "18", "320 X",
-    "329", "230", "238", "239", "240", "292E",
+    "320", "329", "230", "238", "239", "240", "292E",
 ];
 const MIDDLE: [&str; 23] = [
     "2", "12", "20", "62", "622", "112", "29", "30", "50", "302", "322", "322 B", "330", "331", "332", "222", "231",
@@ -164,7 +170,7 @@ pub fn f0_under(part: &BearingPart, lubrication: Lubrication) -> Result<f64, Lac
         K::FourPointContactBall => [one(6.0), one(2.0), one(6.0), one(9.0)],
         K::ThrustBall => [one(5.5), one(0.8), one(1.5), one(3.0)],
         K::CylindricalRoller => [Some((0.6, 1.0)), Some((1.5, 2.8)), Some((2.2, 4.0)), Some((2.2, 4.0))],
-        K::CylindricalRollerFullComplement => [Some((5.0, 10.0)), None, Some((5.0, 10.0)), Some((5.0, 10.0))],
+        K::CylindricalRollerFullComplement => [Some((5.0, 10.0)), None, Some((5.0, 10.0)), None],
         K::NeedleCage => [one(12.0), one(6.0), one(12.0), one(24.0)],
         K::TaperedRoller => [one(6.0), one(3.0), one(6.0), Some((8.0, 10.0))],
         K::SphericalRoller => [Some((3.5, 7.0)), Some((1.7, 3.5)), Some((3.5, 7.0)), Some((7.0, 14.0))],
@@ -182,7 +188,8 @@ pub fn f0_under(part: &BearingPart, lubrication: Lubrication) -> Result<f64, Lac
     let (low, high) = cell.ok_or_else(|| {
         (
             format!("the table has no f0 for this kind of bearing under {lubrication}"),
-            "write `f0:` in the model with your figure, or another `lubrication:`".to_owned(),
+            "write `f0:` (`f0_min:` and `f0_max:` of iso14179_1) in the model with your figure, or another `lubrication:`"
+                .to_owned(),
         )
     })?;
     if low == high {
@@ -251,20 +258,7 @@ pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: b
         K::CylindricalRollerFullComplement => LoadLaw::new(0.00055, 0.0, Rule::Radial),
         K::NeedleCage => LoadLaw::new(0.002, 0.0, Rule::Radial),
         K::TaperedRoller => LoadLaw::new(0.0004, 0.0, Rule::Tapered { y: y()? }),
-        K::SphericalRoller => {
-            let known = || SPHERICAL.map(|row| row.0).join(", ");
-            let row = SPHERICAL
-                .iter()
-                .find(|row| row.0 == name)
-                .ok_or_else(|| no_series(part, "f1", &known()))?;
-            LoadLaw {
-                z: row.1,
-                exponent: 0.0,
-                a: row.2,
-                b: row.3,
-                rule: Rule::Spherical { y: y()? },
-            }
-        }
+        K::SphericalRoller => spherical(part, Rule::Spherical { y: y()? })?,
         K::ToroidalRoller | K::ToroidalRollerFullComplement => {
             return Err((
                 "the tables of Palmgren's form have no toroidal roller bearings".to_owned(),
@@ -282,6 +276,26 @@ pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: b
             };
             LoadLaw::new(z, 0.0, Rule::Thrust)
         }
+    })
+}
+
+/// Load law of a spherical roller bearing with a rule for its loads.
+///
+/// # Errors
+/// A series that the table does not have.
+pub fn spherical(part: &BearingPart, rule: Rule) -> Result<LoadLaw, Lack> {
+    let name = series(part).unwrap_or("");
+    let known = || SPHERICAL.map(|row| row.0).join(", ");
+    let row = SPHERICAL
+        .iter()
+        .find(|row| row.0 == name)
+        .ok_or_else(|| no_series(part, "f1", &known()))?;
+    Ok(LoadLaw {
+        z: row.1,
+        exponent: 0.0,
+        a: row.2,
+        b: row.3,
+        rule,
     })
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Source: Schaeffler, Wälzlager HR 1, recalled; f0 as behind the thermal reference speed of ISO 15312: columns for grease or mist,
 //! and for an oil bath or circulation. Deep groove f1 = 0.0005 to 0.0009 (P0/C0)^0.5 with P1 = 3.3 Fa - 0.1 Fr. Needles have a quarter of
-//! the f1 of SKF 1994, which is disputed.
+//! the f1 of SKF 1994, which is disputed. Axial load on the flanges of cylindrical rollers counts with the f2 of SKF 1994.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingKind, BearingPart, Lubrication};
@@ -85,14 +85,14 @@ fn row(part: &BearingPart) -> Result<Row, Lack> {
         (K::DeepGrooveBall, "619" | "160" | "60") => deep([1.1, 1.7], 0.0007),
         (K::DeepGrooveBall, "2" | "62" | "622") => deep([1.3, 2.0], 0.0009),
         (K::DeepGrooveBall, "3" | "63" | "623" | "64") => deep([1.5, 2.3], 0.0009),
-        (K::DeepGrooveBallDoubleRow, "42") => deep([2.3, 3.5], 0.0010),
-        (K::DeepGrooveBallDoubleRow, "43") => deep([4.0, 6.0], 0.0010),
+        (K::DeepGrooveBallDoubleRow, "42" | "42B") => deep([2.3, 3.5], 0.0010),
+        (K::DeepGrooveBallDoubleRow, "43" | "43B") => deep([4.0, 6.0], 0.0010),
         (K::AngularContactBall, s) if s.starts_with("73") => angular([2.0, 3.0])?,
         (K::AngularContactBall, s) if s.starts_with("70") || s.starts_with("72") => angular([1.3, 2.0])?,
         (K::AngularContactBallDoubleRow, s) if s.starts_with("33") => two_rows([4.0, 6.0])?,
         (K::AngularContactBallDoubleRow, s) if s.starts_with("30") || s.starts_with("32") => two_rows([2.3, 3.5])?,
         (K::FourPointContactBall, "QJ3") => four([2.0, 3.0]),
-        (K::FourPointContactBall, _) => four([1.3, 2.0]),
+        (K::FourPointContactBall, "QJ2") => four([1.3, 2.0]),
         (K::CylindricalRoller, "10") => roller([1.3, 2.0], 0.0002),
         (K::CylindricalRoller, "2") => roller([1.3, 2.0], 0.0003),
         (K::CylindricalRoller, "3") => roller([1.3, 2.0], 0.00035),

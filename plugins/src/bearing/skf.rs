@@ -12,7 +12,7 @@
 mod drag;
 mod rows;
 
-use drag::{Bath, Body, Drag};
+use drag::{Bath, Body, Depth, Drag};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -111,7 +111,7 @@ pub struct Skf {
     /// Coefficient of full-film friction; absent, 0.02 of cylindrical and 0.002 of tapered rollers, else that of the oil. [-]
     #[schemars(range(min = 0.001, max = 0.2))]
     pub mu_ehl: Option<f64>,
-    /// Diameter of a ball or roller, for jet lubrication; absent, 0.3 times the difference of outside and bore. [mm]
+    /// Diameter of a ball or roller; counts under an oil jet only. Absent, 0.3 times the difference of outside and bore. [mm]
     #[schemars(range(min = 0.1, max = 500.0))]
     pub ball: Option<f64>,
     /// Share of the width in the oil of a vertical shaft; absent, the shaft is horizontal. [-]
@@ -203,6 +203,12 @@ impl Model {
 /// The drag of a bearing; absent under grease and oil-air.
 fn drag_of(params: &Skf, part: &BearingPart, row: &rows::Row) -> Result<Option<Drag>, Lack> {
     let (d, big_d) = (part.bore.mm(), part.outside.mm());
+    if params.vertical.is_some() && part.lubrication != Lubrication::Bath {
+        return Err((
+            "`vertical` belongs to an oil bath".to_owned(),
+            "leave `vertical` out, or write `lubrication: bath` at the bearing".to_owned(),
+        ));
+    }
     let bath = match (part.lubrication, params.vertical) {
         (Lubrication::Grease | Lubrication::OilAir, _) => return Ok(None),
         (Lubrication::Jet, _) => Bath::Jet(0.5 * params.ball.map_or(0.3 * (big_d - d), ShopUnits::mm)),
@@ -294,14 +300,11 @@ impl BearingModel for Model {
         Ok(match &self.drag {
             Some(drag) => {
                 let height = at.show("H", "mm", at.oil_height.mm());
-                at.check(
-                    if at.oil_height > 0.5 * at.part.outside {
-                        &VISCOSITY_DEEP
-                    } else {
-                        &VISCOSITY
-                    },
-                    nu,
-                );
+                match drag.depth(height, 0.5 * at.part.outside.mm()) {
+                    Depth::Low => at.check(&VISCOSITY, nu),
+                    Depth::Deep => at.check(&VISCOSITY_DEEP, nu),
+                    Depth::None => nu,
+                };
                 if n > self.fastest {
                     at.branch("n d_m above 0.5e6: the speed of the drag is held there");
                 }
@@ -318,12 +321,13 @@ register!(Bearing, "skf", Skf,
     source: "SKF Rolling bearings, PUB 10000 (2013) and PUB 17000 (2018)",
     example: "{ type: skf, edition: \"2018\" }",
     evidence: [
-        formula(Evidence::SeveralSources, "catalogue pages and three transcriptions of the constants agree"),
+        formula(Evidence::SeveralSources, "catalogue pages and two or three transcriptions agree but for S2 of C22 and C23 and R1 of series H"),
         default_of("edition", Evidence::SeveralSources, "both editions are printed"),
         default_of("ball", Evidence::Assumed, "usual share of the section"),
         default_of("mu_bl", Evidence::SeveralSources, "0.15 in 2013, 0.12 running in 2018, unless the oil states its own"),
         default_of("mu_ehl", Evidence::SeveralSources, "by the kind of oil: 0.05 mineral, 0.04 synthetic, 0.10 transmission fluid"),
-        default_of("vertical", Evidence::SeveralSources, "horizontal shafts"),
+        default_of("vertical", Evidence::OneSource, "horizontal shafts; the share of the width has one source"),
+        default_of("v_m", Evidence::OneSource, "one published point of an earlier diagram"),
         default_of("beyond", Evidence::Assumed, "the law beyond is not public; the limit is noted"),
         default_of("blend_to", Evidence::SeveralSources, "as published, with its step"),
         default_of("needle_as_full_complement", Evidence::Assumed, "no row is published"),

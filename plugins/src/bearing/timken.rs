@@ -50,6 +50,11 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Timken, Diagnostic> {
         cx.error("timken needs `k`, or `y` of the bearing")
             .mend("add `k:` to the model or `y:` to the bearing")
     })?;
+    if k <= 0.0 {
+        return Err(cx
+            .error("K of the bearing is zero")
+            .mend("correct `y:` of the bearing, or add `k:` to the model"));
+    }
     Ok(Timken {
         g1: params.g1,
         k,

@@ -79,6 +79,16 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Discs, Diagnostic> {
             .error("the outer diameter is not greater than the inner")
             .mend("exchange `inner_diameter` and `outer_diameter`, or correct one"));
     }
+    if params.film == Film::Full && params.flow.is_some() {
+        return Err(cx
+            .error("a full film needs no `flow`")
+            .mend("leave `flow` out, or choose `film: coverage`"));
+    }
+    if params.film != Film::PressureBalance && params.mist_viscosity > 0.0 {
+        return Err(cx
+            .error("`mist_viscosity` belongs to the pressure balance")
+            .mend("leave it out, or choose `film: pressure_balance`"));
+    }
     let faces = f64::from(part.faces);
     let flow = match (params.flow, params.film) {
         (Some(flow), _) => flow / faces,

@@ -3,9 +3,8 @@
 //! Source: Dawson: Windage loss in larger high-speed gears, Proc. IMechE 198A (1984) 51-59, recalled:
 //! P = 1e-20 n^2.9 (0.16 D^3.9 + D^2.9 b^0.75 m^1.15) Phi lambda in kW; n in 1/min, D root diameter, b and m in mm.
 //! Phi is 1 in air and more in oil mist; lambda is 1 for a free gear, 0.7 in a loose and 0.5 to 0.6 in a tight case.
-//! For gears of 300 to 1160 mm.
 
-use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
 use gearloss_framework::register;
@@ -16,7 +15,6 @@ use serde::Deserialize;
 use super::WINDAGE;
 
 const TERM: Term = Term::no_load(0, "windage");
-const DIAMETER: Limit = Limit::new(0, "D", "mm", 300.0, 1160.0, "gears of the tests, recalled");
 
 /// Windage of one gear after Dawson.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -54,7 +52,7 @@ impl GearDragModel for Dawson {
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
-        let d = at.check(&DIAMETER, gear.root_diameter.mm());
+        let d = at.show("D", "mm", gear.root_diameter.mm());
         let power = self.power(at.speed.abs().rpm(), d, gear.facewidth.mm(), gear.normal_module.mm());
         Ok(Loss::POWERS.with(&TERM, at.show("P", "W", power)))
     }
@@ -69,7 +67,7 @@ register!(GearDrag, "dawson", Dawson,
         default_of("phi", Evidence::Recalled, "air"),
         default_of("lambda", Evidence::Recalled, "a free gear"),
     ],
-    limits: [DIAMETER], terms: [TERM]);
+    terms: [TERM]);
 
 #[cfg(test)]
 mod tests {

@@ -7,12 +7,13 @@
 //! m2 0.2, Re* = 3e5; teeth C_l = xi z/4 (b/R) (r_a/R)^4 (1 - cos phi)(1 + cos phi)^3, phi = pi/z - 2 (inv alpha_p - inv alpha_A).
 //! The medium is air at the temperature of the oil, with a share of oil by volume for mist.
 
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::involute;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -129,6 +130,20 @@ impl GearDragModel for Diab {
     }
 }
 
+fn prepare(params: Diab, cx: &mut Build<'_>) -> Result<Diab, Diagnostic> {
+    if params.form == Form::Analytical && params.flanges.is_some() {
+        return Err(cx
+            .error("`flanges` belong to the dimensional law")
+            .mend("leave `flanges` out, or write `form: dimensional`"));
+    }
+    if params.form == Form::Dimensional && params.xi != 1.0 {
+        return Err(cx
+            .error("`xi` belongs to the analytical law")
+            .mend("leave `xi` out, or write `form: analytical`"));
+    }
+    Ok(params)
+}
+
 register!(GearDrag, "diab", Diab,
     meaning: "Windage of one gear after Diab, by dimensional analysis or from faces and teeth.",
     source: "Diab, Ville, Velex, Changenet, J. Mech. Des. 126 (2004) 903-908",
@@ -140,7 +155,7 @@ register!(GearDrag, "diab", Diab,
         default_of("xi", Evidence::Recalled, "a free gear"),
         default_of("oil_fraction", Evidence::Assumed, "dry air"),
     ],
-    terms: [TERM]);
+    terms: [TERM], prepare: prepare);
 
 #[cfg(test)]
 mod tests {

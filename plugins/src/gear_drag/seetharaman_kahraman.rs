@@ -40,7 +40,8 @@ fn face(rho: f64, nu: f64, r: f64, omega: f64, depth: f64) -> f64 {
         return 0.0;
     }
     let half = std::f64::consts::FRAC_PI_2;
-    let area = r * r * (half - (1.0 - h).asin() - (1.0 - h) * (h * (2.0 - h)).sqrt());
+    // Both parts of a sliver cancel to rounding.
+    let area = r * r * (half - (1.0 - h).asin() - (1.0 - h) * (h * (2.0 - h)).sqrt()).max(0.0);
     let laminar = 0.41 * rho * nu.sqrt() * speed.powf(2.5) * area / chord.sqrt();
     let turbulent = 0.025 * rho * nu.powf(0.14) * speed.powf(2.86) * area / chord.powf(0.14);
     let t = ((2.0 * chord * speed / nu).log10() - 5.0).clamp(0.0, 1.0);

@@ -44,6 +44,8 @@ struct OnePoint {
     ratio: f64,
     diameter: f64,
     angle: f64,
+    /// One for spur gears.
+    cos_base_helix: f64,
     path: f64,
     contact_ratio: f64,
     facewidth: f64,
@@ -66,6 +68,7 @@ impl OnePoint {
             ratio: f64::from(pair.z[1 - pinion]) / f64::from(pair.z[pinion]),
             diameter: 2.0 * pair.working_radius[pinion],
             angle: pair.working_angle,
+            cos_base_helix: pair.base_helix.cos(),
             path: end - start,
             contact_ratio: pair.contact_ratio,
             facewidth: pair.facewidth,
@@ -79,10 +82,10 @@ impl OnePoint {
         // The printed 0.02618 and 0.2094 are a quarter and twice of one rpm in rad/s.
         let v_s = 0.25 * speed * (1.0 + m) / m * l;
         let v_t = 2.0 * speed * (0.5 * self.diameter * sin - 0.125 * (m - 1.0) / m * l);
-        let load = 2.0 * torque / (self.diameter * self.angle.cos());
+        let load = 2.0 * torque / (self.diameter * self.angle.cos() * self.cos_base_helix);
         let argument = 0.02966 * (load / self.facewidth) / (eta * v_s * v_t * v_t);
         let f = (0.0127 * argument.log10()).max(0.0);
-        let f = self.limits.map_or(f, |[least, most]| f.clamp(least, most.max(least)));
+        let f = self.limits.map_or(f, |[least, most]| f.clamp(least, most));
         let rho_1 = 0.5 * self.diameter * sin + 0.25 * l;
         let rho_2 = 0.5 * m * self.diameter * sin - 0.25 * l;
         let radius = rho_1 * rho_2 / (rho_1 + rho_2);
@@ -102,6 +105,9 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<OnePoint, Diagnostic> {
         return Err(cx
             .error("anderson_loewenthal is for external pairs")
             .mend("give this mesh a model of its own, such as `wimmer`"));
+    }
+    if params.f_limits.is_some_and(|[least, most]| least > most) {
+        return Err(cx.error("`f_limits` fall").mend("write the least coefficient first"));
     }
     let model = OnePoint::new(&part.pair, params.f_limits);
     if model.ratio * 0.5 * model.diameter * model.angle.sin() <= 0.25 * model.path {
@@ -149,6 +155,7 @@ mod tests {
             ratio: 1.5,
             diameter: 73.2e-3,
             angle: 22.4388 * std::f64::consts::PI / 180.0,
+            cos_base_helix: 1.0,
             path: 19.4291e-3,
             contact_ratio: 1.46253,
             facewidth: 14e-3,

@@ -17,10 +17,11 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::mean_friction::schlenk::{LINE_LOAD, MU, Mesh, PITCH_SPEED, Schlenk, SpeedClamp, VISCOSITY};
+use crate::mean_friction::schlenk::{LINE_LOAD, MU, Mesh, OilType, PITCH_SPEED, Schlenk, SpeedClamp, VISCOSITY};
 
 const SLIDING: Term = Term::load(0, "sliding");
 const CONTACT_RATIO: Limit = Limit::new(3, "eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
+const ADDENDUM: Limit = Limit::new(4, "eps_1, eps_2", "-", 0.0, 1.0, "the pitch point lies on the path");
 const LOSS_FACTOR: Observed = Observed::new(1, "H_v", "-", "Tooth loss factor.");
 
 /// Which loss factor counts.
@@ -37,9 +38,11 @@ pub enum LossFactor {
 /// Mesh loss by a loss factor and a mean coefficient of friction.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
-    /// Lubricant factor; absent, that of the oil. [-]
+    /// Lubricant factor; absent, that of `oil`, else that of the lubricant. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
+    /// Oil type whose lubricant factor counts.
+    pub oil: Option<OilType>,
     /// Below 150 N/mm the friction stays that of 150 N/mm.
     #[serde(default = "yes")]
     pub clamp_line_load: bool,
@@ -59,6 +62,7 @@ fn yes() -> bool {
 struct Mean {
     friction: Schlenk,
     loss_factor: f64,
+    ohlendorf: bool,
     /// Sum of the surface speeds at the pitch point over the pitch line speed.
     sum_per_speed: f64,
 }
@@ -72,11 +76,12 @@ impl Mean {
         Self {
             friction: Schlenk {
                 x_l: params.x_l,
-                oil: None,
+                oil: params.oil,
                 clamp_line_load: params.clamp_line_load,
                 clamp_speed: params.clamp_speed,
             },
             loss_factor,
+            ohlendorf: params.loss_factor == LossFactor::Ohlendorf,
             sum_per_speed: 2.0 * pair.working_angle.sin(),
         }
     }
@@ -104,7 +109,12 @@ impl GearMeshModel for Mean {
             x_l: at.x_l,
         };
         let mu = self.friction.friction(&mesh, at.notes);
-        at.check(&CONTACT_RATIO, pair.contact_ratio);
+        if self.ohlendorf {
+            at.check(&CONTACT_RATIO, pair.contact_ratio);
+            for ratio in pair.addendum_ratio {
+                at.check(&ADDENDUM, ratio);
+            }
+        }
         let factor = at.observe(&LOSS_FACTOR, self.loss_factor);
         let input = at.show("P_in", "W", at.torque * at.speed.abs());
         Ok(Loss::POWERS.with(&SLIDING, at.show("P", "W", input * mu * factor)))
@@ -117,10 +127,13 @@ register!(GearMesh, "iso14179_2", Iso14179,
     example: "{ type: iso14179_2 }",
     evidence: [
         formula(Evidence::SeveralSources, "formula and loss factor agree in several open sources"),
+        default_of("x_l", Evidence::Disputed, "tables of X_L differ between standards and tests"),
+        default_of("oil", Evidence::Disputed, "tables of X_L differ between standards and tests"),
+        default_of("loss_factor", Evidence::SeveralSources, "as the method"),
         default_of("clamp_line_load", Evidence::Recalled, "the clamp stands in the method but not in open programs"),
         default_of("clamp_speed", Evidence::Disputed, "two readings of the clamp"),
     ],
-    limits: [LINE_LOAD, PITCH_SPEED, VISCOSITY, CONTACT_RATIO], terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
+    limits: [LINE_LOAD, PITCH_SPEED, VISCOSITY, CONTACT_RATIO, ADDENDUM], terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
 
 #[cfg(test)]
 mod tests {
@@ -131,6 +144,7 @@ mod tests {
 
     const PLAIN: Iso14179 = Iso14179 {
         x_l: Some(1.0),
+        oil: None,
         clamp_line_load: true,
         clamp_speed: SpeedClamp::SumSpeed,
         loss_factor: LossFactor::Ohlendorf,

@@ -9,7 +9,8 @@
 //! `contact_lines` over the inclined lines.
 //! Rolling friction is optional: Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, isothermal; or 9e7 N/m2 times film
 //! and width after Crook 1963 as Anderson and Loewenthal use it, with the least film of Dowson and Higginson, times the sum
-//! of the surface speeds (some authors take half of it, which is an option).
+//! of the surface speeds (some authors take half of it, which is an option). Without torque nothing is lost; rolling hardly
+//! depends on load, so with it the loss jumps there by a watt or so.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
@@ -94,6 +95,8 @@ struct Integral {
     path: Path,
     /// Sliding power per friction, normal force and speed of the first gear, by node. \[m\]
     weights: Vec<f64>,
+    /// Their sum.
+    weight: f64,
     /// Weight of the rolling power at each node.
     rolling_weights: Vec<f64>,
     loss_factor: f64,
@@ -116,7 +119,7 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
             Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
         })
         .collect();
-    let weights = rolling_weights
+    let weights: Vec<f64> = rolling_weights
         .iter()
         .zip(path.points())
         .zip(path.nodes())
@@ -124,6 +127,7 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
         .collect();
     Ok(Integral {
         rolling_weights,
+        weight: weights.iter().sum(),
         weights,
         loss_factor: pair.loss_factor_local(params.load_sharing),
         path,
@@ -165,15 +169,11 @@ impl GearMeshModel for Integral {
         let normal = at.show("F_bn", "N", mean.normal_force);
         let path = self.path.at(&mean, at.notes.of(self.friction.notes));
         let line_load = at.show("F_bn/b", "N/m", path.line_load);
-        let mut mu = [0.0; Path::MOST];
-        let mu = &mut mu[..self.path.len()];
-        self.friction.along(&path, mu)?;
-        let (mut sum, mut whole) = (0.0, 0.0);
-        for (weight, mu) in self.weights.iter().zip(mu.iter()) {
-            sum += weight * mu;
-            whole += weight;
-        }
-        at.observe(&MU_MEAN, sum / whole);
+        let sum: f64 = self.path.with_space(|mu| {
+            self.friction.along(&path, mu)?;
+            Ok(self.weights.iter().zip(&*mu).map(|(weight, mu)| weight * mu).sum())
+        })?;
+        at.observe(&MU_MEAN, sum / self.weight);
         at.observe(&LOSS_FACTOR, self.loss_factor);
         let loss = Loss::POWERS.with(&SLIDING, at.show("P_s", "W", sum * normal * speed));
         if self.rolling == Rolling::None {
@@ -209,6 +209,7 @@ register!(GearMesh, "path_integral", PathIntegral,
     evidence: [
         formula(Evidence::Derived, "equals friction times loss factor for constant friction"),
         default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
+        default_of("average", Evidence::Derived, "the mean over time"),
         default_of("rolling_friction", Evidence::OneSource, "usually neglected beside sliding"),
         default_of("rolling_speed", Evidence::Recalled, "Crook's coefficient as Anderson and Loewenthal use it"),
     ],

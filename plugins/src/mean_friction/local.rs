@@ -19,6 +19,9 @@ use crate::path::Path;
 
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
+/// Laws whose friction vanishes or diverges without sliding.
+const SLIDING_LAWS: [&str; 5] = ["xu", "eyring", "benedict_kelley", "misharin", "odonoghue_cameron"];
+
 /// Where the local law counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -51,6 +54,14 @@ struct Local {
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
+    let law = params.tooth_friction.value["type"].as_str().unwrap_or_default();
+    if params.at == Where::PitchPoint && SLIDING_LAWS.contains(&law) {
+        return Err(cx
+            .error(format!(
+                "`{law}` is a law of sliding, and nothing slides at the pitch point"
+            ))
+            .mend("write `at: path`, or choose a law of mixed friction"));
+    }
     let part = cx.part::<MeanFriction>().ok_or_else(|| cx.error("bug: no pair"))?;
     let path = Path::new(&part.pair, params.load_sharing).map_err(|fault| cx.error(fault))?;
     Ok(Local {
@@ -70,12 +81,10 @@ impl MeanFrictionModel for Local {
         }
         let notes = at.notes.of(self.friction.notes);
         let mu = match self.at {
-            Where::Path => {
-                let mut mu = [0.0; Path::MOST];
-                let mu = &mut mu[..self.path.len()];
+            Where::Path => self.path.with_space(|mu| {
                 self.friction.along(&self.path.at(at, notes), mu)?;
-                self.path.average(mu)
-            }
+                Ok(self.path.average(mu))
+            })?,
             Where::PitchPoint => self.friction.mu(&ContactAt {
                 part: &NoPart {},
                 sliding: 0.0,

@@ -68,7 +68,7 @@ register!(ToothFriction, "benedict_kelley", BenedictKelley,
     source: "Benedict, Kelley, ASLE Trans. 4 (1961) 59-70",
     example: "{ type: benedict_kelley }",
     evidence: [
-        formula(Evidence::SeveralSources, "SI and inch form agree"),
+        formula(Evidence::OneSource, "one open source; the recalled inch form converts to it"),
         default_of("roughness", Evidence::Recalled, "the roughness factor is recalled"),
         default_of("greatest", Evidence::Assumed, "the formula diverges at the pitch point"),
     ],

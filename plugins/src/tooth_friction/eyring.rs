@@ -1,7 +1,8 @@
 //! Fluid friction of an EHL film: Eyring's law with a limit of shear stress.
 //!
 //! Source: Arana et al. 2019, equation 13: mu = min[2 L/(alpha p) asinh(eta_p alpha v_g/(2 L h)), L] with the mean Hertz pressure
-//! p = pi/4 p_H, the viscosity eta_p under that pressure (Roelands, isothermal), the film h thinned by inlet heating, and the
+//! p = pi/4 p_H, the viscosity eta_p under that pressure (Roelands, isothermal), the film h thinned by inlet heating (by a
+//! factor of twenty at most, beyond which the fit ends), and the
 //! slope L of the limiting stress over pressure: 0.047 to 0.053 mineral, 0.035 polyalphaolefin, 0.044 polyglycol.
 //! Friction of the film alone: in mixed friction it is the fluid part.
 

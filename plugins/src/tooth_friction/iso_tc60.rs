@@ -30,7 +30,7 @@ register!(ToothFriction, "iso_tc60", IsoTc60,
     meaning: "Friction between flanks after a working draft of ISO TC 60.",
     source: "ISO/TC 60 working draft, as quoted in reviews",
     example: "{ type: iso_tc60 }",
-    evidence: [formula(Evidence::SeveralSources, "one open source and memory agree")],
+    evidence: [formula(Evidence::OneSource, "one open source and memory agree")],
     observed: [MU]);
 
 #[cfg(test)]

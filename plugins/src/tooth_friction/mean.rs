@@ -41,7 +41,7 @@ impl ToothFrictionModel for Mean {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         let usual = MeanFrictionAt::usual(&self.part, Notes::MUTED);
         self.friction.mu(&MeanFrictionAt {
-            line_load: at.line_load,
+            line_load: at.line_load * self.part.pair.base_helix.cos(),
             normal_force: at.line_load * self.part.pair.facewidth,
             pressure: at.pressure,
             pitch_speed: 0.5 * at.sum_speed / self.part.pair.working_angle.sin(),
@@ -65,7 +65,7 @@ impl ToothFrictionModel for Mean {
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
         mu.fill(self.friction.mu(&MeanFrictionAt {
             notes: path.notes.of(self.friction.notes),
-            ..path.mean
+            ..*path.mean
         })?);
         Ok(())
     }

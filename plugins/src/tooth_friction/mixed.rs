@@ -6,13 +6,14 @@
 //! - Diab 2006: (1 - erf(lambda/sqrt 2))/4; lambda = h over the rms roughness of both flanks;
 //! - Olver and Spikes 1998: 1/(1 + Lambda)^m with m = 2; Lambda = h over the rms roughness of both flanks.
 //!
-//! The film is the central one, thinned by inlet heating; the least one for Matsumoto. Boundary and fluid friction are laws of
+//! The film is the central one, thinned by inlet heating (by a factor of twenty at most, beyond which the fit ends); the least
+//! one for Matsumoto. Boundary and fluid friction are laws of
 //! their own: constants (0.08 to 0.135 and 0.02 to 0.04 are usual), `doleschel`, `eyring`.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use schemars::JsonSchema;
@@ -114,8 +115,9 @@ fn erf(x: f64) -> f64 {
     1.0 - poly * (-x * x).exp()
 }
 
-impl ToothFrictionModel for Mixed {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+impl Mixed {
+    /// Share of boundary friction in a contact.
+    fn share(&self, at: &ContactAt<'_>) -> f64 {
         let h = contact::film(at, self.film, self.params.thermal);
         at.observe(&THICKNESS, h.um());
         let roughness = match self.params.weight {
@@ -124,7 +126,16 @@ impl ToothFrictionModel for Mixed {
             Weight::Diab | Weight::OlverSpikes => at.rq,
         };
         let lambda = at.observe(&LAMBDA, h / roughness);
-        let xi = at.observe(&XI, share(self.params.weight, lambda, self.params.exponent));
+        at.observe(&XI, share(self.params.weight, lambda, self.params.exponent))
+    }
+}
+
+/// Places that are asked at once along a path.
+const CHUNK: usize = 96;
+
+impl ToothFrictionModel for Mixed {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        let xi = self.share(at);
         let nested = |slot: &Slot<ToothFriction>| {
             slot.mu(&ContactAt {
                 notes: at.notes.of(slot.notes),
@@ -140,6 +151,31 @@ impl ToothFrictionModel for Mixed {
         };
         Ok(at.observe(&MU, boundary + fluid))
     }
+
+    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
+        for (nodes, mu) in path.nodes.chunks(CHUNK).zip(mu.chunks_mut(CHUNK)) {
+            let mut fluid = [0.0; CHUNK];
+            let fluid = &mut fluid[..nodes.len()];
+            let part = |slot: &Slot<ToothFriction>, mu: &mut [f64]| {
+                slot.along(
+                    &PathAt {
+                        nodes,
+                        notes: path.notes.of(slot.notes),
+                        ..*path
+                    },
+                    mu,
+                )
+            };
+            part(&self.boundary, mu)?;
+            part(&self.fluid, fluid)?;
+            for ((node, mu), fluid) in nodes.iter().zip(mu).zip(fluid) {
+                let at = path.contact(node);
+                let xi = self.share(&at);
+                *mu = at.observe(&MU, xi * *mu + (1.0 - xi) * *fluid);
+            }
+        }
+        Ok(())
+    }
 }
 
 register!(ToothFriction, "mixed", Params,
@@ -147,7 +183,7 @@ register!(ToothFriction, "mixed", Params,
     source: "Doleschel 2002; Matsumoto, Morikawa 2014; Diab 2006; Olver, Spikes 1998; collected by Arana et al. 2019",
     example: "{ type: mixed, weight: doleschel, boundary: { type: constant, value: 0.1 }, fluid: { type: constant, value: 0.02 } }",
     evidence: [
-        formula(Evidence::SeveralSources, "weights agree in an article and public programs"),
+        formula(Evidence::OneSource, "weights of Doleschel, Matsumoto and Diab agree in two sources, that of Olver and Spikes has one"),
         default_of("film", Evidence::SeveralSources, "film formulas agree in three sources"),
         default_of("thermal", Evidence::OneSource, "thermal factor from one open source and memory"),
         default_of("exponent", Evidence::OneSource, "Olver and Spikes"),
@@ -157,7 +193,12 @@ register!(ToothFriction, "mixed", Params,
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+    use gearloss_framework::registry::{Files, Registry};
+    use std::sync::Arc;
 
     fn close(value: f64, printed: f64) {
         assert!((value / printed - 1.0).abs() < 1e-5, "{value} against {printed}");
@@ -181,10 +222,31 @@ mod tests {
 
     #[test]
     fn b10_doleschel_with_invented_constants() {
-        let mu_f = 0.020 * 1.2_f64.powf(0.5) * (6.0_f64 / 8.3).powf(-0.1) * (15.0_f64 / 20.0).powf(-0.05);
-        let mu_s = 0.085 * 1.2_f64.powf(0.1) * (6.0_f64 / 0.2).powf(-0.05);
+        let registry = Registry::linked().unwrap_or_else(|found| panic!("{found:?}"));
+        let files = Files::default();
+        let mut build = Build::new(&registry, &files);
+        let mut law = |value: serde_json::Value| -> f64 {
+            let slot = build
+                .slot_at::<ToothFriction>("model", &Arc::new(NoPart {}), &value)
+                .unwrap();
+            let at = ContactAt {
+                pressure: 1.2e9,
+                sum_speed: 6.0,
+                eta: 15e-3,
+                ..ContactAt::usual(&NoPart {}, Notes::MUTED)
+            };
+            slot.mu(&at).unwrap()
+        };
+        let fluid = serde_json::json!({ "type": "doleschel", "mu": 0.020, "pressure": 0.5, "speed": -0.1, "viscosity": -0.05, "reference_speed": 8.3 });
+        let boundary = serde_json::json!({ "type": "doleschel", "mu": 0.085, "pressure": 0.1, "speed": -0.05, "viscosity": 0.0, "reference_speed": 0.2 });
         let xi = share(Weight::Doleschel, 0.8, 2.0);
-        close(xi * mu_s + (1.0 - xi) * mu_f, 0.0409836);
+        close(xi * law(boundary.clone()) + (1.0 - xi) * law(fluid.clone()), 0.0409836);
+        // The mixed law lies between its two parts.
+        let mixed = law(
+            serde_json::json!({ "type": "mixed", "weight": "doleschel", "boundary": boundary, "fluid": fluid,
+            "thermal": true, "exponent": 2.0, "rz_over_ra": 6.0 }),
+        );
+        assert!(mixed > law(fluid) && mixed < law(boundary), "{mixed}");
     }
 
     #[test]

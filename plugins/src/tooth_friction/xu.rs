@@ -212,7 +212,7 @@ mod tests {
             beta: 0.03,
             conductivity: 0.135,
             x_l: 1.0,
-            mean: MeanFrictionAt::usual(&part, Notes::MUTED),
+            mean: &MeanFrictionAt::usual(&part, Notes::MUTED),
             notes: Notes::MUTED,
         };
         let mut along = [0.0; 9];

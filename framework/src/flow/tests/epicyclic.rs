@@ -71,6 +71,27 @@ fn p1_simple_set_in_all_six_ways() {
     }
 }
 
+#[test]
+fn d1_rolling_power_of_a_planetary_stage() {
+    for (torque, ring, mu, factors, rolling, loss) in [
+        (50.0, 72.0, 0.05, [0.15, 0.06], 11781.0, 123.7),
+        (16.0, 216.0, 0.04, [0.18, 0.08], 4523.89, 47.0485),
+    ] {
+        let solved = solve(
+            &simple(24.0, 0.5 * (ring - 24.0), ring, [0.0, 0.0], 2),
+            &[0, 1],
+            &[(0, rpm(3000.0))],
+            &[(0, torque)],
+        );
+        // Both meshes roll with the power of the sun against the carrier; printed with six digits.
+        let powers = &solved.work.rolling;
+        let lost: f64 = powers.iter().zip(factors).map(|(p, h)| p.abs() * mu * h).sum();
+        for (value, printed) in [(powers[0], rolling), (powers[1], rolling), (lost, loss)] {
+            assert!((value.abs() / printed - 1.0).abs() < 1e-5, "{value} {printed}");
+        }
+    }
+}
+
 /// Eight-speed automatic: suns a and b 0, ring a 1, carrier a = ring d 2, input = carrier b 3, ring b = sun c 4,
 /// ring c = sun d 5, carrier c 6, output = carrier d 7, planets a to d 8 to 11.
 fn eight_speed(loss: f64, closed: &str) -> Rig {

@@ -90,6 +90,17 @@ pub enum Bath {
     Vertical(f64),
 }
 
+/// How deep a bath is, for its range of viscosity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Depth {
+    /// No bath.
+    None,
+    /// To half of the outside diameter.
+    Low,
+    /// Deeper.
+    Deep,
+}
+
 /// Drag of one bearing, prepared. Lengths in mm.
 #[derive(Debug)]
 pub struct Drag {
@@ -128,6 +139,16 @@ impl Drag {
             bath,
             rollers: body.roller.is_some(),
             v_m,
+        }
+    }
+
+    /// Which range of viscosity the source states for a height of the oil, half of the outside diameter being deep.
+    pub fn depth(&self, height: f64, half: f64) -> Depth {
+        match self.bath {
+            Bath::Level if height > half => Depth::Deep,
+            Bath::Level if height > 0.0 => Depth::Low,
+            Bath::Vertical(_) => Depth::Deep,
+            Bath::Level | Bath::Jet(_) => Depth::None,
         }
     }
 

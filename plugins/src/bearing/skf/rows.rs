@@ -20,7 +20,7 @@ const DEEP_GROOVE: Rows<4> = &[
     (&["617", "618", "628", "637", "638"], [4.7, 1.7, 6.50, 0.78]),
     (&["619", "639"], [4.3, 1.7, 4.75, 3.6]),
 ];
-/// R1/1e-7, R2, R3, S1/1e-2, S2, S3. `other` stands for every other series.
+/// R1/1e-7, R2, R3, S1/1e-2, S2, S3. `other` is written for every other series.
 const ANGULAR: Rows<6> = &[
     (&["72 BE"], [4.33, 2.02, 2.44e-12, 1.82, 0.71, 2.44e-12]),
     (&["73 BE"], [4.54, 2.02, 1.84e-12, 1.64, 0.71, 1.84e-12]),
@@ -57,7 +57,7 @@ const CYLINDRICAL: Rows<2> = &[
 ];
 /// R1/1e-6 and S1 of cylindrical roller bearings, full complement.
 const FULL_COMPLEMENT: [f64; 2] = [2.13, 0.16];
-/// R1/1e-6, R2, S1. `other` stands for every other series.
+/// R1/1e-6, R2, S1. `other` is written for every other series.
 const TAPERED: Rows<3> = &[
     (&["302"], [1.76, 10.9, 0.017]),
     (&["303"], [1.69, 10.9, 0.017]),
@@ -189,17 +189,20 @@ pub struct Row {
 }
 
 fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], Lack> {
-    let series = part.series.as_deref().unwrap_or("").trim();
-    let named = rows.iter().find(|(names, _)| names.contains(&series));
-    let other = rows.iter().find(|(names, _)| names.contains(&"other"));
-    if let Some((_, row)) = named.or(other) {
-        return Ok(*row);
-    }
-    let known: Vec<&str> = rows.iter().flat_map(|(names, _)| names.iter().copied()).collect();
-    Err((
-        format!("skf has no constants for series `{series}`"),
-        format!("set `series` to one of {}", known.join(", ")),
-    ))
+    let written = part.series.as_deref().unwrap_or("");
+    // `72BE` and `72 BE` are one series.
+    let plain = |name: &str| name.split_whitespace().collect::<String>();
+    let series = plain(written);
+    let row = rows
+        .iter()
+        .find(|(names, _)| names.iter().any(|name| plain(name) == series));
+    row.map(|(_, row)| *row).ok_or_else(|| {
+        let known: Vec<&str> = rows.iter().flat_map(|(names, _)| names.iter().copied()).collect();
+        (
+            format!("skf has no constants for series `{written}` of this kind of bearing"),
+            format!("set `series` to one of {}", known.join(", ")),
+        )
+    })
 }
 
 /// The constants of a bearing; lengths in mm.
@@ -601,7 +604,15 @@ mod tests {
                 .1
                 .contains("63")
         );
-        assert!(row(&part(BearingKind::AngularContactBall, "718", 65.0), false).is_ok());
+        assert!(
+            row(&part(BearingKind::AngularContactBall, "718", 65.0), false)
+                .unwrap_err()
+                .1
+                .contains("other")
+        );
+        assert!(row(&part(BearingKind::AngularContactBall, "72BE", 65.0), false).is_ok());
+        // A pair of single-row bearings is two bearings, not a double row.
+        assert!(row(&part(BearingKind::AngularContactBallDoubleRow, "72 BE", 65.0), false).is_err());
         let needle = part(BearingKind::NeedleCage, "", 30.0);
         assert!(row(&needle, false).unwrap_err().1.contains("model of its own"));
         assert!(row(&needle, true).is_ok());
