@@ -358,7 +358,11 @@ impl Variables {
                 s2,
                 c0,
             } => {
-                let radial = || (rolling * fr.powf(0.54), sliding[0] * fr.powf(5.0 / 3.0));
+                // One logarithm for both powers; no load has minus infinity, whose exponential is zero.
+                let radial = || {
+                    let ln = fr.ln();
+                    (rolling * (0.54 * ln).exp(), sliding[0] * (5.0 / 3.0 * ln).exp())
+                };
                 let ratio = fa / c0;
                 // Also where the quotient underflows: an angle of zero has no sine to divide by.
                 if ratio == 0.0 {
