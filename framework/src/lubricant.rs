@@ -20,6 +20,9 @@ use walther::{Form, Walther};
 /// Zero of the Celsius scale. \[K\]
 pub const ZERO_CELSIUS: f64 = 273.15;
 
+/// Least viscosity for which ASTM D341 with a constant, and DIN 51563, hold. \[mm2/s\]
+const THINNEST: f64 = 2.0;
+
 /// The key that is wrong or missing, why, and how to mend it.
 type Fault = (&'static str, String, String);
 
@@ -174,6 +177,13 @@ fn viscosity(entry: &ViscosityEntry, density: &Density) -> Result<Viscosity, Fau
             };
         }
     };
+    if let (Form::AstmD341 | Form::Din51563, Some((t, nu))) = (form, points.iter().find(|p| p.1 < THINNEST)) {
+        return Err((
+            "viscosity",
+            format!("{nu:.3} mm2/s at {t} degC is below the {THINNEST} mm2/s from which this law holds"),
+            "write `law: astm_d341_low`, which holds from 0.21 mm2/s".to_owned(),
+        ));
+    }
     match points[..] {
         [first, second] => Ok(Viscosity::Walther(Walther::through(first, second, form))),
         _ => Err((
@@ -357,6 +367,7 @@ mod tests {
         assert!(fault(Some(5.0), Some(6.0), None).1.contains("not below"));
         assert!(fault(Some(5.0), None, None).2.contains("two of"));
         assert!(fault(None, Some(1.5), Some(100.0)).1.contains("not defined"));
+        assert!(fault(Some(5.0), Some(1.5), None).2.contains("astm_d341_low"));
         assert!(
             Lubricant::new(&LubricantEntry::default())
                 .unwrap_err()

@@ -46,6 +46,14 @@ const VISCOSITY_DEEP: Limit = Limit::new(
     250.0,
     "stated for the drag of oil baths above D/2",
 );
+const OUTER: Limit = Limit::new(
+    3,
+    "n_outer",
+    "1/min",
+    0.0,
+    0.0,
+    "drag and starvation were measured with a resting outer ring",
+);
 const MU_SL: Observed = Observed::new(0, "mu_sl", "-", "Coefficient of sliding friction.");
 const PHI_BL: Observed = Observed::new(1, "phi_bl", "-", "Weight of boundary friction.");
 
@@ -273,6 +281,9 @@ impl BearingModel for Model {
         at.show("G_rr", "-", g_rr);
         at.show("G_sl", "-", g_sl);
         at.check(&SPEED, n * self.d_m);
+        if at.outer_speed != 0.0 {
+            at.check(&OUTER, at.outer_speed.abs().rpm());
+        }
         let seals = self.seals.nmm_in_nm();
         if n == 0.0 {
             at.branch("at rest: starting friction");
@@ -333,7 +344,7 @@ register!(Bearing, "skf", Skf,
         default_of("needle_as_full_complement", Evidence::Assumed, "no row is published"),
         default_of("full_replenishment", Evidence::OneSource, "starvation as in the catalogue"),
     ],
-    limits: [SPEED, VISCOSITY, VISCOSITY_DEEP], terms: [ROLLING, SLIDING, DRAG, SEAL], observed: [MU_SL, PHI_BL], prepare: prepare);
+    limits: [SPEED, VISCOSITY, VISCOSITY_DEEP, OUTER], terms: [ROLLING, SLIDING, DRAG, SEAL], observed: [MU_SL, PHI_BL], prepare: prepare);
 
 #[cfg(test)]
 mod tests {
