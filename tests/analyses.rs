@@ -97,7 +97,8 @@ fn wrong_names_and_files_say_what_to_write() {
         "  a: { type: contact_path, mesh: M9, torque: 1 Nm, speed: 100 rpm }\n  \
            b: { type: component_compare, component: bearings.B9, models: { x: { type: skf } }, torque: 1 Nm, speed: 100 rpm }\n  \
            c: { type: component_compare, component: bearings.B1, models: { x: { type: skff } }, torque: 1 Nm, speed: 100 rpm }\n  \
-           d: { type: component_compare, component: bearings.B1, models: { x: { type: skf } }, torque: 1 Nm, speed: 100 rpm, measured: none.csv }\n",
+           d: { type: component_compare, component: bearings.B1, models: { x: { type: skf } }, torque: 1 Nm, speed: 100 rpm, measured: none.csv }\n  \
+           e: { type: component_compare, component: bearings.B1, models: {}, torque: 1 Nm, speed: 100 rpm }\n",
         &[],
     );
     for words in [
@@ -105,7 +106,8 @@ fn wrong_names_and_files_say_what_to_write() {
         "B9",
         "write `skf`",
         "none.csv",
-        "4 of 4 analyses failed",
+        "no model is named",
+        "5 of 5 analyses failed",
     ] {
         assert!(text.contains(words), "{words} is missing:\n{text}");
     }

@@ -122,7 +122,9 @@ fn parameters(out: &mut String, language: &Language, entry: &Entry) {
     for (name, field) in fields {
         let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
             (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
-            _ => String::new(),
+            (Some(least), None) => format!("from {}", significant(least)),
+            (None, Some(greatest)) => format!("to {}", significant(greatest)),
+            (None, None) => String::new(),
         };
         let default = match &field["default"] {
             Value::Null => "-".to_owned(),

@@ -178,6 +178,9 @@ pub struct ComponentCompareEntry {
     pub models: Ordered<Value>,
     /// Set of models for everything else; absent, the models of the gearbox.
     pub model_set: Option<String>,
+    /// Overrides for this analysis: resolved path to value, such as `meshes.M2.drag.churning: none`.
+    #[serde(default)]
+    pub set: Ordered<Value>,
     /// Torques.
     pub torque: TorqueAxis,
     /// Speeds.

@@ -3,6 +3,7 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{PartLoss, Point};
 use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Term;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::ComponentCompareEntry;
@@ -25,6 +26,7 @@ struct Answer {
 /// One model with its answers.
 struct Model<'a> {
     built: Built<'a>,
+    gear: String,
     terms: &'static [Term],
     answers: Vec<Answer>,
 }
@@ -58,46 +60,27 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
         Some(file) => read(runner, &format!("{path}.measured"), file)?,
         None => Vec::new(),
     };
-    let mut models = Vec::new();
+    names(runner, &path, entry)?;
+    // What one model cannot do keeps no other from its answers.
+    let (mut models, mut failed) = (Vec::new(), String::new());
     for (model, value) in entry.models.iter() {
-        let mut choice: Choice = runner.study.choice(entry.model_set.as_deref());
-        choice.overrides.push((slot(&entry.component), value.clone()));
-        let resolved = gearbox.resolve(runner.language, &choice)?;
-        let transmission = gearbox.build(runner.language, &resolved)?;
-        let first = transmission.states().first().map_or("", |s| s.name.as_str());
-        let gear = entry.gear.clone().unwrap_or_else(|| first.to_owned());
-        let part = transmission.parts().iter().position(|p| p.path == entry.component);
-        let Some(part) = part else {
-            return Err(no_part(runner, &path, &entry.component, &transmission));
-        };
-        let mut answers = answers(runner, &transmission, &gear, part, &points)
-            .map_err(|list| Failure::from(gearbox.findings(list)))?;
-        let at_measured: Vec<(f64, f64)> = measured.iter().map(|m| (m.torque, m.speed)).collect();
-        answers.extend(
-            self::answers(runner, &transmission, &gear, part, &at_measured)
-                .map_err(|list| Failure::from(gearbox.findings(list)))?,
-        );
-        let notes = transmission.parts()[part].notes;
-        models.push(Model {
-            terms: transmission.instances()[notes.instance].entry.terms,
-            built: Built {
-                name: model.to_owned(),
-                gearbox,
-                resolved,
-                transmission,
-            },
-            answers,
-        });
+        match answered(runner, &path, entry, gearbox, (model, value), &points, &measured) {
+            Ok(model) => models.push(model),
+            Err(Failure::Input(text)) => failed.push_str(&text),
+        }
     }
-    let rows = rows(&models, &points, &measured);
+    if models.is_empty() {
+        return Err(Failure::Input(failed));
+    }
+    let rows = rows(&models, &measured);
     show(name, entry, &models, &torques, &speeds, out)?;
     let deviations = deviations(&models, &points, &measured);
-    for (model, mean, rms) in &deviations {
+    for (model, mean, rms, count) in &deviations {
         out.line(format!(
             "{model}: model minus measurement {} % in the mean, {} % rms, {} points",
             number(Some(*mean), 1),
             number(Some(*rms), 1),
-            measured.len()
+            count
         ))?;
     }
     out.line("")?;
@@ -107,12 +90,19 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
         "speed_rpm",
         "term",
         "loss_w",
-        "moment_nm",
+        "moment_of_one_nm",
         "undefined",
     ]
     .map(str::to_owned);
     let mut value = head(runner, name, &models.iter().map(|m| &m.built).collect::<Vec<_>>());
+    let conditions = &runner.study.entry.conditions;
+    let given = runner.points(&models[0].built.transmission, "", Vec::new(), Vec::new());
     value["component"] = entry.component.clone().into();
+    value["gear"] = models[0].gear.clone().into();
+    value["oil_temperature_degc"] = json!(given.temperature);
+    value["power_flow"] = json!(given.flow);
+    value["torque_at"] = conditions.torque_at.clone().into();
+    value["speed_at"] = conditions.speed_at.clone().into();
     value["models"] = models.iter().map(|m| json_of(m, points.len())).collect();
     value["measured"] = measured
         .iter()
@@ -120,10 +110,82 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
         .collect();
     value["deviations"] = deviations
         .iter()
-        .map(|(model, mean, rms)| json!({ "model": model, "mean_percent": mean, "rms_percent": rms }))
+        .map(|(model, mean, rms, count)| {
+            json!({ "model": model, "mean_percent": mean, "rms_percent": rms, "points": count })
+        })
         .collect();
     write(runner, name, &entry.write, &header, &rows, &value)?;
+    if failed.is_empty() {
+        Ok(())
+    } else {
+        Err(Failure::Input(failed))
+    }
+}
+
+/// The models must be there, and none may be called as the measured points are.
+fn names(runner: &Runner<'_>, path: &str, entry: &ComponentCompareEntry) -> Result<(), Failure> {
+    let path = format!("{path}.models");
+    let fault = |message: &str, mend: &str| -> Failure {
+        let error = Diagnostic::error(path.clone(), message).mend(mend);
+        runner.study.findings(vec![error]).into()
+    };
+    if entry.models.is_empty() {
+        return Err(fault(
+            "no model is named",
+            "write `models: { ours: { type: skf } }`, say",
+        ));
+    }
+    if entry.models.iter().any(|(name, _)| name == "measured") {
+        return Err(fault(
+            "`measured` is the name of the measured points",
+            "call the model otherwise",
+        ));
+    }
     Ok(())
+}
+
+/// One model at all points, then at the measured ones.
+fn answered<'a>(
+    runner: &'a Runner<'_>,
+    path: &str,
+    entry: &ComponentCompareEntry,
+    gearbox: &'a Gearbox,
+    (model, value): (&str, &Value),
+    points: &[(f64, f64)],
+    measured: &[Measured],
+) -> Result<Model<'a>, Failure> {
+    let mut choice: Choice = runner.study.choice(entry.model_set.as_deref());
+    choice
+        .overrides
+        .extend(entry.set.iter().map(|(path, value)| (path.to_owned(), value.clone())));
+    choice.overrides.push((slot(&entry.component), value.clone()));
+    let resolved = gearbox.resolve(runner.language, &choice)?;
+    let transmission = gearbox.build(runner.language, &resolved)?;
+    let first = transmission.states().first().map_or("", |s| s.name.as_str());
+    let gear = entry.gear.clone().unwrap_or_else(|| first.to_owned());
+    let part = transmission.parts().iter().position(|p| p.path == entry.component);
+    let Some(part) = part else {
+        return Err(no_part(runner, path, &entry.component, &transmission));
+    };
+    let all: Vec<(f64, f64)> = points
+        .iter()
+        .copied()
+        .chain(measured.iter().map(|m| (m.torque, m.speed)))
+        .collect();
+    let answers =
+        answers(runner, &transmission, &gear, part, &all).map_err(|list| Failure::from(gearbox.findings(list)))?;
+    let notes = transmission.parts()[part].notes;
+    Ok(Model {
+        terms: transmission.instances()[notes.instance].entry.terms,
+        gear,
+        built: Built {
+            name: model.to_owned(),
+            gearbox,
+            resolved,
+            transmission,
+        },
+        answers,
+    })
 }
 
 fn no_part(runner: &Runner<'_>, path: &str, component: &str, transmission: &Transmission) -> Failure {
@@ -169,7 +231,8 @@ fn watts(answer: &Answer) -> Option<f64> {
     answer.loss.result.is_ok().then(|| answer.loss.watts())
 }
 
-fn rows(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]) -> Vec<Vec<String>> {
+/// Every model at every point, the measured ones included.
+fn rows(models: &[Model<'_>], measured: &[Measured]) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     let mut row = |model: &str, torque: f64, speed: f64, term: &str, rest: [String; 3]| {
         let mut cells = vec![
@@ -182,7 +245,7 @@ fn rows(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]) -> V
         rows.push(cells);
     };
     for model in models {
-        for answer in &model.answers[..points.len()] {
+        for answer in &model.answers {
             let reason = answer.loss.result.err().map_or_else(String::new, |u| u.to_string());
             let (name, t, w) = (&model.built.name, answer.torque, answer.speed);
             let whole = [cell(watts(answer)), cell(answer.loss.moment()), reason.clone()];
@@ -201,25 +264,31 @@ fn rows(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]) -> V
 }
 
 fn json_of(model: &Model<'_>, points: usize) -> Value {
-    let answers: Vec<Value> = model.answers[..points]
-        .iter()
-        .map(|a| {
-            let terms: serde_json::Map<String, Value> = model
-                .terms
-                .iter()
-                .map(|t| (t.name.to_owned(), json!(watts(a).map(|_| a.loss.term_watts(t.index)))))
-                .collect();
-            json!({
-                "torque_nm": a.torque,
-                "speed_rpm": tidy(a.speed * RPM),
-                "loss_w": watts(a),
-                "moment_nm": a.loss.moment(),
-                "terms_w": terms,
-                "undefined": a.loss.result.err().map(|u| u.to_string()),
+    let describe = |answers: &[Answer]| -> Vec<Value> {
+        answers
+            .iter()
+            .map(|a| {
+                let terms: serde_json::Map<String, Value> = model
+                    .terms
+                    .iter()
+                    .map(|t| (t.name.to_owned(), json!(watts(a).map(|_| a.loss.term_watts(t.index)))))
+                    .collect();
+                json!({
+                    "torque_nm": a.torque,
+                    "speed_rpm": tidy(a.speed * RPM),
+                    "loss_w": watts(a),
+                    "moment_of_one_nm": a.loss.moment(),
+                    "terms_w": terms,
+                    "undefined": a.loss.result.err().map(|u| u.to_string()),
+                })
             })
-        })
-        .collect();
-    json!({ "model": model.built.name, "points": answers })
+            .collect()
+    };
+    json!({
+        "model": model.built.name,
+        "points": describe(&model.answers[..points]),
+        "at_measured": describe(&model.answers[points..]),
+    })
 }
 
 fn show(
@@ -256,8 +325,9 @@ fn show(
     Ok(())
 }
 
-/// Mean and rms deviation from the measured points in percent, by model; points without a value are left out.
-fn deviations(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]) -> Vec<(String, f64, f64)> {
+/// Mean and rms deviation from the measured points in percent and their number, by model; points without a value are left
+/// out.
+fn deviations(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]) -> Vec<(String, f64, f64, usize)> {
     models
         .iter()
         .filter_map(|model| {
@@ -270,7 +340,7 @@ fn deviations(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]
             (!gaps.is_empty()).then(|| {
                 let mean = gaps.iter().sum::<f64>() / count;
                 let rms = (gaps.iter().map(|g| g * g).sum::<f64>() / count).sqrt();
-                (model.built.name.clone(), mean, rms)
+                (model.built.name.clone(), mean, rms, gaps.len())
             })
         })
         .collect()

@@ -43,6 +43,19 @@ struct Place {
     loss: Option<f64>,
 }
 
+/// The path of contact under one set.
+struct Paths {
+    places: Vec<Place>,
+    /// Torque of the mesh on its first gear. \[Nm\]
+    torque: f64,
+    sharing: LoadSharing,
+    /// Why there is no friction; empty where there is.
+    silent: String,
+    gear: String,
+    /// \[degC\]
+    temperature: f64,
+}
+
 /// The law of friction within the model of a mesh.
 enum Friction {
     Local(Slot<ToothFriction>),
@@ -88,8 +101,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut 
     .map(str::to_owned);
     let (mut rows, mut results) = (Vec::new(), Vec::new());
     for b in &built {
-        let (places, torque) = places(runner, &path, entry, b)?;
-        for p in &places {
+        let found = places(runner, &path, entry, b)?;
+        for p in &found.places {
             let mut row = vec![b.name.clone(), entry.mesh.clone()];
             row.extend(
                 [
@@ -106,12 +119,16 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut 
             row.extend([cell(p.mu), cell(p.loss)]);
             rows.push(row);
         }
-        show(name, entry, b, torque, &places, out)?;
+        show(name, entry, b, &found, out)?;
         results.push(json!({
             "model_set": b.name,
             "mesh": entry.mesh,
-            "mesh_torque_nm": torque,
-            "places": places.iter().map(|p| json!({
+            "gear": found.gear,
+            "oil_temperature_degc": found.temperature,
+            "load_sharing": found.sharing,
+            "mesh_torque_nm": found.torque,
+            "no_friction": found.silent,
+            "places": found.places.iter().map(|p| json!({
                 "from_pitch_point_mm": p.from_pitch, "load_share": p.share, "sliding_speed_m_s": p.sliding,
                 "sum_speed_m_s": p.sum_speed, "radius_mm": p.radius, "hertz_pressure_gpa": p.pressure,
                 "film_um": p.film, "mu": p.mu, "sliding_loss_w": p.loss,
@@ -126,13 +143,21 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut 
     Ok(())
 }
 
-/// The places along the path under one set, and the torque of the mesh on its first gear.
-fn places(
-    runner: &Runner<'_>,
-    path: &str,
-    entry: &ContactPathEntry,
-    built: &Built<'_>,
-) -> Result<(Vec<Place>, f64), Failure> {
+/// How the model of a mesh shares its load: its own word, that of its law of mean friction, or what its loss factor assumes.
+fn sharing(model: &Value) -> LoadSharing {
+    let written = [&model["load_sharing"], &model["mean_friction"]["load_sharing"]]
+        .into_iter()
+        .find_map(|value| serde_json::from_value(value.clone()).ok());
+    let uniform = model["type"] == "even_share" || model["loss_factor"] == "uniform";
+    written.unwrap_or(if uniform {
+        LoadSharing::Uniform
+    } else {
+        LoadSharing::Rigid
+    })
+}
+
+/// The path under one set.
+fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Built<'_>) -> Result<Paths, Failure> {
     let t = &built.transmission;
     let own = format!("meshes.{}", entry.mesh);
     let Some(index) = t.meshes().position(|(path, _)| path == own) else {
@@ -157,21 +182,27 @@ fn places(
     let at = solution.mesh_at(index);
     let part = Arc::new(at.part.clone());
     let model = &built.resolved.value["meshes"][&entry.mesh]["model"];
-    let sharing: LoadSharing = serde_json::from_value(model["load_sharing"].clone()).unwrap_or_default();
+    let sharing = sharing(model);
     let mut build = Build::new(runner.language.registry(), &built.gearbox.files);
     let friction = Friction::of(&mut build, &format!("{own}.model"), &part, model)?;
     let mean = MeanFrictionAt::of(&at, Notes::MUTED);
     let fine = Path::even(&part.pair, sharing, entry.places as usize);
     let along: PathAt<'_> = fine.at(&mean, Notes::MUTED);
     let loaded = at.speed != 0.0 && at.torque != 0.0;
-    let mu: Option<Vec<f64>> = match &friction {
-        _ if !loaded => None,
-        Friction::Hidden => None,
+    let (mu, silent): (Option<Vec<f64>>, String) = match &friction {
+        _ if !loaded => (None, "the mesh is idle or rests".to_owned()),
+        Friction::Hidden => (None, "its model shows no friction along the path".to_owned()),
         Friction::Local(slot) => {
             let mut mu = vec![0.0; fine.len()];
-            slot.along(&along, &mut mu).is_ok().then_some(mu)
+            match slot.along(&along, &mut mu) {
+                Ok(()) => (Some(mu), String::new()),
+                Err(undefined) => (None, undefined.to_string()),
+            }
         }
-        Friction::Mean(slot) => slot.mu(&mean).ok().map(|mu| vec![mu; fine.len()]),
+        Friction::Mean(slot) => match slot.mu(&mean) {
+            Ok(mu) => (Some(vec![mu; fine.len()]), String::new()),
+            Err(undefined) => (None, undefined.to_string()),
+        },
     };
     let pitch = part.pair.points[2];
     let places = fine
@@ -195,20 +226,23 @@ fn places(
             }
         })
         .collect();
-    Ok((places, solution.mesh_torque(index)))
+    Ok(Paths {
+        places,
+        torque: solution.mesh_torque(index),
+        sharing,
+        silent,
+        gear: given.gear.clone(),
+        temperature: given.temperature,
+    })
 }
 
-fn show(
-    name: &str,
-    entry: &ContactPathEntry,
-    built: &Built<'_>,
-    torque: f64,
-    places: &[Place],
-    out: &mut Out,
-) -> Result<(), Failure> {
+fn show(name: &str, entry: &ContactPathEntry, built: &Built<'_>, found: &Paths, out: &mut Out) -> Result<(), Failure> {
     out.line(format!(
-        "{name}: path of contact of {}, {torque:.3} Nm on its first gear, models {}",
-        entry.mesh, built.name
+        "{name}: path of contact of {}, {:.3} Nm on its first gear, load sharing {}, models {}",
+        entry.mesh,
+        found.torque,
+        json!(found.sharing).as_str().unwrap_or_default(),
+        built.name
     ))?;
     let mut table = Table::new(&[
         "mm from pitch",
@@ -220,8 +254,8 @@ fn show(
         "mu",
         "loss W",
     ]);
-    for i in spread(places.len()) {
-        let p = &places[i];
+    for i in spread(found.places.len()) {
+        let p = &found.places[i];
         table.row(vec![
             format!("{:.3}", p.from_pitch),
             format!("{:.3}", p.share),
@@ -234,11 +268,8 @@ fn show(
         ]);
     }
     out.text(&table.render())?;
-    if places.iter().all(|p| p.mu.is_none()) {
-        out.line(format!(
-            "the model of {} shows no friction along the path: only geometry, load and film",
-            entry.mesh
-        ))?;
+    if !found.silent.is_empty() {
+        out.line(format!("no friction of {}: {}", entry.mesh, found.silent))?;
     }
     out.line("")?;
     Ok(())
