@@ -15,6 +15,7 @@ pub use member::{MemberPlace, MemberSite, OnMember};
 pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
 
 use crate::document::{Diagnostic, did_you_mean};
+use crate::immersion::Height;
 use crate::loads::SupportLoad;
 use crate::registry::Common;
 
@@ -94,6 +95,8 @@ pub enum Level {
         height: f64,
         /// One over the share of the upward direction across the shafts.
         slope: f64,
+        /// Radius of the orbit on which the axis turns about that place; zero for an axis that rests. \[m\]
+        orbit: f64,
     },
 }
 
@@ -134,13 +137,19 @@ impl<'a> State<'a> {
         &self.oils[spot.oil as usize]
     }
 
-    /// Height of the oil above the axis at a spot; minus infinity where it is dry. \[m\]
+    /// Height of the oil above the axis at a spot.
     #[inline]
-    pub fn level(&self, spot: &Spot) -> f64 {
+    pub fn level(&self, spot: &Spot) -> Height {
         match spot.level {
-            Level::Dry => f64::NEG_INFINITY,
-            Level::Own(level) => level,
-            Level::Sump { height, slope } => (self.surface - height) * slope,
+            Level::Dry => Height {
+                level: f64::NEG_INFINITY,
+                orbit: 0.0,
+            },
+            Level::Own(level) => Height { level, orbit: 0.0 },
+            Level::Sump { height, slope, orbit } => Height {
+                level: (self.surface - height) * slope,
+                orbit,
+            },
         }
     }
 }

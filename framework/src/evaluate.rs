@@ -10,12 +10,11 @@ use std::cell::Cell;
 
 use crate::attach::State;
 use crate::flow::{Balance, Drive, FlowState, Outcome, Status, Tolerance};
-use crate::immersion::dip;
 use crate::loads::SupportLoad;
 use crate::loss::{Extent, Loss, Notes, Undefined};
 use crate::mechanism::gear_drag::GearDragAt;
 use crate::mechanism::gear_mesh::GearMeshAt;
-use crate::transmission::{Case, Component, Transmission};
+use crate::transmission::{Case, Component, Sharing, Transmission};
 
 /// Whether losses change the torques of what comes after them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -136,6 +135,8 @@ impl Transmission {
             oils,
             surface,
             loads,
+            uneven_loads,
+            uneven_forces,
             passed,
             tangential,
             cells,
@@ -154,7 +155,11 @@ impl Transmission {
         let mut guess = point.flow == PowerFlow::Real && !standing;
         let losses = |flow: &mut FlowState<'_>| {
             let notes = |base| {
-                if guess { Notes::MUTED } else { Notes::fresh(cells, base) }
+                if guess {
+                    [Notes::MUTED; 2]
+                } else {
+                    [Notes::fresh(cells, base), Notes::new(cells, base)]
+                }
             };
             // Meshes are the first rows, in their own order.
             for ((mesh, tangential), multiplier) in self.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers)
@@ -169,11 +174,20 @@ impl Transmission {
                 surface,
                 loads,
             };
+            if self.uneven {
+                for (which, loads) in uneven_loads.iter_mut().enumerate() {
+                    for ((force, mean), mesh) in uneven_forces.iter_mut().zip(&*tangential).zip(&self.meshes) {
+                        *force = mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
+                    }
+                    self.loads.evaluate(uneven_forces, speeds, passed, loads);
+                    self.correct_loads(case, flow.ports, loads);
+                }
+            }
             flow.drags[..idle_drags.len()].copy_from_slice(idle_drags);
             for &i in &*braking {
                 let (component, speed) = (&self.components[i], relative[i]);
                 let loss = &mut component_losses[i];
-                *loss = component_loss(component, &state, notes(component.notes));
+                *loss = loaded_loss(component, &state, uneven_loads, notes(component.notes));
                 let moment = moment(loss, speed) * component.count;
                 brake(component.between, speed, moment, flow.drags);
             }
@@ -220,7 +234,8 @@ impl Transmission {
         };
         for ((component, loss), speed) in self.components.iter().zip(&mut s.component_losses).zip(&s.relative) {
             if component.loaded && !component.off && *speed == 0.0 {
-                *loss = component_loss(component, &state, Notes::new(cells, component.notes));
+                let notes = [Notes::new(cells, component.notes); 2];
+                *loss = loaded_loss(component, &state, &s.uneven_loads, notes);
             }
         }
     }
@@ -239,18 +254,10 @@ impl Transmission {
             part: &drag.part,
             speed: speed[0],
             speed_2: speed[1],
-            tip_dip: dip(level[0], seat.radii[0][0]),
-            dip: dip(level[0], seat.radii[0][1]),
-            tip_dip_2: if seat.pair {
-                dip(level[1], seat.radii[1][0])
-            } else {
-                0.0
-            },
-            dip_2: if seat.pair {
-                dip(level[1], seat.radii[1][1])
-            } else {
-                0.0
-            },
+            tip_dip: level[0].dip(seat.radii[0][0]),
+            dip: level[0].dip(seat.radii[0][1]),
+            tip_dip_2: if seat.pair { level[1].dip(seat.radii[1][0]) } else { 0.0 },
+            dip_2: if seat.pair { level[1].dip(seat.radii[1][1]) } else { 0.0 },
             towards_mesh: towards(0),
             towards_mesh_2: if seat.pair { towards(1) } else { 0.0 },
             temperature: oil.temperature,
@@ -261,20 +268,24 @@ impl Transmission {
         }))
     }
 
-    /// Loss of one mesh, one copy.
+    /// Loss of one mesh, one copy; the mean over the copies where they carry different loads.
     fn mesh(
         &self,
         index: usize,
         tangential: f64,
         drives: Drive,
         state: &State<'_>,
-        notes: Notes<'_>,
+        notes: [Notes<'_>; 2],
     ) -> Result<Loss, Undefined> {
-        sound(
-            self.meshes[index]
-                .model
-                .loss(&self.mesh_at(index, tangential, drives, state, notes)),
-        )
+        let mesh = &self.meshes[index];
+        let one = |factor: f64, notes: Notes<'_>| {
+            let at = self.mesh_at(index, factor * tangential, drives, state, notes);
+            sound(mesh.model.loss(&at))
+        };
+        match mesh.sharing {
+            None => one(1.0, notes[0]),
+            Some(sharing) => over_planets(sharing, notes, |which, notes| one(sharing.factors()[which], notes)),
+        }
     }
 
     /// What the model of a mesh sees, one copy.
@@ -411,6 +422,35 @@ pub(crate) fn component_loss(component: &Component, state: &State<'_>, notes: No
         }),
         _ => answer,
     }
+}
+
+/// Loss of one copy of a component that carries load; the mean over the copies where they carry different loads.
+fn loaded_loss(
+    component: &Component,
+    state: &State<'_>,
+    uneven: &[Vec<SupportLoad>; 2],
+    notes: [Notes<'_>; 2],
+) -> Result<Loss, Undefined> {
+    match component.sharing {
+        None => component_loss(component, state, notes[0]),
+        Some(sharing) => over_planets(sharing, notes, |which, notes| {
+            let loads = &uneven[which];
+            component_loss(component, &State { loads, ..*state }, notes)
+        }),
+    }
+}
+
+/// The mean over the planets of a set: the most loaded one and the others, each asked once. The second notes add to what
+/// the first have noted.
+fn over_planets(
+    sharing: Sharing,
+    notes: [Notes<'_>; 2],
+    ask: impl Fn(usize, Notes<'_>) -> Result<Loss, Undefined>,
+) -> Result<Loss, Undefined> {
+    notes[0].branch("the most loaded planet");
+    let most = ask(0, notes[0])?;
+    notes[1].branch("each of the other planets");
+    Ok(most.mean(sharing.weight, ask(1, notes[1])?))
 }
 
 /// A model's answer counts only when it is a number that is not negative.

@@ -2,6 +2,37 @@
 
 use std::f64::consts::PI;
 
+/// Height of the oil above an axis that rests or orbits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Height {
+    /// Above the axis, or above the middle of its orbit; minus infinity where it is dry. \[m\]
+    pub level: f64,
+    /// Radius of the orbit; zero for an axis that rests. \[m\]
+    pub orbit: f64,
+}
+
+impl Height {
+    /// Depth of a circle's lowest point below the oil, as a mean over the orbit. \[m\]
+    #[inline]
+    pub fn dip(self, radius: f64) -> f64 {
+        if self.orbit > 0.0 {
+            orbiting_dip(self.level, radius, self.orbit)
+        } else {
+            dip(self.level, radius)
+        }
+    }
+
+    /// Height of the oil over the lowest point of a circle, zero where it is lower, as a mean over the orbit. \[m\]
+    #[inline]
+    pub fn over_bottom(self, radius: f64) -> f64 {
+        if self.orbit > 0.0 {
+            mean_height(self.level + radius, self.orbit)
+        } else {
+            (self.level + radius).max(0.0)
+        }
+    }
+}
+
 /// Depth of a circle's lowest point below the oil, for a height of the oil above its axis. \[m\]
 pub fn dip(level: f64, radius: f64) -> f64 {
     (level + radius).clamp(0.0, 2.0 * radius)
@@ -9,17 +40,21 @@ pub fn dip(level: f64, radius: f64) -> f64 {
 
 /// Mean dip of a circle whose axis orbits, for a height of the oil above the centre of the orbit. \[m\]
 pub fn orbiting_dip(level: f64, radius: f64, orbit: f64) -> f64 {
-    let mean = |q: f64| {
-        if q >= orbit {
-            q
-        } else if q <= -orbit {
-            0.0
-        } else {
-            let angle = (q / orbit).acos();
-            (q * (PI - angle) + orbit * angle.sin()) / PI
-        }
-    };
-    mean(level + radius) - mean(level - radius)
+    // Without a sump both heights are minus infinity, and their means zero.
+    mean_height(level + radius, orbit) - mean_height(level - radius, orbit)
+}
+
+/// Mean over an orbit of the height of the oil above a point that stands `height` below it in the middle of the orbit;
+/// zero where the point is above the oil. \[m\]
+fn mean_height(height: f64, orbit: f64) -> f64 {
+    if height >= orbit {
+        height
+    } else if height <= -orbit {
+        0.0
+    } else {
+        let angle = (height / orbit).acos();
+        (height * (PI - angle) + orbit * angle.sin()) / PI
+    }
 }
 
 /// Share of its orbit in which a circle touches the oil.
@@ -76,8 +111,27 @@ mod tests {
             (80.0, 52.0, 1.0),
         ] {
             close(orbiting_dip(level, 26.0, 48.0), depth);
+            close(Height { level, orbit: 48.0 }.dip(26.0), depth);
             close(wet_share(level, 26.0, 48.0), share);
         }
+    }
+
+    #[test]
+    fn means_over_the_orbit_are_means_of_many_positions() {
+        for level in [-70.0, -30.0, 5.0, 60.0] {
+            let height = Height { level, orbit: 48.0 };
+            let mean = |f: &dyn Fn(f64) -> f64| {
+                let at = |i: usize| f(level - 48.0 * (f64::from(i as u32) * PI / 5000.0).cos());
+                (0..10000).map(at).sum::<f64>() / 10000.0
+            };
+            assert!((height.dip(26.0) - mean(&|l| dip(l, 26.0))).abs() < 1e-4);
+            assert!((height.over_bottom(10.0) - mean(&|l| (l + 10.0).max(0.0))).abs() < 1e-4);
+        }
+        let dry = Height {
+            level: f64::NEG_INFINITY,
+            orbit: 48.0,
+        };
+        assert_eq!((dry.dip(26.0), dry.over_bottom(26.0)), (0.0, 0.0));
     }
 
     #[test]

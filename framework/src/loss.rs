@@ -92,6 +92,16 @@ impl Loss {
         self.first_share
     }
 
+    /// The mean of two answers of one model, with the weight of this one; the weight of the other is what is left to one.
+    #[inline]
+    pub fn mean(self, weight: f64, other: Self) -> Self {
+        let mut mean = self;
+        for (value, other) in mean.values.iter_mut().zip(other.values) {
+            *value = weight * *value + (1.0 - weight) * other;
+        }
+        mean
+    }
+
     /// Whether the answer is in moments or powers.
     pub fn measure(&self) -> Measure {
         self.measure

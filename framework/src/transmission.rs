@@ -6,6 +6,7 @@ mod drags;
 mod gearing;
 mod members;
 mod oils;
+mod planets;
 mod states;
 mod statics;
 
@@ -16,6 +17,8 @@ pub use drags::DragSeat;
 pub use gearing::{GearSeat, MeshSeat};
 pub use oils::{Oils, Surface};
 pub use states::GearState;
+
+pub(crate) use planets::Sharing;
 
 use crate::document::Diagnostic;
 use crate::loads::ShaftLoads;
@@ -65,6 +68,8 @@ pub(crate) struct MeshModel {
     pub part: Arc<MeshPart>,
     pub model: Slot<GearMesh>,
     pub oil: u16,
+    /// Sharing of the set, where its planets carry different loads.
+    pub sharing: Option<Sharing>,
     /// Tangential force of one copy per multiplier of its row. \[1/m\]
     pub force_per_multiplier: f64,
 }
@@ -88,6 +93,8 @@ pub(crate) struct Component {
     pub off: bool,
     /// Number of its support, where it carries load.
     pub support: Option<u16>,
+    /// Sharing of the set, where it sits on a planet and the planets carry different loads.
+    pub sharing: Option<Sharing>,
     /// Where the notes of its model stand.
     pub notes: NoteBase,
     pub count: f64,
@@ -112,6 +119,8 @@ pub struct Transmission {
     pub(crate) load_factors: Vec<statics::LoadFactors>,
     pub(crate) imported: Option<statics::Imported>,
     pub(crate) supports: Vec<String>,
+    /// True where the planets of a set carry different loads.
+    pub(crate) uneven: bool,
     /// Findings that do not keep the transmission from being evaluated.
     pub warnings: Vec<Diagnostic>,
     /// Temperature of the oil as described. \[degC\]

@@ -170,10 +170,23 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
         number(solution.loss_torque(), 6),
         solution.passes(),
     ));
+    // Only trains in which power circulates hold more than goes in.
+    if let Some(times) = multiplied(solution).filter(|times| *times > 1.001) {
+        text.push_str(&format!(
+            "largest power inside {} W, {times:.2} times the input\n",
+            number(Some(solution.largest_power()), 2),
+        ));
+    }
     if let Some((part, reason)) = solution.undefined() {
         text.push_str(&format!("{}: {reason}\n", part.path));
     }
     text
+}
+
+/// The largest power inside over the power that goes in.
+fn multiplied(solution: &Solution<'_>) -> Option<f64> {
+    let input = solution.input_power().filter(|input| *input > 0.0)?;
+    Some(solution.largest_power() / input)
 }
 
 fn sums(transmission: &Transmission, solution: &Solution<'_>) -> [f64; 6] {
@@ -271,6 +284,7 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
             "loss_w": solution.loss(),
             "residual_w": solution.residual(),
             "largest_internal_power_w": solution.largest_power(),
+            "largest_internal_over_input": multiplied(solution),
         },
         "sums_w": SUMS.iter().zip(sums(transmission, solution)).map(|((name, _), w)| ((*name).to_owned(), json!(w))).collect::<serde_json::Map<_, _>>(),
         "ports": ports,

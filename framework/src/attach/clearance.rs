@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Attach, Names, Oil, Spot, State, sealed};
+use crate::immersion::Height;
 
 /// Between two members, with relative speed only.
 #[derive(Debug)]
@@ -32,8 +33,8 @@ pub struct ClearanceSite<'a> {
     pub first_speed: f64,
     /// The oil there.
     pub oil: &'a Oil,
-    /// Height of the oil above the axis; minus infinity where it is dry. \[m\]
-    pub level: f64,
+    /// Height of the oil above the axis.
+    pub level: Height,
 }
 
 impl sealed::Sealed for Clearance {}

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Attach, Names, Oil, Spot, State, sealed};
+use crate::immersion::Height;
 
 /// On a shaft or a loose gear, against the housing.
 #[derive(Debug)]
@@ -27,8 +28,8 @@ pub struct MemberSite<'a> {
     pub speed: f64,
     /// The oil there.
     pub oil: &'a Oil,
-    /// Height of the oil above the axis; minus infinity where it is dry. \[m\]
-    pub level: f64,
+    /// Height of the oil above the axis.
+    pub level: Height,
 }
 
 impl sealed::Sealed for OnMember {}

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Attach, Names, Oil, Spot, State, sealed};
+use crate::immersion::Height;
 
 /// Between a shaft and what carries it: the housing, or another member.
 #[derive(Debug)]
@@ -132,8 +133,8 @@ pub struct SupportSite<'a> {
     pub tilting: f64,
     /// The oil there.
     pub oil: &'a Oil,
-    /// Height of the oil above the axis; minus infinity where it is dry. \[m\]
-    pub level: f64,
+    /// Height of the oil above the axis.
+    pub level: Height,
 }
 
 impl sealed::Sealed for Support {}

@@ -158,9 +158,18 @@ pub struct PlanetarySetEntry {
     /// Number of equal planets, equally spaced: their transverse forces on central members cancel. [-]
     #[schemars(range(min = 2, max = 50))]
     pub count: u32,
+    /// Load of the most loaded planet over the mean of all planets; the others share the rest equally. The losses of meshes
+    /// and bearings on the planets are means over the planets. [-]
+    #[serde(default = "equal")]
+    #[schemars(range(min = 1.0, max = 50.0))]
+    pub load_sharing: f64,
     /// Shafts that are the planet bodies; each stands for all of its equal copies.
     #[schemars(length(min = 1))]
     pub planets: Vec<String>,
+}
+
+fn equal() -> f64 {
+    1.0
 }
 
 /// A differential: the speeds of both sides against the case add up to zero.

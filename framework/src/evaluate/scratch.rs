@@ -18,6 +18,10 @@ pub struct Scratch {
     pub(super) oils: Vec<Oil>,
     pub(super) surface: f64,
     pub(super) loads: Vec<SupportLoad>,
+    /// Loads with the most loaded planet of each set, and with each of the others; empty where planets share equally.
+    pub(super) uneven_loads: [Vec<SupportLoad>; 2],
+    /// Tangential forces with those of a planet's meshes; empty where planets share equally.
+    pub(super) uneven_forces: Vec<f64>,
     pub(super) passed: Vec<f64>,
     pub(super) tangential: Vec<f64>,
     pub(super) component_losses: Vec<Result<Loss, Undefined>>,
@@ -51,6 +55,18 @@ impl Scratch {
             oils: vec![Oil::default(); transmission.oils.len()],
             surface: 0.0,
             loads: vec![SupportLoad::default(); supports],
+            uneven_loads: [(); 2].map(|()| {
+                let count = if transmission.uneven { supports } else { 0 };
+                vec![SupportLoad::default(); count]
+            }),
+            uneven_forces: vec![
+                0.0;
+                if transmission.uneven {
+                    transmission.meshes.len()
+                } else {
+                    0
+                }
+            ],
             passed: vec![0.0; transmission.loads.scratch_len()],
             tangential: vec![0.0; transmission.meshes.len()],
             component_losses: vec![NOT_YET; transmission.components.len()],

@@ -251,8 +251,8 @@ impl Solution<'_> {
         let notes = Notes::new(&[], info.notes).traced(&trace);
         let mut loss = t.part_loss(info, s);
         loss.result = match info.kind {
-            PartKind::Component(i) => super::component_loss(&t.components[i], &state, notes),
-            PartKind::Mesh(i) => t.mesh(i, s.tangential[i], s.work.drives[i], &state, notes),
+            PartKind::Component(i) => super::loaded_loss(&t.components[i], &state, &s.uneven_loads, [notes; 2]),
+            PartKind::Mesh(i) => t.mesh(i, s.tangential[i], s.work.drives[i], &state, [notes; 2]),
             PartKind::Drag(i) => t.drag(i, &state, notes),
         };
         (loss, trace)

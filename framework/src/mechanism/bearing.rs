@@ -285,7 +285,7 @@ impl Component for Bearing {
             temperature: oil.temperature,
             nu: oil.nu,
             rho: oil.rho,
-            oil_height: part.oil_height.unwrap_or_else(|| (site.level + part.raceway).max(0.0)),
+            oil_height: part.oil_height.unwrap_or_else(|| site.level.over_bottom(part.raceway)),
             mu_bl: oil.mu_bl,
             mu_ehl: oil.mu_ehl,
             notes,

@@ -6,9 +6,10 @@ use super::drags::{DragSeat, body, mates, named, part, twice};
 use super::gearing::{GearSeat, MeshSeat, gearing};
 use super::members::Members;
 use super::oils::OilNumbers;
+use super::planets;
 use super::states::states;
 use super::statics::{imported, load_factors, shaft_loads};
-use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, Transmission};
+use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, Sharing, Transmission};
 use crate::attach::{Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
@@ -32,7 +33,8 @@ impl Transmission {
         let members = Members::new(&entry, &mut found);
         let ports = ports(&entry, &members, &mut found);
         let (gears, meshes) = gearing(&entry, &members, &mut found);
-        let mut oils = OilNumbers::new(&entry, &members);
+        let sharing = planets::sharing(&entry, &members, &mut found);
+        let mut oils = OilNumbers::new(&entry, &members, &meshes);
         let mut build = Build::new(language.registry(), files);
 
         let Placing {
@@ -40,12 +42,15 @@ impl Transmission {
             mut parts,
             supports,
             clearances,
-        } = place(language, resolved, &members, &mut oils, &mut build, &mut found);
-        let mesh_models = mesh_models(&entry, &meshes, &mut oils, &mut build, &mut parts, &mut found);
+        } = place(
+            language, resolved, &members, &sharing, &mut oils, &mut build, &mut found,
+        );
+        let mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
         let drags = drags(
             language, &entry, &gears, &meshes, &mut oils, &mut build, &mut parts, &mut found,
         );
 
+        planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
         let states = if found.is_empty() {
             states(&entry, &members, &meshes, &clearances, &ports, &mut found)
         } else {
@@ -76,7 +81,7 @@ impl Transmission {
             let (instances, cells) = build.finish();
             let order = |path: &str| document_order(resolved, path);
             parts.sort_by_key(|p| order(&p.path));
-            let mut built = Self {
+            let built = Self {
                 title: entry.title.clone().unwrap_or_default(),
                 members: members.names,
                 ports,
@@ -93,21 +98,11 @@ impl Transmission {
                 load_factors,
                 imported,
                 supports: supports.iter().map(|s| s.path.clone()).collect(),
+                uneven: sharing.iter().any(Option::is_some),
                 warnings,
                 oil_temperature: entry.thermal.oil,
             };
             built.check_states()?;
-            if !matches!(built.oils.surface_kind(), super::Surface::Dry) {
-                for (id, _) in entry.planetary_sets.iter() {
-                    built.warnings.push(
-                        Diagnostic::warning(
-                            format!("planetary_sets.{id}"),
-                            "planets orbit, so no oil level is known at them: they count as dry",
-                        )
-                        .mend("state `level` of their gears and bearings, as a mean over the orbit"),
-                    );
-                }
-            }
             Ok(built)
         } else {
             Err(found)
@@ -195,6 +190,7 @@ fn place(
     language: &Language,
     resolved: &Resolved,
     members: &Members,
+    sharing: &[Option<Sharing>],
     oils: &mut OilNumbers<'_>,
     build: &mut Build<'_>,
     found: &mut Vec<Diagnostic>,
@@ -230,6 +226,12 @@ fn place(
                         loaded: placed.loaded(),
                         off: placed.off(),
                         support: placed.support(),
+                        sharing: placed
+                            .between()
+                            .into_iter()
+                            .flatten()
+                            .find_map(|m| sharing[m as usize])
+                            .filter(|_| placed.loaded()),
                         notes: placed.notes(),
                         placed,
                         count,
@@ -253,6 +255,7 @@ fn place(
 fn mesh_models(
     entry: &GearboxEntry,
     meshes: &[MeshSeat],
+    sharing: &[Option<Sharing>],
     oils: &mut OilNumbers<'_>,
     build: &mut Build<'_>,
     parts: &mut Vec<PartInfo>,
@@ -283,6 +286,7 @@ fn mesh_models(
                     notes: model.notes,
                 });
                 models.push(MeshModel {
+                    sharing: seat.members.iter().find_map(|m| sharing[*m]),
                     force_per_multiplier: f64::from(seat.pair.z[0]) / (seat.count * seat.pair.working_radius[0]),
                     seat: seat.clone(),
                     part,

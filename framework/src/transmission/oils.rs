@@ -1,6 +1,8 @@
 //! Oils by number, and the height of the oil at every place.
 
+use super::gearing::MeshSeat;
 use super::members::Members;
+use super::planets::orbit;
 use crate::attach::{Level, Oil, Places, dangling};
 use crate::description::{GearboxEntry, Running};
 use crate::document::Diagnostic;
@@ -81,14 +83,15 @@ pub struct OilNumbers<'a> {
     /// True where the housing's oil dangles, which is reported once.
     dangles: bool,
     surface: Surface,
-    axes: &'a [Option<[f64; 2]>],
+    /// Axis of each member, and the radius on which it turns about it.
+    axes: Vec<Option<([f64; 2], f64)>>,
     up: [f64; 3],
     datum: [f64; 2],
     pub findings: Vec<Diagnostic>,
 }
 
 impl<'a> OilNumbers<'a> {
-    pub fn new(entry: &'a GearboxEntry, members: &'a Members) -> Self {
+    pub fn new(entry: &'a GearboxEntry, members: &Members, meshes: &[MeshSeat]) -> Self {
         let mut findings = Vec::new();
         let names: Vec<&str> = entry.lubricants.ids().collect();
         let mut lubricants = Vec::new();
@@ -100,6 +103,13 @@ impl<'a> OilNumbers<'a> {
                 }
             }
         }
+        // A planet's axis turns about that of its carrier.
+        let axes = (0..members.names.len())
+            .map(|m| match members.planets[m] {
+                Some(planet) => Some((members.axes[planet.carrier]?, orbit(m, members, meshes)?)),
+                None => Some((members.axes[m]?, 0.0)),
+            })
+            .collect();
         let broken = lubricants.len() < names.len();
         let up = upward(entry.housing.grade, entry.housing.bank);
         let shafts: Vec<&str> = members.names.iter().map(String::as_str).collect();
@@ -162,7 +172,7 @@ impl<'a> OilNumbers<'a> {
             default,
             dangles: default.is_none() && entry.housing.oil.is_some(),
             surface,
-            axes: &members.axes,
+            axes,
             up,
             datum,
             findings,
@@ -216,13 +226,14 @@ impl Places for OilNumbers<'_> {
         if matches!(self.surface, Surface::Dry) {
             return Level::Dry;
         }
-        let Some([y, z]) = member.and_then(|m| self.axes[m as usize]) else {
+        let Some(([y, z], orbit)) = member.and_then(|m| self.axes[m as usize]) else {
             return Level::Dry;
         };
         let height = self.up[0] * at + self.up[1] * (y - self.datum[0]) + self.up[2] * (z - self.datum[1]);
         Level::Sump {
             height,
             slope: 1.0 / self.up[1].hypot(self.up[2]),
+            orbit,
         }
     }
 }

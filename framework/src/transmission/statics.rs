@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::gearing::MeshSeat;
 use super::members::Members;
+use super::planets::orbit;
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
@@ -119,13 +120,9 @@ pub fn shaft_loads(
                 });
             }
             if let Some(planet) = members.planets[i] {
-                let orbit = meshes
-                    .iter()
-                    .find(|m| m.members.contains(&i) && !m.members.iter().all(|b| members.planets[*b].is_some()))
-                    .map_or(0.0, |m| m.pair.centre_distance);
                 member.planet = Some(PlanetBody {
                     carrier: planet.carrier,
-                    orbit,
+                    orbit: orbit(i, members, meshes).unwrap_or(0.0),
                     count: planet.count,
                     mass: shaft.mass,
                 });
