@@ -103,6 +103,12 @@ impl Formula {
         Ok(formula)
     }
 
+    /// True where the value may hang on a quantity, by its place among the names.
+    pub fn uses(&self, input: usize) -> bool {
+        let is_it = |op: &Op| matches!(op, Op::Input(i) if usize::from(*i) == input);
+        self.program.iter().any(is_it)
+    }
+
     fn depth(&self) -> usize {
         let (mut now, mut most) = (0_usize, 0);
         for op in &self.program {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::document::{Diagnostic, Node, Places, Severity, Sources, read_yaml};
-use crate::language::{DRAGS, Language, MESHES};
+use crate::language::{DRAGS, Language};
 use crate::registry::Files;
 use crate::resolve::{Came, Choice, Resolved, resolve};
 use crate::transmission::Transmission;
@@ -149,9 +149,8 @@ impl Gearbox {
         let section = keys.next().unwrap_or_default();
         let written = match (section, keys.nth(1), keys.next()) {
             (_, Some("drag"), Some(slot)) => format!("models.{DRAGS}.{slot}"),
-            ("meshes", ..) => format!("models.{MESHES}"),
-            _ => match language.registry().sections().find(|(_, s)| s.name == section) {
-                Some((mechanism, _)) => format!("models.{}", mechanism.key),
+            _ => match language.sections().find(|(name, _)| *name == section) {
+                Some((_, key)) => format!("models.{key}"),
                 None => return finding,
             },
         };

@@ -7,11 +7,11 @@ use serde_json::Value;
 use crate::description::Ordered;
 use crate::document::{Diagnostic, Unit};
 use crate::formula::Formula;
-use crate::loss::{Loss, Undefined};
+use crate::loss::{Limit, Loss, Undefined};
 use crate::mechanism::gear_drag::Scope;
-use crate::mechanism::{Mechanism, Quantity};
+use crate::mechanism::{Mechanism, Noted, Quantity};
 use crate::registry::{Build, Built, Entry, Evidence, Graded, formula};
-use crate::table::{Interpolation, Outside, Reading, Scale, Table};
+use crate::table::{self, Interpolation, Outside, Reading, Scale, Table};
 
 /// The most quantities that a context may have, for the inputs of a formula.
 const MOST_QUANTITIES: usize = 24;
@@ -46,7 +46,11 @@ impl<M: Mechanism> Scalar<M> {
                 }
                 formula.value(&inputs[..M::QUANTITIES.len()])?
             }
-            Law::Table(lookup) => lookup.value(at)?,
+            Law::Table(lookup) => {
+                let (value, place) = lookup.value(at)?;
+                at.notes().check(&PLACE, place);
+                value
+            }
         };
         if value < 0.0 {
             return Err(Undefined {
@@ -74,7 +78,17 @@ impl<M: Mechanism> Scalar<M> {
     }
 }
 
-/// The four entries of a mechanism.
+/// Where a point lies in a table: the first limit of every model that reads one.
+pub const PLACE: Limit = Limit::new(
+    0,
+    "place along the farthest axis",
+    "-",
+    0.0,
+    1.0,
+    "the ends of the table",
+);
+
+/// The entries that a mechanism has without anybody's doing.
 pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
     let entry = |name,
                  meaning,
@@ -87,7 +101,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
         source: "the user's own",
         example,
         part: None,
-        limits: &[],
+        limits: if name == "table" { const { &[PLACE] } } else { &[] },
         terms: if name == "none" { &[] } else { const { &[M::TOTAL] } },
         observed: &[],
         evidence: const { &[formula(Evidence::User, "the user states it")] as &[Graded] },
@@ -96,7 +110,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
         schema,
         build,
     };
-    vec![
+    let mut entries = vec![
         entry(
             "none",
             "No loss.",
@@ -128,7 +142,9 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
             <TableParams as JsonSchema>::json_schema,
             build_table::<M>,
         ),
-    ]
+    ];
+    entries.retain(|entry| !M::OWN.contains(&entry.name));
+    entries
 }
 
 /// No parameters.
@@ -146,8 +162,8 @@ struct FormulaParams {
 /// A table.
 #[derive(Deserialize, JsonSchema)]
 struct TableParams {
-    /// CSV file: a column for each axis, named as a quantity with its unit, such as `speed [rpm]`, then one column for
-    /// the answer. One row for each point of the grid.
+    /// CSV file: a column for each axis, named as a quantity with its unit, such as `speed [rpm]`, then a column for the
+    /// answer, or several whose sum it is. One row for each point of the grid.
     file: String,
     /// What holds beyond the ends of the table.
     #[serde(default)]
@@ -155,7 +171,7 @@ struct TableParams {
     /// What connects the points.
     #[serde(default)]
     interpolation: Interpolation,
-    /// Scale of each axis by its name, and of the answer as `answer`; others are linear.
+    /// Scale of each axis by its name, and of the answer as `answer`; others are linear, or as the mechanism says.
     #[serde(default)]
     scale: Ordered<Scale>,
 }
@@ -184,75 +200,123 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
             None => error.note(format!("quantities: {}", names.join(", "))),
         }
     })?;
+    for (used, quantity) in M::QUANTITIES.iter().enumerate() {
+        let needed = cx.part::<M>().and_then(|part| M::needs(part, quantity.name));
+        if let (true, Some(needed)) = (formula.uses(used), needed) {
+            return Err(cx
+                .error(format!("`{}` is not known here", quantity.name))
+                .mend(format!("state {needed}")));
+        }
+    }
     built::<M>(Law::Formula(formula), cx)
 }
 
 /// A table over quantities of a mechanism's context, for models that read one.
 pub struct Lookup<M: Mechanism> {
-    table: Table,
+    /// One for each column of answers.
+    tables: Vec<Table>,
     axes: Vec<&'static Quantity<M>>,
 }
 
 impl<M: Mechanism> Lookup<M> {
-    /// Reads a CSV file; its answer is in `unit`.
+    /// Reads a CSV file with one column of answers in `unit`.
     ///
     /// # Errors
     /// The file, its axes or its units, with what to write instead.
     pub fn read(file: &str, reading: &Reading, unit: &str, cx: &Build<'_>) -> Result<Self, Diagnostic> {
-        let text = cx.text(file)?;
-        let table = Table::from_csv(&text, reading).map_err(|fault| cx.error(format!("{file}: {fault}")))?;
-        if let Some(written) = table.unit().filter(|written| *written != unit) {
+        let lookup = Self::read_sum(file, reading, unit, cx)?;
+        if lookup.tables.len() > 1 {
             return Err(cx
-                .error(format!("{file}: the answer is in {written}, not in {unit}"))
-                .mend(format!("convert it and write `[{unit}]` in the last column's header")));
+                .error(format!(
+                    "{file}: line 1: {} columns behind the axes",
+                    lookup.tables.len()
+                ))
+                .mend("leave one column for the answer; each axis is named as a quantity"));
         }
-        let mut axes = Vec::new();
-        for axis in table.axes() {
-            let Some(quantity) = M::QUANTITIES.iter().find(|q| q.name == axis.name) else {
-                let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
-                return Err(cx
-                    .error(format!(
-                        "{file}: the context of {} has no quantity `{}`",
-                        M::KEY,
-                        axis.name
-                    ))
-                    .note(format!("quantities: {}", names.join(", "))));
-            };
-            if axis.unit != quantity.unit().symbol {
-                return Err(cx
-                    .error(format!(
-                        "{file}: column `{}` is in {}, not in {}",
-                        axis.name,
-                        axis.unit,
-                        quantity.unit().symbol
-                    ))
-                    .mend(format!(
-                        "convert it and write `{} [{}]`",
-                        axis.name,
-                        quantity.unit().symbol
-                    )));
-            }
-            axes.push(quantity);
-        }
-        Ok(Self { table, axes })
+        Ok(lookup)
     }
 
-    /// The answer at a context, in the unit of the file.
+    /// Reads a CSV file whose answers, in `unit`, add up.
+    ///
+    /// # Errors
+    /// As [`Lookup::read`].
+    pub fn read_sum(file: &str, reading: &Reading, unit: &str, cx: &Build<'_>) -> Result<Self, Diagnostic> {
+        let text = cx.text(file)?;
+        let fault = |fault: String| cx.error(format!("{file}: {fault}"));
+        let columns = table::columns(&text).map_err(fault)?;
+        let quantity = |name: &str| M::QUANTITIES.iter().find(|q| q.name == name);
+        // Behind the axes stand the answers; a first or only axis that is misspelt must not count as one.
+        let axes = columns.iter().take_while(|c| quantity(c).is_some()).count();
+        if axes == 0 {
+            let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
+            let first = columns.first().map_or("", String::as_str);
+            return Err(cx
+                .error(format!(
+                    "{file}: line 1, column 1: the context of {} has no quantity `{first}`",
+                    M::KEY
+                ))
+                .note(format!("quantities: {}", names.join(", ")))
+                .mend("name each axis as a quantity with its unit, such as `speed [rpm]`"));
+        }
+        if let Some(later) = columns[axes..].iter().find(|c| quantity(c).is_some()) {
+            return Err(cx
+                .error(format!(
+                    "{file}: line 1: the axis `{later}` stands behind `{}`, which is no quantity of {}",
+                    columns[axes],
+                    M::KEY
+                ))
+                .mend("name each axis as a quantity; answers stand behind all axes"));
+        }
+        let tables = Table::several_from_csv(&text, reading, axes).map_err(fault)?;
+        for (table, column) in tables.iter().zip(&columns[axes..]) {
+            if let Some(written) = table.unit().filter(|written| *written != unit) {
+                return Err(cx
+                    .error(format!("{file}: line 1: `{column}` is in {written}, not in {unit}"))
+                    .mend(format!("convert it and write `{column} [{unit}]`")));
+            }
+        }
+        let axes: Vec<&'static Quantity<M>> = columns[..axes].iter().filter_map(|c| quantity(c)).collect();
+        for (i, (axis, quantity)) in tables[0].axes().iter().zip(&axes).enumerate() {
+            let own = quantity.unit().symbol;
+            if axis.unit != own {
+                return Err(cx
+                    .error(format!(
+                        "{file}: line 1, column {}: `{}` is in {}, not in {own}",
+                        i + 1,
+                        axis.name,
+                        axis.unit
+                    ))
+                    .mend(format!("convert it and write `{} [{own}]`", axis.name)));
+            }
+            if let Some(needed) = cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
+                return Err(cx
+                    .error(format!("{file}: `{}` is not known here", quantity.name))
+                    .mend(format!("state {needed}")));
+            }
+        }
+        Ok(Self { tables, axes })
+    }
+
+    /// The sum of the answers at a context, in the unit of the file, and where the context lies along the axis on which it
+    /// is farthest out.
     ///
     /// # Errors
     /// Where the table ends.
-    pub fn value(&self, at: &M::At<'_>) -> Result<f64, Undefined> {
+    pub fn value(&self, at: &M::At<'_>) -> Result<(f64, f64), Undefined> {
         let mut inputs = [0.0; 4];
-        for (input, q) in inputs.iter_mut().zip(&self.axes) {
+        for ((input, q), axis) in inputs.iter_mut().zip(&self.axes).zip(self.tables[0].axes()) {
             *input = q.unit().from_si((q.get)(at));
-        }
-        // A table over speeds that are not negative holds for both senses of rotation.
-        for (input, (axis, q)) in inputs.iter_mut().zip(self.table.axes().iter().zip(&self.axes)) {
+            // A table over speeds that are not negative holds for both senses of rotation.
             if q.least < 0.0 && q.unit().symbol == "rpm" && axis.values[0] >= 0.0 {
                 *input = input.abs();
             }
         }
-        self.table.value(&inputs[..self.axes.len()])
+        let inputs = &inputs[..self.axes.len()];
+        let mut sum = 0.0;
+        for table in &self.tables {
+            sum += table.value(inputs)?;
+        }
+        Ok((sum, self.tables[0].place(inputs)))
     }
 }
 
@@ -263,7 +327,8 @@ fn build_table<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built,
         outside: params.outside,
         interpolation: params.interpolation,
         scales: params.scale.0,
+        usually_log: M::LOGARITHMIC,
     };
-    let lookup = Lookup::read(&params.file, &reading, unit, cx)?;
+    let lookup = Lookup::read_sum(&params.file, &reading, unit, cx)?;
     built::<M>(Law::Table(lookup), cx)
 }

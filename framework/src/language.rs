@@ -10,11 +10,16 @@ use crate::document::{Diagnostic, Node, Schema, Walked, read_yaml, walk, walk_at
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
+use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{Entry, Registry};
 use crate::resolve::CatalogueTable;
 
 /// Key of the mechanism that meshes hold.
 pub const MESHES: &str = GearMesh::KEY;
+/// Key of the mechanism that planetary sets hold.
+pub const SETS: &str = PlanetaryDrag::KEY;
+/// Mechanisms whose models sit in sections of the framework's own: section and key.
+pub const HELD: [(&str, &str); 2] = [("meshes", MESHES), ("planetary_sets", SETS)];
 /// Key of the mechanism that gears and meshes hold by name.
 pub const DRAGS: &str = GearDrag::KEY;
 
@@ -176,6 +181,11 @@ impl Language {
         }
         let value = fine(self.walk_eval(entry.mechanism, &read.node)?)?;
         Ok((value["model"].clone(), value["part"].clone()))
+    }
+
+    /// Sections whose entries have one model each, with the key of the mechanism.
+    pub fn sections(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.registry.sections().map(|(m, s)| (s.name, m.key)).chain(HELD)
     }
 
     /// The catalogue of a section.

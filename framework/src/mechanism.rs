@@ -10,6 +10,7 @@ pub mod clutch;
 pub mod gear_drag;
 pub mod gear_mesh;
 pub mod mean_friction;
+pub mod planetary_drag;
 pub mod seal;
 pub mod synchronizer;
 pub mod tooth_friction;
@@ -42,12 +43,21 @@ pub trait Mechanism: Sized + 'static {
     /// computed while it is deserialised (`serde(try_from)`), so that a part is ready when it exists.
     type Part: DeserializeOwned + JsonSchema + Send + Sync;
     /// All that a model may look at; made by [`context!`](crate::context).
-    type At<'a>: Copy;
+    type At<'a>: Copy + Noted<'a>;
     /// A [`Loss`], or an `f64` for a coefficient.
     type Answer: Answer;
     /// The plain trait that a model implements, as `dyn`.
     type Model: ?Sized + Send + Sync;
 
+    /// Axes of tables, and `answer`, that count by their logarithms where all values are above zero.
+    const LOGARITHMIC: &'static [&'static str] = &[];
+    /// Names among `none`, `constant`, `formula` and `table` that models of the mechanism's own take.
+    const OWN: &'static [&'static str] = &[];
+
+    /// What to state so that a quantity is known for a part; absent where it is known. Tables and formulas ask.
+    fn needs(_part: &Self::Part, _quantity: &str) -> Option<&'static str> {
+        None
+    }
     /// A context at its usual point, from which `eval` and the conformance grid depart.
     fn usual<'a>(part: &'a Self::Part, notes: Notes<'a>) -> Self::At<'a>;
     /// Calls the model.
@@ -58,6 +68,12 @@ pub trait Mechanism: Sized + 'static {
     }
     /// The door through which `none`, `constant`, `formula` and `table` serve this mechanism.
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model>;
+}
+
+/// A context that carries notes; [`context!`](crate::context) implements it.
+pub trait Noted<'a> {
+    /// Where limits, observed quantities and steps are noted.
+    fn notes(&self) -> Notes<'a>;
 }
 
 /// A mechanism whose parts have a section of their own in the document.
@@ -185,6 +201,12 @@ macro_rules! context {
             $($(#[doc = $doc])+ pub $name: f64,)+
             /// Where limits, observed quantities and steps are noted.
             pub notes: $crate::loss::Notes<'a>,
+        }
+
+        impl<'a> $crate::mechanism::Noted<'a> for $At<'a> {
+            fn notes(&self) -> $crate::loss::Notes<'a> {
+                self.notes
+            }
         }
 
         impl<'a> $At<'a> {

@@ -16,7 +16,7 @@ pub use choice::{Choice, ModelSet, expand_set, sets_of};
 pub use paths::{lookup, matches};
 
 use crate::document::Diagnostic;
-use crate::language::{DRAGS, Language, MESHES};
+use crate::language::{DRAGS, Language};
 use crate::registry::Files;
 
 /// Where a value of the resolved document comes from.
@@ -164,17 +164,11 @@ fn give_models(
             _ => own.get(key).filter(|v| !v.is_null()).map(|v| (v.clone(), Came::Models)),
         }
     };
-    let mut sections: Vec<(String, String)> = language
-        .registry()
-        .sections()
-        .map(|(m, s)| (s.name.to_owned(), m.key.to_owned()))
-        .collect();
-    sections.push(("meshes".to_owned(), MESHES.to_owned()));
-    for (section, key) in sections {
-        let default = default_of(&key);
+    for (section, key) in language.sections() {
+        let default = default_of(key);
         let mut taken = 0;
         let mut kept = Vec::new();
-        for (id, entry) in entries_mut(value, &section) {
+        for (id, entry) in entries_mut(value, section) {
             let path = format!("{section}.{id}.model");
             if let Some((name, model)) = named(&path) {
                 entry.insert("model".to_owned(), model.clone());
@@ -189,12 +183,12 @@ fn give_models(
             }
         }
         if let Some((name, s)) = set {
-            if s.models.contains_key(&key) && !kept.is_empty() {
+            if s.models.contains_key(key) && !kept.is_empty() {
                 unreached.push(format!(
                     "{section}: {} keep their own model under `{name}`",
                     kept.join(", ")
                 ));
-            } else if s.models.contains_key(&key) && taken == 0 && s.models[&key] != "none" {
+            } else if s.models.contains_key(key) && taken == 0 && s.models[key] != "none" {
                 unreached.push(format!("`{name}` states a {key} model, and no component takes it"));
             }
         }

@@ -58,14 +58,18 @@ pub struct Reading {
     pub interpolation: Interpolation,
     /// Scales by the name of an axis; `answer` names the answer. Others are linear.
     pub scales: Vec<(String, Scale)>,
+    /// Names among axes and `answer` that are logarithmic where all of their values are above zero, unless `scales` names
+    /// them.
+    pub usually_log: &'static [&'static str],
 }
 
 impl Reading {
-    fn scale(&self, name: &str) -> Scale {
-        self.scales
-            .iter()
-            .find(|(n, _)| n == name)
-            .map_or(Scale::Linear, |(_, scale)| *scale)
+    fn scale(&self, name: &str, values: &[f64]) -> Scale {
+        match self.scales.iter().find(|(n, _)| n == name) {
+            Some((_, scale)) => *scale,
+            None if self.usually_log.contains(&name) && values.iter().all(|x| *x > 0.0) => Scale::Log,
+            None => Scale::Linear,
+        }
     }
 }
 
@@ -128,7 +132,7 @@ impl Table {
                 ));
             }
         }
-        let scales: Vec<Scale> = axes.iter().map(|a| reading.scale(&a.name)).collect();
+        let scales: Vec<Scale> = axes.iter().map(|a| reading.scale(&a.name, &a.values)).collect();
         for (axis, scale) in axes.iter().zip(&scales) {
             if *scale == Scale::Log && axis.values[0] <= 0.0 {
                 return Err(format!(
@@ -137,7 +141,7 @@ impl Table {
                 ));
             }
         }
-        let answer = reading.scale(ANSWER);
+        let answer = reading.scale(ANSWER, &values);
         if let (Scale::Log, Some(value)) = (answer, values.iter().find(|v| **v <= 0.0)) {
             return Err(format!("the answer is logarithmic and has {value}"));
         }
@@ -158,82 +162,99 @@ impl Table {
     }
 
     /// A table from CSV: a column `name [unit]` for each axis, then one column for the value; one row for each point of
-    /// the full grid, in any order. Lines that begin with # are comments.
+    /// the full grid, in the order of rising axes. Lines that begin with # are comments.
     ///
     /// # Errors
-    /// With the line of the file.
+    /// The line, the column and what is wrong there.
     pub fn from_csv(text: &str, reading: &Reading) -> Result<Self, String> {
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        let header = reader.headers().map_err(|e| e.to_string())?.clone();
-        if header.len() < 2 || header.len() > 5 {
+        let header = header(text)?;
+        let mut tables = Self::several_from_csv(text, reading, header.len().saturating_sub(1))?;
+        tables.pop().ok_or_else(|| "line 1: no column".to_owned())
+    }
+
+    /// As [`Table::from_csv`], with a stated number of axes; every column behind them is a table of its own.
+    ///
+    /// # Errors
+    /// As [`Table::from_csv`].
+    pub fn several_from_csv(text: &str, reading: &Reading, axes: usize) -> Result<Vec<Self>, String> {
+        let header = header(text)?;
+        if axes == 0 || axes > 4 || header.len() <= axes {
             return Err(format!(
-                "line 1: {} columns; a table has one to four axes and a value",
+                "line 1: {} columns, {axes} of them axes; a table has one to four axes and a value",
                 header.len()
             ));
         }
+        let rows = rows(text, &header)?;
         let mut names = Vec::new();
-        for name in header.iter().take(header.len() - 1) {
+        for (column, name) in header.iter().take(axes).enumerate() {
             let (name, rest) = name
                 .split_once('[')
-                .ok_or_else(|| format!("line 1: column `{name}` has no [unit]"))?;
+                .ok_or_else(|| format!("line 1, column {} `{name}`: no [unit]", column + 1))?;
             names.push((name.trim().to_owned(), rest.trim_end_matches(']').to_owned()));
         }
-        let mut rows: Vec<(Vec<f64>, u64)> = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|e| e.to_string())?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let row: Result<Vec<f64>, String> = record
-                .iter()
-                .zip(&header)
-                .map(|(cell, column)| {
-                    cell.parse::<f64>()
-                        .ok()
-                        .filter(|x| x.is_finite())
-                        .ok_or_else(|| format!("line {line}, column `{column}`: `{cell}` is not a number"))
-                })
-                .collect();
-            rows.push((row?, line));
-        }
-        let axes: Vec<Axis> = names
+        let grid: Vec<Axis> = names
             .into_iter()
             .enumerate()
-            .map(|(i, (name, unit))| {
-                let mut values: Vec<f64> = rows.iter().map(|(row, _)| row[i]).collect();
-                values.sort_by(f64::total_cmp);
-                values.dedup();
-                Axis { name, unit, values }
+            .map(|(column, (name, unit))| {
+                Ok(Axis {
+                    name,
+                    unit,
+                    values: rising(&rows, column, &header[column])?,
+                })
             })
-            .collect();
-        let count: usize = axes.iter().fold(1, |n: usize, a| n.saturating_mul(a.values.len()));
+            .collect::<Result<_, String>>()?;
+        let count: usize = grid.iter().fold(1, |n: usize, a| n.saturating_mul(a.values.len()));
         if count > 10_000_000 {
             return Err(format!(
                 "the axes span {count} points; check for values that should be equal"
             ));
         }
-        let mut values = vec![f64::NAN; count];
-        for (row, line) in &rows {
-            let place = axes.iter().zip(row).fold(0, |place, (axis, x)| {
+        let mut filled: Vec<Option<usize>> = vec![None; count];
+        for (i, (row, line)) in rows.iter().enumerate() {
+            let place = grid.iter().zip(row).fold(0, |place, (axis, x)| {
                 place * axis.values.len() + axis.values.partition_point(|v| v < x)
             });
-            if !values[place].is_nan() {
+            if filled[place].is_some() {
                 return Err(format!("line {line}: this point stands twice"));
             }
-            values[place] = row[axes.len()];
+            filled[place] = Some(i);
         }
-        let missing = values.iter().filter(|v| v.is_nan()).count();
-        if missing > 0 {
-            return Err(format!("{missing} of {count} points of the grid are missing"));
+        if let Some(place) = filled.iter().position(Option::is_none) {
+            let missing = filled.iter().filter(|f| f.is_none()).count();
+            let after = filled[..place].iter().flatten().max().map_or(1, |row| rows[*row].1);
+            return Err(format!(
+                "line {after}: behind it the point {} is missing, {missing} of {count} points in all",
+                named(&grid, place)
+            ));
         }
-        let unit = header[header.len() - 1]
-            .split_once('[')
-            .map(|(_, rest)| rest.trim_end_matches(']').to_owned());
-        Ok(Self {
-            unit,
-            ..Self::from_grid(axes, values, reading)?
-        })
+        header
+            .iter()
+            .enumerate()
+            .skip(axes)
+            .map(|(column, name)| {
+                let values = filled.iter().flatten().map(|row| rows[*row].0[column]).collect();
+                let unit = name
+                    .split_once('[')
+                    .map(|(_, rest)| rest.trim_end_matches(']').to_owned());
+                Ok(Self {
+                    unit,
+                    ..Self::from_grid(grid.clone(), values, reading)?
+                })
+            })
+            .collect()
+    }
+
+    /// Where a point lies along the axis on which it is farthest out: from zero to one inside, by the scale of the axis.
+    pub fn place(&self, point: &[f64]) -> f64 {
+        let mut farthest = 0.5;
+        for ((x, places), scale) in point.iter().zip(&self.places).zip(&self.scales) {
+            let (first, last) = (places[0], places[places.len() - 1]);
+            let place = (scale.apply(*x) - first) / (last - first);
+            if (place - 0.5_f64).abs() > (farthest - 0.5_f64).abs() {
+                farthest = place;
+            }
+        }
+        farthest
     }
 
     /// Unit of the values, where the header states it.
@@ -313,6 +334,97 @@ impl Table {
         let u = 1.0 - t;
         low * u * u * (1.0 + 2.0 * t) + high * t * t * (3.0 - 2.0 * t) + h * t * u * (u * start - t * end)
     }
+}
+
+/// The columns of a CSV text.
+fn header(text: &str) -> Result<Vec<String>, String> {
+    let mut reader = reader(text);
+    let header = reader.headers().map_err(|e| e.to_string())?;
+    Ok(header.iter().map(str::to_owned).collect())
+}
+
+/// Names of the columns of a table, without their units.
+///
+/// # Errors
+/// If the text has no header.
+pub fn columns(text: &str) -> Result<Vec<String>, String> {
+    let bare = |name: &String| name.split('[').next().unwrap_or(name).trim().to_owned();
+    Ok(header(text)?.iter().map(bare).collect())
+}
+
+fn reader(text: &str) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes())
+}
+
+/// All numbers of a CSV text with the lines on which they stand.
+fn rows(text: &str, header: &[String]) -> Result<Vec<(Vec<f64>, u64)>, String> {
+    let mut rows = Vec::new();
+    for record in reader(text).records() {
+        let record = record.map_err(|e| match (e.position(), e.kind()) {
+            (Some(at), csv::ErrorKind::UnequalLengths { expected_len, len, .. }) => {
+                format!("line {}: {len} columns where the header has {expected_len}", at.line())
+            }
+            _ => e.to_string(),
+        })?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let mut row = Vec::with_capacity(header.len());
+        for (column, (cell, name)) in record.iter().zip(header).enumerate() {
+            let number = cell.parse::<f64>().ok().filter(|x| x.is_finite());
+            row.push(
+                number
+                    .ok_or_else(|| format!("line {line}, column {} `{name}`: `{cell}` is not a number", column + 1))?,
+            );
+        }
+        rows.push((row, line));
+    }
+    Ok(rows)
+}
+
+/// The values of an axis, which must come up in rising order.
+fn rising(rows: &[(Vec<f64>, u64)], column: usize, name: &str) -> Result<Vec<f64>, String> {
+    let mut values: Vec<f64> = Vec::new();
+    for (row, line) in rows {
+        let x = row[column];
+        match values.last() {
+            Some(last) if values.contains(&x) || x == *last => {}
+            Some(last) if x < *last => {
+                return Err(format!(
+                    "line {line}, column {} `{name}`: {x} comes up after {last}; the values of an axis rise",
+                    column + 1
+                ));
+            }
+            _ => values.push(x),
+        }
+    }
+    if values.len() < 2 {
+        let line = rows.last().map_or(1, |(_, line)| *line);
+        return Err(format!(
+            "line {line}, column {} `{name}`: {} up to here; a table needs two values on each axis",
+            column + 1,
+            if values.is_empty() { "no value" } else { "one value" },
+        ));
+    }
+    Ok(values)
+}
+
+/// The coordinates of a point of a grid.
+fn named(grid: &[Axis], place: usize) -> String {
+    let mut rest = place;
+    let mut words: Vec<String> = Vec::new();
+    for axis in grid.iter().rev() {
+        words.push(format!(
+            "{} = {} {}",
+            axis.name,
+            axis.values[rest % axis.values.len()],
+            axis.unit
+        ));
+        rest /= axis.values.len();
+    }
+    words.reverse();
+    words.join(", ")
 }
 
 /// Slope at a point between two pieces of lengths and slopes: none at a turn, else a weighted harmonic mean.
@@ -404,12 +516,32 @@ mod tests {
                     outside: Outside::Extrapolate,
                     interpolation,
                     scales: vec![("x".to_owned(), Scale::Log), ("answer".to_owned(), Scale::Log)],
+                    ..Reading::default()
                 },
             );
             for x in [0.1, 1.0, 3.0, 20.0, 400.0] {
                 assert!((table.value(&[x]).unwrap() / law(x) - 1.0).abs() < 1e-12, "{x}");
             }
             assert!(table.value(&[-1.0]).is_err());
+        }
+    }
+
+    #[test]
+    fn several_columns_are_several_tables_and_places_are_shares_of_an_axis() {
+        let text = "n [rpm],t [degC],pressure [Nm],viscous [Nm]\n10,20,1,5\n10,40,2,6\n1000,20,3,7\n1000,40,4,0\n";
+        let reading = Reading {
+            outside: Outside::Clamp,
+            usually_log: &["n", "answer"],
+            ..Reading::default()
+        };
+        let tables = Table::several_from_csv(text, &reading, 2).unwrap();
+        assert_eq!((tables.len(), tables[1].unit()), (2, Some("Nm")));
+        assert_eq!(columns(text).unwrap(), ["n", "t", "pressure", "viscous"]);
+        // The first answer is above zero everywhere and goes by its logarithm, the second is not.
+        assert!((tables[0].value(&[100.0, 20.0]).unwrap() - 3.0_f64.sqrt()).abs() < 1e-12);
+        assert!((tables[1].value(&[100.0, 20.0]).unwrap() - 6.0).abs() < 1e-12);
+        for (point, place) in [([100.0, 30.0], 0.5), ([100.0, 60.0], 2.0), ([1.0, 30.0], -0.5)] {
+            assert!((tables[0].place(&point) - place).abs() < 1e-12);
         }
     }
 
@@ -433,11 +565,19 @@ mod tests {
     #[test]
     fn faults_name_the_line() {
         let fault = |text: &str| Table::from_csv(text, &reading(Outside::Error)).unwrap_err();
-        assert!(fault("x [mm],y\n0,1\n1,a\n").contains("line 3, column `y`"));
+        assert!(fault("x [mm],y\n0,1\n1,a\n").contains("line 3, column 2 `y`: `a` is not a number"));
+        assert!(fault("x [mm],y\n0,1\nNaN,2\n").contains("line 3, column 1 `x [mm]`: `NaN` is not a number"));
+        assert!(fault("x [mm],y\n0,1\n2,2\n1,3\n").contains("line 4, column 1 `x [mm]`: 1 comes up after 2"));
+        assert!(fault("x [mm],y\n0,1\n").contains("line 2, column 1 `x [mm]`: one value up to here"));
+        assert!(fault("x [mm],y\n").contains("line 1, column 1 `x [mm]`: no value up to here"));
+        assert!(
+            fault("# a\na [mm],b [s],y\n0,0,1\n0,1,1\n1,0,1\n")
+                .contains("line 5: behind it the point a = 1 mm, b = 1 s is missing, 1 of 4")
+        );
         assert!(fault("x [mm],y\n0,1\n0,2\n1,1\n").contains("line 3: this point stands twice"));
         assert!(fault("x,y\n0,1\n").contains("no [unit]"));
         assert!(fault("a [mm],b [mm],y\n0,0,1\n1,1,1\n").contains("missing"));
-        assert!(fault("a [mm],y\n0,1,2\n").contains("line"));
+        assert!(fault("a [mm],y\n0,1,2\n").contains("line 2: 3 columns where the header has 2"));
         let scaled = |name: &str| Reading {
             scales: vec![(name.to_owned(), Scale::Log)],
             ..Reading::default()

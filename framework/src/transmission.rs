@@ -100,6 +100,22 @@ pub(crate) struct Component {
     pub count: f64,
 }
 
+impl Component {
+    /// A placed component. Unequal sharing counts only where the loss may depend on load.
+    fn new(placed: Box<dyn Placed>, count: f64, sharing: Option<Sharing>) -> Self {
+        Self {
+            between: placed.between(),
+            loaded: placed.loaded(),
+            off: placed.off(),
+            support: placed.support(),
+            sharing: sharing.filter(|_| placed.loaded()),
+            notes: placed.notes(),
+            placed,
+            count,
+        }
+    }
+}
+
 /// A transmission, ready to be evaluated at any number of points from any number of threads.
 pub struct Transmission {
     pub(crate) title: String,

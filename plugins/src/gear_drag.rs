@@ -16,7 +16,7 @@ pub mod mauz_injection;
 pub mod seetharaman_kahraman;
 pub mod shore;
 pub mod townsend;
-mod wetted;
+pub(crate) mod wetted;
 
 use gearloss_framework::mechanism::gear_drag::Covers;
 

@@ -11,6 +11,7 @@ pub mod gear_drag;
 pub mod gear_mesh;
 pub mod mean_friction;
 pub mod path;
+pub mod planetary_drag;
 pub mod seal;
 pub mod sets;
 pub mod synchronizer;

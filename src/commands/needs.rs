@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::{DRAGS, Language, MESHES};
+use gearloss_framework::language::{DRAGS, HELD, Language};
 use gearloss_framework::registry::{Entry, MechanismEntry};
 use gearloss_framework::resolve::{Came, Choice, Resolved, lookup};
 use gearloss_framework::transmission::Transmission;
@@ -47,8 +47,11 @@ pub fn run(language: &Language, file: &Path, only: Option<&str>, out: &mut Out) 
 fn slots(resolved: &Resolved, mechanism: &MechanismEntry) -> Vec<String> {
     let section = match &mechanism.section {
         Some(section) => section.name,
-        None if mechanism.key == MESHES || mechanism.key == DRAGS => "meshes",
-        None => return Vec::new(),
+        None if mechanism.key == DRAGS => "meshes",
+        None => match HELD.iter().find(|(_, key)| *key == mechanism.key) {
+            Some((section, _)) => section,
+            None => return Vec::new(),
+        },
     };
     let ids = resolved.value.get(section).and_then(Value::as_object);
     ids.into_iter()

@@ -17,8 +17,8 @@ pub const SUMS: [(&str, &str); 6] = [
 /// Number of the sum that a term of a mechanism belongs to.
 pub fn sum_of(mechanism: &str, load_dependent: bool) -> usize {
     match (mechanism, load_dependent) {
-        ("gear_mesh" | "gear_drag", true) => 0,
-        ("gear_mesh" | "gear_drag", false) => 1,
+        ("gear_mesh" | "gear_drag" | "planetary_drag", true) => 0,
+        ("gear_mesh" | "gear_drag" | "planetary_drag", false) => 1,
         ("bearing", true) => 2,
         ("bearing", false) => 3,
         ("seal", _) => 4,

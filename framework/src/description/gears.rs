@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
+use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{DragSlots, ModelRef};
 
 /// A gear.
@@ -151,7 +152,7 @@ fn yes() -> bool {
 }
 
 /// Planets on a carrier.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct PlanetarySetEntry {
     /// Shaft that is the carrier.
     pub carrier: String,
@@ -166,6 +167,22 @@ pub struct PlanetarySetEntry {
     /// Shafts that are the planet bodies; each stands for all of its equal copies.
     #[schemars(length(min = 1))]
     pub planets: Vec<String>,
+    /// Shaft whose speed the drag model refers to and that feels its moment, such as the input; absent, the carrier.
+    pub reference: Option<String>,
+    /// Size of the gearbox in its family, for drag tables with that axis. [mm]
+    #[schemars(range(min = 1.0, max = 10000.0))]
+    pub size: Option<f64>,
+    /// Ratio of the gearbox in its family, for drag tables with that axis. [-]
+    #[schemars(range(min = 0.001, max = 10000.0))]
+    pub ratio: Option<f64>,
+    /// Oil; absent, that of the housing.
+    pub lubricant: Option<String>,
+    /// Temperature of the oil at the set above that of the sump. [K]
+    #[serde(default)]
+    #[schemars(range(min = -200.0, max = 200.0))]
+    pub temperature_offset: f64,
+    /// Drag model of the carrier with its planets; absent, that of `models`.
+    pub model: Option<ModelRef<PlanetaryDrag>>,
 }
 
 fn equal() -> f64 {

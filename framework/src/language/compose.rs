@@ -4,7 +4,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use super::{DRAGS, MESHES};
+use super::{DRAGS, HELD};
 use crate::description::GearboxEntry;
 use crate::document::publish;
 use crate::registry::{MechanismEntry, Registry};
@@ -148,7 +148,7 @@ fn models(registry: &Registry, fields: &mut Map<String, Value>, description: &st
                 "additionalProperties": model_ref(mechanism.key),
             });
             fields.insert(mechanism.key.to_owned(), slots);
-        } else if mechanism.section.is_some() || mechanism.key == MESHES {
+        } else if mechanism.section.is_some() || HELD.iter().any(|(_, key)| *key == mechanism.key) {
             let slot = json!({ "allOf": [model_ref(mechanism.key)], "description": mechanism.meaning });
             fields.insert(mechanism.key.to_owned(), slot);
         }

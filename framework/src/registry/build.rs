@@ -13,6 +13,7 @@ use super::{Entry, Registry, from_resolved};
 use crate::document::{Diagnostic, did_you_mean};
 use crate::loss::NoteBase;
 use crate::mechanism::Mechanism;
+use crate::mechanism::gear_drag::{GearDrag, Scope};
 
 /// Files that a description names, read once and found relative to the document that names them.
 #[derive(Debug, Default)]
@@ -112,6 +113,12 @@ impl<'a> Build<'a> {
     /// The part that the model belongs to, where the framework has one of this mechanism.
     pub fn part<M: Mechanism>(&self) -> Option<&M::Part> {
         self.part.as_ref().and_then(|part| part.downcast_ref())
+    }
+
+    /// True for the name of a drag model that is asked once for each mesh.
+    pub fn is_pair(&self, drag: &str) -> bool {
+        let entry = self.registry.model(GearDrag::KEY, drag);
+        entry.is_some_and(|entry| entry.scope == Scope::Mesh)
     }
 
     /// The text of a file that the description names.

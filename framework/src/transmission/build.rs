@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::drags::{DragSeat, body, mates, named, part, twice};
+use super::drags::{Covered, DragSeat, body, mates, named, part, twice};
 use super::gearing::{GearSeat, MeshSeat, gearing};
 use super::members::Members;
 use super::oils::OilNumbers;
@@ -15,8 +15,9 @@ use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::language::Language;
 use crate::mechanism::Mechanism;
-use crate::mechanism::gear_drag::{Covers, GearDrag, Scope};
+use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
+use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{Build, Common, DragSlots, Files, ModelRef};
 use crate::resolve::Resolved;
 
@@ -38,7 +39,7 @@ impl Transmission {
         let mut build = Build::new(language.registry(), files);
 
         let Placing {
-            components,
+            mut components,
             mut parts,
             supports,
             clearances,
@@ -46,8 +47,21 @@ impl Transmission {
             language, resolved, &members, &sharing, &mut oils, &mut build, &mut found,
         );
         let mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
+        let held = planets::models(&entry, &members, &gears, &meshes, &mut oils, &mut build, &mut found);
+        let mut covered = Vec::new();
+        for model in held {
+            covered.push(model.covered);
+            parts.push(PartInfo {
+                path: model.path,
+                mechanism: PlanetaryDrag::KEY,
+                kind: PartKind::Component(components.len()),
+                count: 1.0,
+                notes: model.placed.notes(),
+            });
+            components.push(Component::new(model.placed, 1.0, None));
+        }
         let drags = drags(
-            language, &entry, &gears, &meshes, &mut oils, &mut build, &mut parts, &mut found,
+            language, &entry, &gears, &meshes, covered, &mut oils, &mut build, &mut parts, &mut found,
         );
 
         planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
@@ -131,9 +145,10 @@ fn document_order(resolved: &Resolved, path: &str) -> (usize, usize) {
     let rank = match section {
         "meshes" => 0,
         "gears" => 1,
-        "bearings" => 2,
+        "planetary_sets" => 2,
+        "bearings" => 3,
         other => {
-            3 + resolved
+            4 + resolved
                 .value
                 .as_object()
                 .and_then(|m| m.keys().position(|k| k == other))
@@ -221,21 +236,8 @@ fn place(
                         count,
                         notes: placed.notes(),
                     });
-                    components.push(Component {
-                        between: placed.between(),
-                        loaded: placed.loaded(),
-                        off: placed.off(),
-                        support: placed.support(),
-                        sharing: placed
-                            .between()
-                            .into_iter()
-                            .flatten()
-                            .find_map(|m| sharing[m as usize])
-                            .filter(|_| placed.loaded()),
-                        notes: placed.notes(),
-                        placed,
-                        count,
-                    });
+                    let sharing = placed.between().into_iter().flatten().find_map(|m| sharing[m as usize]);
+                    components.push(Component::new(placed, count, sharing));
                 }
                 Ok(None) => {}
                 Err(error) => found.push(error),
@@ -306,6 +308,7 @@ fn drags(
     entry: &GearboxEntry,
     gears: &[GearSeat],
     meshes: &[MeshSeat],
+    mut covered: Vec<Covered>,
     oils: &mut OilNumbers<'_>,
     build: &mut Build<'_>,
     parts: &mut Vec<PartInfo>,
@@ -330,7 +333,6 @@ fn drags(
         })
         .collect();
     let mut drags: Vec<DragModel> = Vec::new();
-    let mut covered: Vec<(Vec<usize>, String, Covers)> = Vec::new();
     let mut add = |slots: Option<&DragSlots<GearDrag>>,
                    of: &str,
                    scope: Scope,

@@ -25,6 +25,9 @@ pub struct DragSeat {
     pub count: f64,
 }
 
+/// Numbers of the gears of which a model counts something, its path, and what it counts.
+pub type Covered = (Vec<usize>, String, Covers);
+
 /// Sides on which a gear's mates lie, as y components of the unit vectors.
 pub fn mates(gear: usize, meshes: &[MeshSeat]) -> Vec<f64> {
     meshes

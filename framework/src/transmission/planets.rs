@@ -1,9 +1,18 @@
-//! Planets on their carriers: radius of the orbit, unequal sharing of the load, whether the set can be assembled.
+//! Planets on their carriers: radius of the orbit, unequal sharing of the load, drag of the set, whether it can be assembled.
 
+use std::sync::Arc;
+
+use super::drags::{Covered, body, part};
 use super::gearing::{GearSeat, MeshSeat};
 use super::members::Members;
+use super::oils::OilNumbers;
+use crate::attach::{Places, Spot, State, dangling};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
+use crate::loss::{Loss, NoteBase, Notes, Undefined};
+use crate::mechanism::gear_drag::Covers;
+use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
+use crate::registry::{Build, Common, ModelRef, Placed, Slot};
 
 /// How unequally the planets of a set share its load.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +70,144 @@ pub fn sharing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnost
         }
     }
     sharing
+}
+
+/// The drag model of a set in its seat.
+struct PlacedDrag {
+    part: Arc<PlanetaryPart>,
+    model: Slot<PlanetaryDrag>,
+    /// Shaft that the moment refers to, carrier, first planet.
+    members: [u16; 3],
+    /// The oil, and its height above the carrier's axis.
+    spot: Spot,
+}
+
+impl Placed for PlacedDrag {
+    fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+        let [speed, carrier_speed, planet_speed] = self.members.map(|m| state.speed(Some(m)));
+        let oil = state.oil(&self.spot);
+        let part = &*self.part;
+        // What the part does not state, no model may ask for: building it has refused that.
+        self.model.loss(&PlanetaryDragAt {
+            part,
+            speed,
+            carrier_speed,
+            planet_speed,
+            volume: part.oil_volume.unwrap_or(0.0),
+            level: state.level(&self.spot).level.max(-10.0),
+            temperature: oil.temperature,
+            nu: oil.nu,
+            eta: oil.eta,
+            rho: oil.rho,
+            size: part.size.unwrap_or(0.0),
+            ratio: part.ratio.unwrap_or(0.0),
+            notes: notes.of(self.model.notes),
+        })
+    }
+    fn between(&self) -> [Option<u16>; 2] {
+        [Some(self.members[0]), None]
+    }
+    fn loaded(&self) -> bool {
+        false
+    }
+    fn off(&self) -> bool {
+        self.model.off
+    }
+    fn notes(&self) -> NoteBase {
+        self.model.notes
+    }
+    fn support(&self) -> Option<u16> {
+        None
+    }
+}
+
+/// A drag model with what it counts of the gears on the planets.
+pub struct Held {
+    pub path: String,
+    pub placed: Box<dyn Placed>,
+    pub covered: Covered,
+}
+
+/// The drag models of all sets.
+pub fn models(
+    entry: &GearboxEntry,
+    members: &Members,
+    gears: &[GearSeat],
+    meshes: &[MeshSeat],
+    oils: &mut OilNumbers<'_>,
+    build: &mut Build<'_>,
+    found: &mut Vec<Diagnostic>,
+) -> Vec<Held> {
+    let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
+    let mut held = Vec::new();
+    for (id, set) in entry.planetary_sets.iter() {
+        let path = format!("planetary_sets.{id}");
+        let member = |name: &str| ids.iter().position(|m| *m == name);
+        let bodies: Vec<usize> = set.planets.iter().filter_map(|p| member(p)).collect();
+        let reference = set.reference.as_deref().unwrap_or(&set.carrier);
+        let Some(reference) = member(reference) else {
+            // A carrier that dangles was reported with the members.
+            if set.reference.is_some() {
+                found.push(dangling(&format!("{path}.reference"), "shaft", reference, &ids));
+            }
+            continue;
+        };
+        let (Some(carrier), Some(first)) = (member(&set.carrier), bodies.first()) else {
+            continue;
+        };
+        let own: Vec<usize> = (0..gears.len())
+            .filter(|g| bodies.contains(&gears[*g].member))
+            .collect();
+        let planets = own
+            .iter()
+            .filter(|g| gears[**g].member == *first)
+            .filter_map(|g| {
+                let mesh = meshes.iter().find(|m| m.gears.contains(g))?;
+                Some(part(entry, body(&gears[*g], *g, mesh), None))
+            })
+            .collect();
+        let oil = entry.housing.oil.as_ref();
+        let part = Arc::new(PlanetaryPart {
+            count: set.count,
+            orbit: orbit(*first, members, meshes).unwrap_or(0.0),
+            bodies: bodies.len() as u32,
+            planets,
+            size: set.size,
+            ratio: set.ratio,
+            oil_volume: oil.and_then(|o| o.volume),
+            has_level: oil.is_some_and(|o| o.level.is_some() || o.running_level.is_some()),
+        });
+        let common = Common {
+            lubricant: set.lubricant.clone(),
+            temperature_offset: set.temperature_offset,
+            ..Common::default()
+        };
+        let none = ModelRef::new("none".into());
+        let choice = set.model.as_ref().unwrap_or(&none);
+        let model = match build.slot_at::<PlanetaryDrag>(&format!("{path}.model"), &part, &choice.value) {
+            Ok(model) => model,
+            Err(error) => {
+                found.push(error);
+                continue;
+            }
+        };
+        let Some(oil) = oils.oil(&path, &common) else { continue };
+        let covers = if model.off { Covers::default() } else { model.covers() };
+        held.push(Held {
+            covered: (own, format!("{path}.model"), covers),
+            path,
+            placed: Box::new(PlacedDrag {
+                part,
+                model,
+                members: [reference, carrier, *first].map(|m| m as u16),
+                spot: Spot {
+                    oil,
+                    level: oils.level(Some(carrier as u16), 0.0),
+                },
+            }),
+        });
+    }
+    held
 }
 
 /// What keeps a simple set from being assembled: planets that touch each other, or teeth that do not meet at equal spacing.

@@ -77,8 +77,8 @@ fn dimensional(re: f64, b: f64, z: f64, flanges: [f64; 2]) -> f64 {
     60.0 * re.powf(-0.25) * b.powf(0.8) * z.powf(-0.4) * (flanges[0].powf(0.56) + flanges[1].powf(0.56))
 }
 
-/// C_f of both faces.
-fn faces(re: f64) -> f64 {
+/// C_f of both faces of a disc.
+pub(crate) fn faces(re: f64) -> f64 {
     let (n_1, m_1, n_2, m_2, critical) = (1.293, 0.5, 0.074, 0.2, 3e5_f64);
     if re < critical {
         return 2.0 * n_1 * PI / (5.0 - 2.0 * m_1) * re.powf(-m_1);

@@ -2,7 +2,7 @@
 
 /// Faces, rim and teeth of a gear: radius of the reference circle, dip below it, face width (m), teeth, tooth
 /// height (m), normal pressure angle and helix angle (rad).
-pub(super) struct Wetted {
+pub struct Wetted {
     /// Both faces. \[m2\]
     pub side: f64,
     /// Rim. \[m2\]

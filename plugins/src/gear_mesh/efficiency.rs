@@ -4,7 +4,7 @@
 //! efficiencies is the model `table`.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::generic::Lookup;
+use gearloss_framework::generic::{Lookup, PLACE};
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
 use gearloss_framework::register;
@@ -62,7 +62,11 @@ impl GearMeshModel for Efficiency {
         }
         let value = match self {
             Self::Value(value) => *value,
-            Self::Table(table) => table.value(at)?,
+            Self::Table(table) => {
+                let (value, place) = table.value(at)?;
+                at.check(&PLACE, place);
+                value
+            }
         };
         if !(0.0..=1.0).contains(&value) {
             return Err(Undefined {
@@ -81,7 +85,7 @@ register!(GearMesh, "efficiency", Params,
     source: "the user's own",
     example: "{ type: efficiency, value: 0.985 }",
     evidence: [formula(Evidence::User, "the user states it")],
-    terms: [SLIDING], observed: [EFFICIENCY], prepare: prepare);
+    limits: [PLACE], terms: [SLIDING], observed: [EFFICIENCY], prepare: prepare);
 
 #[cfg(test)]
 mod tests {

@@ -5,7 +5,7 @@
 //! quantities of the seal such as `temperature [degC]`.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::generic::Lookup;
+use gearloss_framework::generic::{Lookup, PLACE};
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
@@ -64,7 +64,11 @@ impl SealModel for NiemannWinter {
         }
         let lambda = match self {
             Self::Value(value) => *value,
-            Self::Table(table) => table.value(at)?,
+            Self::Table(table) => {
+                let (value, place) = table.value(at)?;
+                at.check(&PLACE, place);
+                value
+            }
         };
         if lambda < 0.0 {
             return Err(Undefined {
@@ -82,7 +86,7 @@ register!(Seal, "niemann_winter", Params,
     source: "Niemann/Winter, Maschinenelemente 2, as Concli 2015 quotes it",
     example: "{ type: niemann_winter, lambda_l: 7.69e-3 }",
     evidence: [formula(Evidence::OneSource, "one article; the coefficient is the user's")],
-    terms: [LIP], prepare: prepare);
+    limits: [PLACE], terms: [LIP], prepare: prepare);
 
 #[cfg(test)]
 mod tests {

@@ -1,0 +1,176 @@
+//! Drag of a planetary set in oil: the carrier and the planets that orbit with it, from tables, power laws or estimates.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::gear_drag::{Covers, DragPart};
+use crate::mechanism::{Mechanism, Quantity, ShopUnits};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum PlanetaryDrag {}
+
+/// Load-independent loss of a carrier with its planets. A model answers with moments about the speed of the set's
+/// reference shaft, or with powers; the loss is felt by that shaft.
+pub trait PlanetaryDragModel: Send + Sync {
+    /// What the model counts of the gears on the planets, so that nothing is counted twice.
+    fn covers(&self) -> Covers;
+    /// Loss at one operating point. Pure; must not allocate.
+    fn loss(&self, at: &PlanetaryDragAt<'_>) -> Result<Loss, Undefined>;
+}
+
+/// A carrier with its planets in the housing; in a gearbox the framework fills it.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct PlanetaryPart {
+    /// Number of planets. [-]
+    #[schemars(range(min = 2, max = 50))]
+    pub count: u32,
+    /// Radius on which the planets' axes orbit. [mm]
+    #[schemars(range(min = 0.5, max = 10000.0))]
+    pub orbit: f64,
+    /// Number of different planet bodies that orbit together. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 1, max = 10))]
+    pub bodies: u32,
+    /// Gears on the first planet body.
+    pub planets: Vec<DragPart>,
+    /// Size of the gearbox in its family. [mm]
+    #[schemars(range(min = 1.0, max = 10000.0))]
+    pub size: Option<f64>,
+    /// Ratio of the gearbox in its family. [-]
+    #[schemars(range(min = 0.001, max = 10000.0))]
+    pub ratio: Option<f64>,
+    /// Volume of the oil in the housing. [l]
+    #[schemars(range(min = 0.001, max = 10000.0))]
+    pub oil_volume: Option<f64>,
+    /// A level of the oil is stated.
+    #[serde(default)]
+    pub has_level: bool,
+}
+
+fn one() -> u32 {
+    1
+}
+
+context! {
+    /// All that a planetary drag model may look at.
+    pub struct PlanetaryDragAt of PlanetaryDrag {
+        /// Speed of the reference shaft, signed. [rpm]
+        speed: 300.0 in -30000.0..=30000.0,
+        /// Speed of the carrier, signed. [rpm]
+        carrier_speed: 300.0 in -30000.0..=30000.0,
+        /// Speed of the first planet in the housing's frame, signed. [rpm]
+        planet_speed: -750.0 in -100000.0..=100000.0,
+        /// Volume of the oil. [ml]
+        volume: 90.0 in 1.0..=100000.0,
+        /// Height of the oil above the carrier's axis. [mm]
+        level: -10.0 in -10000.0..=10000.0,
+        /// Temperature of the oil. [degC]
+        temperature: 60.0 in -40.0..=200.0,
+        /// Kinematic viscosity of the oil. [mm2/s]
+        nu: 100.0 in 1.0..=10000.0,
+        /// Dynamic viscosity of the oil. [mPa s]
+        eta: 85.0 in 0.5..=10000.0,
+        /// Density of the oil. [kg/m3]
+        rho: 850.0 in 500.0..=1300.0,
+        /// Size of the gearbox in its family. [mm]
+        size: 75.0 in 1.0..=10000.0,
+        /// Ratio of the gearbox in its family. [-]
+        ratio: 10.0 in 0.001..=10000.0,
+    }
+}
+
+impl Mechanism for PlanetaryDrag {
+    const KEY: &'static str = "planetary_drag";
+    const MEANING: &'static str = "Drag of a planetary set in oil: the carrier and the planets that orbit with it.";
+    const ANSWER: &'static str = "Drag moment on the reference shaft. [Nm]";
+    const EXAMPLE: &'static str = "
+count: 3
+orbit: 25 mm
+planets:
+  - gear: { z: 32, normal_module: 1 mm, pressure_angle: 20 deg, facewidth: 14 mm, reference_diameter: 32 mm, \
+working_diameter: 32 mm, tip_diameter: 34 mm, root_diameter: 29.5 mm, contact_height: 17 mm }
+    oil_volume: 0.09 l
+    section_area: 60 cm2
+    section_perimeter: 30 cm
+    radial_clearance: 2 mm
+    axial_clearance: 3 mm
+size: 75 mm
+ratio: 10
+oil_volume: 0.09 l
+has_level: true
+";
+    const QUANTITIES: &'static [Quantity<Self>] = PlanetaryDragAt::QUANTITIES;
+    /// Losses in oil are near to power laws of speed and viscosity.
+    const LOGARITHMIC: &'static [&'static str] = &["speed", "carrier_speed", "nu", "eta", "answer"];
+    type Part = PlanetaryPart;
+    type At<'a> = PlanetaryDragAt<'a>;
+    type Answer = Loss;
+    type Model = dyn PlanetaryDragModel;
+
+    fn needs(part: &PlanetaryPart, quantity: &str) -> Option<&'static str> {
+        match quantity {
+            "volume" if part.oil_volume.is_none() => Some("`housing.oil.volume`"),
+            "level" if !part.has_level => Some("`housing.oil.level`"),
+            "size" if part.size.is_none() => Some("`size` of the planetary set"),
+            "ratio" if part.ratio.is_none() => Some("`ratio` of the planetary set"),
+            _ => None,
+        }
+    }
+    fn usual<'a>(part: &'a PlanetaryPart, notes: Notes<'a>) -> PlanetaryDragAt<'a> {
+        PlanetaryDragAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &PlanetaryDragAt<'_>) -> Result<Loss, Undefined> {
+        model.loss(at)
+    }
+    fn speed(at: &PlanetaryDragAt<'_>) -> f64 {
+        at.speed
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl PlanetaryDragAt<'_> {
+    /// True where nothing turns, so that there is no drag.
+    ///
+    /// # Errors
+    /// If the carrier turns while the reference shaft rests, which can feel no moment then.
+    pub fn at_rest(&self) -> Result<bool, Undefined> {
+        if self.speed == 0.0 && self.carrier_speed != 0.0 {
+            return Err(Undefined {
+                what: "speed of the carrier in rpm, while the set's reference shaft rests",
+                value: self.carrier_speed.rpm(),
+            });
+        }
+        if self.speed == 0.0 {
+            self.branch("at rest: no drag");
+        }
+        Ok(self.speed == 0.0)
+    }
+}
+
+impl PlanetaryDragModel for Scalar<PlanetaryDrag> {
+    /// What was simulated or measured as a whole contains the planets in oil and air. Oil between the teeth does not
+    /// belong to it: simulations leave the teeth of sun and ring out.
+    fn covers(&self) -> Covers {
+        Covers {
+            churning: true,
+            squeezing: false,
+            windage: true,
+        }
+    }
+    fn loss(&self, at: &PlanetaryDragAt<'_>) -> Result<Loss, Undefined> {
+        match at.at_rest()? {
+            true => Ok(Loss::MOMENTS),
+            false => self.moment(at),
+        }
+    }
+}
+
+crate::register_mechanism!(PlanetaryDrag);
