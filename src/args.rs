@@ -30,6 +30,73 @@ pub enum Command {
     Eval(EvalArgs),
     /// Prints a JSON Schema for editors.
     Schema(SchemaArgs),
+    /// Fits a law to a table and prints it with its residuals.
+    Fit(FitArgs),
+    /// Makes a table from the files of another program.
+    Import(ImportArgs),
+}
+
+/// Arguments of `fit`.
+#[derive(Debug, ClapArgs)]
+pub struct FitArgs {
+    /// The law.
+    #[command(subcommand)]
+    pub law: FitLaw,
+}
+
+/// A law to fit.
+#[derive(Debug, Subcommand)]
+pub enum FitLaw {
+    /// Fits `planetary_drag/power_law` to a table over `speed [rpm]`, `nu [mm2/s]` and, where it counts, `volume [ml]`.
+    PowerLaw {
+        /// CSV file, as a drag model `table` reads it.
+        table: PathBuf,
+    },
+}
+
+/// Arguments of `import`.
+#[derive(Debug, ClapArgs)]
+pub struct ImportArgs {
+    /// What to read.
+    #[command(subcommand)]
+    pub from: ImportFrom,
+}
+
+/// Files of another program.
+#[derive(Debug, Subcommand)]
+pub enum ImportFrom {
+    /// Means of the moments that OpenFOAM's `forces` function object has written, one run for each point of a table.
+    OpenfoamForces {
+        /// CSV file of the runs: a column for each axis of the table, such as `speed [rpm]`, `nu [mm2/s]`, `volume [ml]`, and
+        /// last `folder`: the output folder of the function object, or a file, relative to this file.
+        runs: PathBuf,
+        /// Axis that the moment is about.
+        #[arg(long, value_enum)]
+        axis: AxisArg,
+        /// Time from which on the mean is taken, such as `"0.5 s"`.
+        #[arg(long, value_name = "TIME")]
+        from: String,
+        /// Time up to which the mean is taken; else all.
+        #[arg(long, value_name = "TIME")]
+        to: Option<String>,
+        /// Factor on the moments, such as 3 where a third of the gearbox was simulated.
+        #[arg(long, default_value_t = 1.0)]
+        factor: f64,
+        /// Table to write; refused where the file exists.
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+    },
+}
+
+/// An axis of coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum AxisArg {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
 }
 
 /// Models and overrides.

@@ -3,6 +3,8 @@
 pub mod check;
 pub mod eval;
 pub mod explain;
+pub mod fit;
+pub mod import;
 pub mod models;
 mod needs;
 mod point;

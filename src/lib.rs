@@ -62,5 +62,7 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Models(args) => commands::models::run(&args, &mut out),
         Command::Eval(args) => commands::eval::run(&args, &mut out),
         Command::Schema(args) => commands::schema::run(&args, &mut out),
+        Command::Fit(args) => commands::fit::run(&args, &mut out),
+        Command::Import(args) => commands::import::run(&args, &mut out),
     }
 }

@@ -303,3 +303,85 @@ fn a_model_that_a_set_does_not_reach_is_said() {
         "{text}"
     );
 }
+
+fn scratch(name: &str) -> std::path::PathBuf {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn moments_of_openfoam_become_a_table_and_a_power_law() {
+    let folder = scratch("openfoam");
+    let mut runs = "speed [rpm],nu [mm2/s],folder\n".to_owned();
+    for (i, (speed, nu)) in [(300.0_f64, 20.0_f64), (100.0, 20.0), (100.0, 80.0), (300.0, 80.0)]
+        .into_iter()
+        .enumerate()
+    {
+        let moment = -0.01 * (speed / 100.0).powf(0.7) * (nu / 20.0).powf(0.5);
+        // The first start went wrong from 0.2 s on and was repeated.
+        let line = |time: f64, factor: f64| {
+            let part = 0.25 * factor * moment;
+            format!("{time} 0 0 {} 0 0 {part} 0 0 {}\n", 4.0 * part, 3.0 * part)
+        };
+        for (start, text) in [
+            ("0", line(0.0, 9.0) + &line(0.1, 1.0) + &line(0.2, 7.0)),
+            ("0.15", line(0.15, 1.0) + &line(0.3, 1.0)),
+        ] {
+            let place = folder.join(format!("run{i}/{start}"));
+            std::fs::create_dir_all(&place).unwrap();
+            std::fs::write(
+                place.join("moment.dat"),
+                format!("# Time total pressure viscous\n{text}"),
+            )
+            .unwrap();
+        }
+        runs.push_str(&format!("{speed},{nu},run{i}\n"));
+    }
+    let (list, table) = (folder.join("runs.csv"), folder.join("drag.csv"));
+    std::fs::write(&list, &runs).unwrap();
+    let (list, table) = (list.to_str().unwrap(), table.to_str().unwrap());
+    let import = [
+        "import",
+        "openfoam-forces",
+        list,
+        "--axis",
+        "z",
+        "--from",
+        "0.1 s",
+        "-o",
+        table,
+    ];
+    assert!(out(&import).contains("run3"));
+    let written = std::fs::read_to_string(table).unwrap();
+    let rows: Vec<&str> = written.lines().skip(1).collect();
+    assert_eq!(rows[0], "speed [rpm],nu [mm2/s],pressure [Nm],viscous [Nm]");
+    assert!(rows[1].starts_with("100,20,0.0025,0.0075"), "{}", rows[1]);
+    let fitted = out(&["fit", "power-law", table]);
+    assert!(
+        fitted.contains("speed_exponent: 0.7,") && fitted.contains("viscosity_exponent: 0.5,"),
+        "{fitted}"
+    );
+    assert!(fitted.contains("worst") && fitted.contains("4 points"), "{fitted}");
+    // A file is not overwritten; another axis has no moment; a folder must hold something.
+    for (args, said) in [
+        (import.to_vec(), "not overwritten"),
+        (
+            [&import[..4], &["x", "--from", "0.1 s", "-o", "nowhere.csv"]].concat(),
+            "another sign",
+        ),
+        (
+            [&import[..5], &["--from", "9 s", "-o", "nowhere.csv"]].concat(),
+            "0 samples in the asked time",
+        ),
+    ] {
+        let failed = gearloss(&args);
+        assert_eq!(failed.status.code(), Some(2));
+        let text = String::from_utf8(failed.stderr).unwrap();
+        assert!(text.contains(said) && text.contains("mend:"), "{text}");
+    }
+    std::fs::write(list, runs.replace("run2", "run9")).unwrap();
+    let failed = gearloss(&[&import[..8], &["nowhere.csv"]].concat());
+    assert!(String::from_utf8(failed.stderr).unwrap().contains("line 4"));
+}

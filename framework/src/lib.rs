@@ -7,6 +7,7 @@ pub mod description;
 pub mod document;
 pub mod eval;
 pub mod evaluate;
+pub mod fit;
 pub mod flow;
 pub mod formula;
 pub mod gearbox;

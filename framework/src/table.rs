@@ -262,6 +262,31 @@ impl Table {
         self.unit.as_deref()
     }
 
+    /// The points of the grid: coordinates and answer.
+    pub fn points(&self) -> Vec<(Vec<f64>, f64)> {
+        let mut points = Vec::with_capacity(self.values.len());
+        for (place, value) in self.values.iter().enumerate() {
+            let mut rest = place;
+            let mut point: Vec<f64> = self
+                .axes
+                .iter()
+                .rev()
+                .map(|axis| {
+                    let x = axis.values[rest % axis.values.len()];
+                    rest /= axis.values.len();
+                    x
+                })
+                .collect();
+            point.reverse();
+            let answer = match self.answer {
+                Scale::Linear => *value,
+                Scale::Log => value.exp(),
+            };
+            points.push((point, answer));
+        }
+        points
+    }
+
     /// The axes.
     pub fn axes(&self) -> &[Axis] {
         &self.axes

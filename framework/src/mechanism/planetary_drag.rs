@@ -166,10 +166,10 @@ impl PlanetaryDragModel for Scalar<PlanetaryDrag> {
         }
     }
     fn loss(&self, at: &PlanetaryDragAt<'_>) -> Result<Loss, Undefined> {
-        match at.at_rest()? {
-            true => Ok(Loss::MOMENTS),
-            false => self.moment(at),
+        if at.at_rest()? {
+            return Ok(Loss::MOMENTS);
         }
+        self.moment(at)
     }
 }
 

@@ -1,0 +1,200 @@
+//! `import`: tables from the files of other programs.
+
+mod openfoam;
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use gearloss_framework::document::{Unit, parse_quantity};
+
+use self::openfoam::{Mean, history};
+use crate::args::{AxisArg, ImportArgs, ImportFrom};
+use crate::output::{End, Failure, Out, Table, significant};
+
+pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
+    let ImportFrom::OpenfoamForces {
+        runs,
+        axis,
+        from,
+        to,
+        factor,
+        output,
+    } = &args.from;
+    if !(factor.is_finite() && *factor > 0.0) {
+        return Err(Failure::input(format!("--factor {factor}"), "give a number above zero"));
+    }
+    let from = seconds("--from", from)?;
+    let to = match to {
+        Some(to) => seconds("--to", to)?,
+        None => f64::INFINITY,
+    };
+    let window = [from, to];
+    let text = std::fs::read_to_string(runs).map_err(|e| {
+        Failure::input(
+            format!("cannot read {}: {e}", runs.display()),
+            "check the name of the file",
+        )
+    })?;
+    let list = Runs::read(&text).map_err(|fault| {
+        Failure::input(
+            format!("{}: {fault}", runs.display()),
+            "write a column `name [unit]` for each axis and last `folder`",
+        )
+    })?;
+    let beside = runs.parent().unwrap_or(Path::new(""));
+    let mut means = Vec::new();
+    for run in &list.runs {
+        let folder = beside.join(&run.folder);
+        let mean = history(&folder)
+            .and_then(|samples| Mean::over(&samples, *axis as usize, window))
+            .map_err(|fault| {
+                Failure::input(
+                    format!("{}, line {}: {}: {fault}", runs.display(), run.line, folder.display()),
+                    "name the folder under `postProcessing` that holds the output of the function object",
+                )
+            })?;
+        means.push(mean.times(*factor));
+    }
+    // Drag acts against the motion: all moments have one sign, which is that of the drag.
+    let sign = means.first().map_or(1.0, |m: &Mean| m.total().signum());
+    if let Some((run, mean)) = list.runs.iter().zip(&means).find(|(_, m)| m.total() * sign <= 0.0) {
+        return Err(Failure::input(
+            format!(
+                "{}, line {}: the mean moment about {axis:?} is {} Nm, of another sign than that of the first run",
+                runs.display(),
+                run.line,
+                significant(mean.total())
+            ),
+            "check --axis, the sense of rotation and --from",
+        ));
+    }
+    let table = list.table(&means, sign, *axis, window);
+    write_new(output, &table)?;
+    let mut printed = Table::new(&["folder", "samples", "pressure Nm", "viscous Nm", "spread Nm"]);
+    for (run, mean) in list.runs.iter().zip(&means) {
+        printed.row(vec![
+            run.folder.clone(),
+            mean.samples.to_string(),
+            significant(sign * mean.pressure),
+            significant(sign * mean.viscous),
+            significant(mean.spread),
+        ]);
+    }
+    out.text(&printed.render())?;
+    out.line(format!("wrote {}", output.display()))?;
+    Ok(End::Fine)
+}
+
+fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
+    let unit = Unit::of_symbol("s").unwrap_or(Unit::ONE);
+    parse_quantity(text.trim(), unit).map_err(|fault| {
+        Failure::input(
+            format!("{option} \"{text}\": {}", fault.message),
+            fault
+                .mend
+                .unwrap_or_else(|| "write a time such as \"0.5 s\"".to_owned()),
+        )
+    })
+}
+
+fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
+    use std::io::Write as _;
+    let file = std::fs::OpenOptions::new().write(true).create_new(true).open(path);
+    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| {
+        Failure::input(
+            format!("cannot write {}: {e}", path.display()),
+            "name another file with -o; a file that exists is not overwritten",
+        )
+    })
+}
+
+/// One run: coordinates as written, folder, line.
+struct Run {
+    point: Vec<String>,
+    folder: String,
+    line: u64,
+}
+
+struct Runs {
+    axes: Vec<String>,
+    runs: Vec<Run>,
+}
+
+impl Runs {
+    fn read(text: &str) -> Result<Self, String> {
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let header = reader.headers().map_err(|e| e.to_string())?.clone();
+        let axes: Vec<String> = header.iter().map(str::to_owned).collect();
+        let Some((last, axes)) = axes.split_last().filter(|(_, axes)| !axes.is_empty()) else {
+            return Err("line 1: too few columns".to_owned());
+        };
+        if last != "folder" {
+            return Err(format!("line 1: the last column is `{last}`, not `folder`"));
+        }
+        let mut runs = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|e| e.to_string())?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let mut point: Vec<String> = record.iter().map(str::to_owned).collect();
+            let folder = point.pop().unwrap_or_default();
+            for (column, (cell, name)) in point.iter().zip(axes).enumerate() {
+                if cell.parse::<f64>().ok().is_none_or(|x| !x.is_finite()) {
+                    return Err(format!(
+                        "line {line}, column {} `{name}`: `{cell}` is not a number",
+                        column + 1
+                    ));
+                }
+            }
+            runs.push(Run { point, folder, line });
+        }
+        if runs.is_empty() {
+            return Err("line 1: no run stands below".to_owned());
+        }
+        Ok(Self {
+            axes: axes.to_vec(),
+            runs,
+        })
+    }
+
+    /// The table, its points in the order of rising axes.
+    fn table(&self, means: &[Mean], sign: f64, axis: AxisArg, window: [f64; 2]) -> String {
+        let mut text = format!(
+            "# Means of OpenFOAM moments about {axis:?} from {} s{}.\n",
+            window[0],
+            if window[1].is_finite() {
+                format!(" to {} s", window[1])
+            } else {
+                String::new()
+            }
+        );
+        let _ = writeln!(text, "{},pressure [Nm],viscous [Nm]", self.axes.join(","));
+        let key = |run: &Run| {
+            run.point
+                .iter()
+                .filter_map(|x| x.parse::<f64>().ok())
+                .collect::<Vec<f64>>()
+        };
+        let mut order: Vec<usize> = (0..self.runs.len()).collect();
+        order.sort_by(|a, b| {
+            let (a, b) = (key(&self.runs[*a]), key(&self.runs[*b]));
+            a.iter()
+                .zip(&b)
+                .map(|(a, b)| a.total_cmp(b))
+                .find(|o| o.is_ne())
+                .unwrap_or(std::cmp::Ordering::Equal)
+        });
+        for i in order {
+            let _ = writeln!(
+                text,
+                "{},{},{}",
+                self.runs[i].point.join(","),
+                sign * means[i].pressure,
+                sign * means[i].viscous
+            );
+        }
+        text
+    }
+}
