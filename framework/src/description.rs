@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
-pub use housing::{HousingEntry, LevelOver, OilEntry, Running, Thermal};
+pub use housing::{HeatInto, HousingEntry, LevelOver, OilEntry, OutsideEntry, Running, Thermal, ThermalMode};
 pub use lubricant::LubricantEntry;
 pub use ordered::Ordered;
 pub use shafts::{LoadEntry, SectionEntry, ShaftEntry};

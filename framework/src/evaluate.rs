@@ -11,9 +11,10 @@ use std::cell::Cell;
 use crate::attach::State;
 use crate::flow::{Balance, Drive, FlowState, Outcome, Status, Tolerance};
 use crate::loads::SupportLoad;
-use crate::loss::{Extent, Loss, Notes, Undefined};
+use crate::loss::{Extent, Loss, NoteBase, Notes, Undefined};
 use crate::mechanism::gear_drag::GearDragAt;
 use crate::mechanism::gear_mesh::GearMeshAt;
+use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
 
 /// Whether losses change the torques of what comes after them.
@@ -58,7 +59,7 @@ impl Transmission {
         temperatures: &[f64],
         scratch: &'s mut Scratch,
     ) -> Solution<'s> {
-        self.solve(case, point, temperatures, scratch);
+        self.solve(case, point, temperatures, scratch, false);
         Solution {
             transmission: self,
             case,
@@ -67,7 +68,26 @@ impl Transmission {
         }
     }
 
-    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch) {
+    /// The sum of all losses at temperatures that are only tried: nothing is noted or counted. \[W\]
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub(crate) fn probe(
+        &self,
+        case: &Case,
+        point: &Point<'_>,
+        temperatures: &[f64],
+        scratch: &mut Scratch,
+    ) -> Result<f64, Unbalanced> {
+        self.solve(case, point, temperatures, scratch, true);
+        match (scratch.undefined, scratch.status) {
+            (Some((part, reason)), _) => Err(Unbalanced::Part(part, reason)),
+            (None, Status::SelfLocking | Status::NoConvergence) => Err(Unbalanced::Flow),
+            (None, _) => Ok(scratch.sum),
+        }
+    }
+
+    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, quiet: bool) {
         assert_eq!(
             point.speeds.len(),
             case.speed_ports.len(),
@@ -114,7 +134,7 @@ impl Transmission {
                         s.braking.push(i);
                     }
                 } else {
-                    *loss = component_loss(component, &state, Notes::new(cells, component.notes));
+                    *loss = component_loss(component, &state, noting(quiet, cells, component.notes));
                     let moment = moment(loss, speed) * component.count;
                     brake(component.between, speed, moment, &mut s.idle_drags);
                 }
@@ -124,7 +144,7 @@ impl Transmission {
                 if model.off {
                     continue;
                 }
-                *loss = self.drag(i, &state, Notes::new(cells, model.notes));
+                *loss = self.drag(i, &state, noting(quiet, cells, model.notes));
                 self.brake_gears(i, loss, &s.speeds, &mut s.idle_drags);
             }
         }
@@ -155,7 +175,7 @@ impl Transmission {
         let mut guess = point.flow == PowerFlow::Real && !standing;
         let losses = |flow: &mut FlowState<'_>| {
             let notes = |base| {
-                if guess {
+                if guess || quiet {
                     [Notes::MUTED; 2]
                 } else {
                     [Notes::fresh(cells, base), Notes::new(cells, base)]
@@ -219,12 +239,17 @@ impl Transmission {
                 Outcome::Converged { passes: 1 }
             }
         };
-        self.rest(s);
+        self.rest(s, quiet);
         self.finish(standing, outcome, s);
+        if !quiet && matches!(outcome, Outcome::Converged { .. }) {
+            for (total, seen) in s.totals.iter_mut().zip(&s.cells) {
+                *total = total.merge(seen.once());
+            }
+        }
     }
 
     /// Moments of what carries load and rests.
-    fn rest(&self, s: &mut Scratch) {
+    fn rest(&self, s: &mut Scratch, quiet: bool) {
         let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
         let state = State {
             speeds: &s.speeds,
@@ -234,7 +259,7 @@ impl Transmission {
         };
         for ((component, loss), speed) in self.components.iter().zip(&mut s.component_losses).zip(&s.relative) {
             if component.loaded && !component.off && *speed == 0.0 {
-                let notes = [Notes::new(cells, component.notes); 2];
+                let notes = [noting(quiet, cells, component.notes); 2];
                 *loss = loaded_loss(component, &state, &s.uneven_loads, notes);
             }
         }
@@ -401,12 +426,12 @@ impl Transmission {
                 }
             }
         };
-        if matches!(outcome, Outcome::Converged { .. }) {
-            for (total, seen) in s.totals.iter_mut().zip(&s.cells) {
-                *total = total.merge(seen.once());
-            }
-        }
     }
+}
+
+/// Notes that count, or none.
+fn noting(quiet: bool, cells: &[Cell<Extent>], base: NoteBase) -> Notes<'_> {
+    if quiet { Notes::MUTED } else { Notes::new(cells, base) }
 }
 
 /// Loss of one copy of a component. Where the shaft has thrust that nothing takes, the load of its bearings is unknown and

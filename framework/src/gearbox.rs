@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::document::{Diagnostic, Node, Places, Severity, Sources, read_yaml};
-use crate::language::{DRAGS, Language};
+use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::Files;
 use crate::resolve::{Came, Choice, Resolved, resolve};
 use crate::transmission::Transmission;
@@ -149,6 +149,7 @@ impl Gearbox {
         let section = keys.next().unwrap_or_default();
         let written = match (section, keys.nth(1), keys.next()) {
             (_, Some("drag"), Some(slot)) => format!("models.{DRAGS}.{slot}"),
+            ("thermal", Some(slot), None) => format!("models.{HEAT}.{slot}"),
             _ => match language.sections().find(|(name, _)| *name == section) {
                 Some((_, key)) => format!("models.{key}"),
                 None => return finding,

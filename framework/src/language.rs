@@ -10,6 +10,7 @@ use crate::document::{Diagnostic, Node, Schema, Walked, read_yaml, walk, walk_at
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
+use crate::mechanism::heat_dissipation::HeatDissipation;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{Entry, Registry};
 use crate::resolve::CatalogueTable;
@@ -22,6 +23,11 @@ pub const SETS: &str = PlanetaryDrag::KEY;
 pub const HELD: [(&str, &str); 2] = [("meshes", MESHES), ("planetary_sets", SETS)];
 /// Key of the mechanism that gears and meshes hold by name.
 pub const DRAGS: &str = GearDrag::KEY;
+
+/// Key of the mechanism that the thermal section holds by name.
+pub const HEAT: &str = HeatDissipation::KEY;
+/// Mechanisms of which models are chosen by name, several at a time.
+pub const NAMED: [&str; 2] = [DRAGS, HEAT];
 
 /// Section of the oils, which has catalogues as the sections of components do.
 pub const LUBRICANTS: &str = "lubricants";

@@ -24,6 +24,7 @@ pub mod registry;
 pub mod resolve;
 pub mod study;
 pub mod table;
+pub mod thermal;
 pub mod transmission;
 
 pub use schemars;

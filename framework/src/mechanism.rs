@@ -9,6 +9,7 @@ pub mod bearing;
 pub mod clutch;
 pub mod gear_drag;
 pub mod gear_mesh;
+pub mod heat_dissipation;
 pub mod mean_friction;
 pub mod planetary_drag;
 pub mod seal;

@@ -15,7 +15,7 @@ use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
 pub use placed::{Common, Placed, Section};
-pub use slot::{DragSlots, ModelRef, Slot};
+pub use slot::{ModelRef, NamedSlots, Slot};
 
 use crate::conformance;
 use crate::document::Diagnostic;

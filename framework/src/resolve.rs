@@ -16,7 +16,7 @@ pub use choice::{Choice, ModelSet, expand_set, sets_of};
 pub use paths::{lookup, matches};
 
 use crate::document::Diagnostic;
-use crate::language::{DRAGS, Language};
+use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::Files;
 
 /// Where a value of the resolved document comes from.
@@ -193,21 +193,35 @@ fn give_models(
             }
         }
     }
-    // Drag slots are named: a gear's or mesh's own slots replace the defaults of the same name. The defaults go to one
-    // place in the document, because only the model's scope tells whether gears or meshes carry them.
-    let drags = match set {
-        Some((name, s)) if s.models.contains_key(DRAGS) => Some((s.models[DRAGS].clone(), Came::Set(name.clone()))),
-        _ => own
-            .get(DRAGS)
-            .filter(|v| !v.is_null())
-            .map(|v| (v.clone(), Came::Models)),
+    // Named slots: a gear's, a mesh's or the housing's own slots replace the defaults of the same name. The defaults of drags
+    // go to one place in the document, because only the model's scope tells whether gears or meshes carry them.
+    let slots_of = |key: &str| {
+        let (slots, from) = default_of(key).unwrap_or((Value::Null, Came::Models));
+        (slots.as_object().cloned().unwrap_or_default(), from)
     };
-    let (drags, from) = drags.unwrap_or((Value::Object(Map::new()), Came::Models));
-    let drags = if drags.is_object() {
-        drags
-    } else {
-        Value::Object(Map::new())
-    };
+    let (ways, from) = slots_of(HEAT);
+    if let Some(thermal) = value.get_mut("thermal").and_then(Value::as_object_mut) {
+        let own = thermal
+            .get(HEAT)
+            .and_then(Value::as_object)
+            .cloned()
+            .unwrap_or_default();
+        let path = |slot: &str| format!("thermal.{HEAT}.{slot}");
+        let mut slots = Map::new();
+        for (slot, model) in ways.iter().filter(|(slot, _)| !own.contains_key(*slot)) {
+            slots.insert(slot.clone(), model.clone());
+            came.insert(path(slot), from.clone());
+        }
+        slots.extend(own);
+        for (slot, model) in &mut slots {
+            if let Some((name, named)) = named(&path(slot)) {
+                *model = named.clone();
+                came.insert(path(slot), Came::Set(name.clone()));
+            }
+        }
+        thermal.insert(HEAT.to_owned(), Value::Object(slots));
+    }
+    let (drags, from) = slots_of(DRAGS);
     for section in ["gears", "meshes"] {
         for (id, entry) in entries_mut(value, section) {
             let own = entry
@@ -216,7 +230,7 @@ fn give_models(
                 .cloned()
                 .unwrap_or_default();
             let mut slots = Map::new();
-            for (slot, model) in drags.as_object().into_iter().flatten() {
+            for (slot, model) in &drags {
                 if !own.contains_key(slot) && language.fits_scope(section, model) {
                     slots.insert(slot.clone(), model.clone());
                     came.insert(format!("{section}.{id}.drag.{slot}"), from.clone());

@@ -20,12 +20,14 @@ pub use states::GearState;
 
 pub(crate) use planets::Sharing;
 
+use crate::description::ThermalMode;
 use crate::document::Diagnostic;
 use crate::loads::ShaftLoads;
 use crate::loss::NoteBase;
 use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::registry::{Instance, Placed, Slot};
+use crate::thermal::Housing;
 
 /// What a part is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -139,8 +141,11 @@ pub struct Transmission {
     pub(crate) uneven: bool,
     /// Findings that do not keep the transmission from being evaluated.
     pub warnings: Vec<Diagnostic>,
-    /// Temperature of the oil as described. \[degC\]
+    /// Temperature of the oil as described, where it is not found by balance. \[degC\]
     pub oil_temperature: f64,
+    /// How the temperature is found, as described.
+    pub thermal_mode: ThermalMode,
+    pub(crate) housing: Housing,
 }
 
 impl Transmission {
@@ -179,6 +184,14 @@ impl Transmission {
     /// Path, geometry and roughness of every mesh.
     pub fn meshes(&self) -> impl Iterator<Item = (&str, &MeshPart)> {
         self.meshes.iter().map(|m| (m.seat.path.as_str(), m.part.as_ref()))
+    }
+    /// The ways on which heat leaves.
+    pub fn housing(&self) -> &Housing {
+        &self.housing
+    }
+    /// Density and specific heat of the sump at a temperature in degC. \[kg/m3 and J/(kg K)\]
+    pub(crate) fn sump_heat(&self, temperature: f64) -> (f64, f64) {
+        self.oils.heat(temperature)
     }
     /// Number of the temperature nodes.
     pub fn nodes(&self) -> usize {

@@ -9,6 +9,7 @@ pub mod clutch;
 pub mod contact;
 pub mod gear_drag;
 pub mod gear_mesh;
+pub mod heat_dissipation;
 pub mod mean_friction;
 pub mod path;
 pub mod planetary_drag;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::registry::{DragSlots, ModelRef};
+use crate::registry::{ModelRef, NamedSlots};
 
 /// A gear.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -52,7 +52,7 @@ pub struct GearEntry {
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
     /// Drag models of this gear by name; they take the place of those in `models`.
-    pub drag: Option<DragSlots<GearDrag>>,
+    pub drag: Option<NamedSlots<GearDrag>>,
 }
 
 /// Hand of a helix.
@@ -140,7 +140,7 @@ pub struct MeshEntry {
     /// Loss model of the mesh; absent, that of `models`.
     pub model: Option<ModelRef<GearMesh>>,
     /// Drag models of this mesh by name; they take the place of those in `models`.
-    pub drag: Option<DragSlots<GearDrag>>,
+    pub drag: Option<NamedSlots<GearDrag>>,
 }
 
 fn twenty_degrees() -> f64 {

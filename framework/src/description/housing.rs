@@ -3,6 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Ordered;
+use crate::mechanism::heat_dissipation::HeatDissipation;
+use crate::registry::NamedSlots;
+
 /// The housing.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct HousingEntry {
@@ -12,6 +16,8 @@ pub struct HousingEntry {
     pub section: Option<CaseSection>,
     /// Gap between the gears and the wall.
     pub clearance: Option<WallClearance>,
+    /// The outside, for models of the heat that leaves.
+    pub outside: Option<OutsideEntry>,
     /// Road grade: rotation of the housing about y, nose up positive. [deg]
     #[serde(default)]
     #[schemars(range(min = -89.0, max = 89.0))]
@@ -88,16 +94,109 @@ pub struct WallClearance {
     pub axial: f64,
 }
 
+/// The outside of the housing, where it gives heat to the air.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+pub struct OutsideEntry {
+    /// Length, width and height of a box about the housing; they stand for what is not stated. [mm]
+    #[serde(rename = "box")]
+    #[schemars(inner(range(min = 1.0, max = 1e5)))]
+    pub sides: Option<[f64; 3]>,
+    /// Area of the face by which the housing is mounted, which gives no heat to the air. [cm2]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e7))]
+    pub mounting_area: f64,
+    /// Area that gives heat to the air, without fins; absent, that of the box without its mounting face. [cm2]
+    #[schemars(range(min = 0.1, max = 1e8))]
+    pub area: Option<f64>,
+    /// Area inside that the oil wets; absent, the area outside. [cm2]
+    #[schemars(range(min = 0.1, max = 1e8))]
+    pub oil_area: Option<f64>,
+    /// Height; absent, that of the box. [mm]
+    #[schemars(range(min = 1.0, max = 1e5))]
+    pub height: Option<f64>,
+    /// Length along the flow of the air; absent, that of the box. [mm]
+    #[schemars(range(min = 1.0, max = 1e5))]
+    pub length: Option<f64>,
+    /// Thickness of the wall. [mm]
+    #[serde(default = "five_millimetres")]
+    #[schemars(range(min = 0.1, max = 500.0))]
+    pub wall_thickness: f64,
+    /// Thermal conductivity of the wall; 150 for aluminium, 50 for grey cast iron. [W/(m K)]
+    #[serde(default = "aluminium")]
+    #[schemars(range(min = 0.1, max = 500.0))]
+    pub wall_conductivity: f64,
+    /// Emissivity: 0.9 to 0.95 painted, 0.15 to 0.3 bare aluminium. [-]
+    #[serde(default = "painted")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub emissivity: f64,
+    /// Speed of the air along the housing; zero for still air. [m/s]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub air_speed: f64,
+}
+
+fn five_millimetres() -> f64 {
+    5e-3
+}
+
+fn aluminium() -> f64 {
+    150.0
+}
+
+fn painted() -> f64 {
+    0.9
+}
+
 /// Operating temperature.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Thermal {
     /// How the temperature is found.
     #[serde(default)]
     pub mode: ThermalMode,
-    /// Temperature of the oil. [degC]
+    /// Temperature of the oil, where it is given. [degC]
     #[serde(default = "eighty")]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil: f64,
+    /// Temperature of the surroundings. [degC]
+    #[serde(default = "twenty")]
+    #[schemars(range(min = -60.0, max = 120.0))]
+    pub ambient: f64,
+    /// Temperature of the oil up to which a balance is looked for. [degC]
+    #[serde(default = "hottest")]
+    #[schemars(range(min = 0.0, max = 250.0))]
+    pub maximum: f64,
+    /// Resistance between the oil and the surface of the housing; zero where both are one temperature. [K/W]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub oil_to_surface: f64,
+    /// Heat that comes from elsewhere, by name, such as a flange-mounted motor.
+    #[serde(default, skip_serializing_if = "Ordered::is_empty")]
+    pub sources: Ordered<HeatSource>,
+    /// Ways on which heat leaves, by name; they add up, and take the place of those in `models`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub heat_dissipation: Option<NamedSlots<HeatDissipation>>,
+}
+
+/// Heat that does not come from the losses.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+pub struct HeatSource {
+    /// Heat flow. [W]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub heat: f64,
+    /// Where it comes in.
+    #[serde(default)]
+    pub into: HeatInto,
+}
+
+/// Where heat comes in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum HeatInto {
+    /// The oil.
+    Oil,
+    /// The surface of the housing, as from a flange.
+    #[default]
+    Surface,
 }
 
 impl Default for Thermal {
@@ -105,12 +204,25 @@ impl Default for Thermal {
         Self {
             mode: ThermalMode::Fixed,
             oil: eighty(),
+            ambient: twenty(),
+            maximum: hottest(),
+            oil_to_surface: 0.0,
+            sources: Ordered::default(),
+            heat_dissipation: None,
         }
     }
 }
 
 fn eighty() -> f64 {
     80.0
+}
+
+fn twenty() -> f64 {
+    20.0
+}
+
+fn hottest() -> f64 {
+    150.0
 }
 
 /// How the temperature is found.
@@ -120,4 +232,6 @@ pub enum ThermalMode {
     /// It is given.
     #[default]
     Fixed,
+    /// Losses and the heat that leaves are in balance.
+    Balance,
 }

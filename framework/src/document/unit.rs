@@ -51,6 +51,10 @@ pub enum Dimension {
     Flow,
     /// Heat transfer coefficient, W/(m2 K).
     HeatTransfer,
+    /// Heat flow per temperature difference, W/K.
+    Conductance,
+    /// Temperature difference per heat flow, K/W.
+    Resistance,
     /// Thermal conductivity, W/(m K).
     Conductivity,
     /// Specific heat, J/(kg K).
@@ -85,6 +89,8 @@ impl Dimension {
             Self::Time => "time",
             Self::Flow => "volume flow",
             Self::HeatTransfer => "heat transfer coefficient",
+            Self::Conductance => "thermal conductance",
+            Self::Resistance => "thermal resistance",
             Self::Conductivity => "thermal conductivity",
             Self::SpecificHeat => "specific heat",
         }
@@ -211,6 +217,8 @@ static UNITS: &[Unit] = &[
     unit("W/(m2 K)", Dimension::HeatTransfer, 1.0),
     unit("W/(m² K)", Dimension::HeatTransfer, 1.0),
     unit("W/m2K", Dimension::HeatTransfer, 1.0),
+    unit("W/K", Dimension::Conductance, 1.0),
+    unit("K/W", Dimension::Resistance, 1.0),
     unit("W/(m K)", Dimension::Conductivity, 1.0),
     unit("W/mK", Dimension::Conductivity, 1.0),
     unit("J/(kg K)", Dimension::SpecificHeat, 1.0),

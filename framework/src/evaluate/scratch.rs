@@ -45,6 +45,11 @@ pub struct Scratch {
 }
 
 impl Scratch {
+    /// Where models of heat dissipation note what they saw; it counts over all points.
+    pub(crate) fn heat_cells(&mut self) -> &mut [Extent] {
+        &mut self.totals
+    }
+
     pub(super) fn new(transmission: &Transmission, case: &Case) -> Self {
         let columns = case.flow.columns();
         let supports = transmission.supports.len();

@@ -4,7 +4,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use super::{DRAGS, HELD};
+use super::{HELD, NAMED};
 use crate::description::GearboxEntry;
 use crate::document::publish;
 use crate::registry::{MechanismEntry, Registry};
@@ -141,10 +141,10 @@ fn section(mechanism: &MechanismEntry, schemas: &[Schema]) -> Value {
 /// A record with a slot for each mechanism that components choose a default of.
 fn models(registry: &Registry, fields: &mut Map<String, Value>, description: &str) -> Value {
     for mechanism in registry.mechanisms() {
-        if mechanism.key == DRAGS {
+        if NAMED.contains(&mechanism.key) {
             let slots = json!({
                 "type": "object",
-                "description": format!("{} Models by name, such as `churning`.", mechanism.meaning),
+                "description": format!("{} Models by name.", mechanism.meaning),
                 "additionalProperties": model_ref(mechanism.key),
             });
             fields.insert(mechanism.key.to_owned(), slots);

@@ -6,7 +6,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
 use crate::description::Ordered;
@@ -43,6 +43,12 @@ impl<M> Clone for ModelRef<M> {
     }
 }
 
+impl<M> Serialize for ModelRef<M> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.value.serialize(serializer)
+    }
+}
+
 impl<'de, M> Deserialize<'de> for ModelRef<M> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Value::deserialize(deserializer).map(Self::new)
@@ -62,27 +68,33 @@ impl<M: Mechanism> JsonSchema for ModelRef<M> {
 }
 
 /// Several models by name, such as `churning` and `windage`.
-pub struct DragSlots<M>(pub Ordered<ModelRef<M>>);
+pub struct NamedSlots<M>(pub Ordered<ModelRef<M>>);
 
-impl<M> std::fmt::Debug for DragSlots<M> {
+impl<M> std::fmt::Debug for NamedSlots<M> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         self.0.fmt(f)
     }
 }
 
-impl<M> Clone for DragSlots<M> {
+impl<M> Clone for NamedSlots<M> {
     fn clone(&self) -> Self {
         Self(self.0.clone())
     }
 }
 
-impl<'de, M> Deserialize<'de> for DragSlots<M> {
+impl<M> Serialize for NamedSlots<M> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+impl<'de, M> Deserialize<'de> for NamedSlots<M> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Ordered::deserialize(deserializer).map(Self)
     }
 }
 
-impl<M: Mechanism> JsonSchema for DragSlots<M> {
+impl<M: Mechanism> JsonSchema for NamedSlots<M> {
     fn inline_schema() -> bool {
         true
     }

@@ -18,8 +18,9 @@ use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::registry::{Build, Common, DragSlots, Files, ModelRef};
+use crate::registry::{Build, Common, Files, ModelRef, NamedSlots};
 use crate::resolve::Resolved;
+use crate::thermal::Housing;
 
 impl Transmission {
     /// Builds the transmission of a resolved description.
@@ -65,6 +66,7 @@ impl Transmission {
         );
 
         planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
+        let housing = Housing::new(&entry, &mut build, &mut found);
         let states = if found.is_empty() {
             states(&entry, &members, &meshes, &clearances, &ports, &mut found)
         } else {
@@ -115,6 +117,8 @@ impl Transmission {
                 uneven: sharing.iter().any(Option::is_some),
                 warnings,
                 oil_temperature: entry.thermal.oil,
+                thermal_mode: entry.thermal.mode,
+                housing,
             };
             built.check_states()?;
             Ok(built)
@@ -333,7 +337,7 @@ fn drags(
         })
         .collect();
     let mut drags: Vec<DragModel> = Vec::new();
-    let mut add = |slots: Option<&DragSlots<GearDrag>>,
+    let mut add = |slots: Option<&NamedSlots<GearDrag>>,
                    of: &str,
                    scope: Scope,
                    seat: DragSeat,

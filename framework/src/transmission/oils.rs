@@ -35,6 +35,8 @@ pub struct Oils {
     /// Lubricant, temperature node and offset of each oil.
     spots: Vec<(usize, usize, f64)>,
     surface: Surface,
+    /// The oil of the housing.
+    sump: Option<usize>,
 }
 
 impl Oils {
@@ -58,9 +60,13 @@ impl Oils {
         }
     }
 
-    /// How the height of the sump is known.
-    pub fn surface_kind(&self) -> &Surface {
-        &self.surface
+    /// Density and specific heat of the sump at a temperature in degC; those of the first oil without a sump.
+    /// \[kg/m3 and J/(kg K)\]
+    pub fn heat(&self, temperature: f64) -> (f64, f64) {
+        let oil = self.lubricants.get(self.sump.unwrap_or(0));
+        oil.map_or((0.0, 0.0), |oil| {
+            (oil.density(temperature), oil.heat_capacity(temperature))
+        })
     }
 
     /// Number of oils.
@@ -185,6 +191,7 @@ impl<'a> OilNumbers<'a> {
                 lubricants: self.lubricants,
                 spots: self.spots,
                 surface: self.surface,
+                sump: self.default,
             },
             self.findings,
         )

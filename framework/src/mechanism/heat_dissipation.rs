@@ -1,0 +1,124 @@
+//! Heat that leaves the gearbox: by the housing to the air, by the flange, by a cooler.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Notes, Undefined};
+use crate::mechanism::{Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum HeatDissipation {}
+
+/// Where a way of the heat begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WarmSide {
+    /// At the oil.
+    Oil,
+    /// At the surface of the housing.
+    Surface,
+}
+
+/// One way on which heat leaves: a conductance between a warm side and a sink.
+pub trait HeatDissipationModel: Send + Sync {
+    /// Where the way begins.
+    fn warm_side(&self) -> WarmSide {
+        WarmSide::Surface
+    }
+    /// Temperature at which the way ends; absent, that of the surroundings. \[degC\]
+    fn sink(&self) -> Option<f64> {
+        None
+    }
+    /// Heat flow over the difference of temperatures. Pure; must not allocate. \[W/K\]
+    fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined>;
+}
+
+/// The outside of the housing; in a gearbox the framework fills it from `housing.outside`.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+pub struct HousingPart {
+    /// Area that gives heat to the air, without fins. [cm2]
+    #[schemars(range(min = 0.1, max = 1e8))]
+    pub area: Option<f64>,
+    /// Area inside that the oil wets. [cm2]
+    #[schemars(range(min = 0.1, max = 1e8))]
+    pub oil_area: Option<f64>,
+    /// Height. [mm]
+    #[schemars(range(min = 1.0, max = 1e5))]
+    pub height: Option<f64>,
+    /// Length along the flow of the air. [mm]
+    #[schemars(range(min = 1.0, max = 1e5))]
+    pub length: Option<f64>,
+    /// Thickness of the wall. [mm]
+    #[schemars(range(min = 0.1, max = 500.0))]
+    pub wall_thickness: f64,
+    /// Thermal conductivity of the wall. [W/(m K)]
+    #[schemars(range(min = 0.1, max = 500.0))]
+    pub wall_conductivity: f64,
+    /// Emissivity. [-]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub emissivity: f64,
+    /// Speed of the air along the housing. [m/s]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub air_speed: f64,
+}
+
+context! {
+    /// All that a model of heat dissipation may look at.
+    pub struct HeatDissipationAt of HeatDissipation {
+        /// Temperature of the oil. [degC]
+        oil_temperature: 80.0 in -60.0..=250.0,
+        /// Temperature of the surface of the housing. [degC]
+        surface_temperature: 75.0 in -60.0..=250.0,
+        /// Temperature of the surroundings. [degC]
+        ambient: 20.0 in -60.0..=120.0,
+        /// Density of the oil. [kg/m3]
+        rho: 830.0 in 500.0..=1300.0,
+        /// Specific heat of the oil. [J/(kg K)]
+        heat_capacity: 2100.0 in 1000.0..=4000.0,
+    }
+}
+
+impl Mechanism for HeatDissipation {
+    const KEY: &'static str = "heat_dissipation";
+    const MEANING: &'static str =
+        "Heat that leaves the gearbox: by the housing to the air, by the flange, by a cooler.";
+    const ANSWER: &'static str = "Heat flow over the difference of surface and surroundings. [W/K]";
+    const EXAMPLE: &'static str = "
+area: 4000 cm2
+oil_area: 3500 cm2
+height: 300 mm
+length: 300 mm
+wall_thickness: 8 mm
+wall_conductivity: 150 W/(m K)
+emissivity: 0.9
+air_speed: 0 m/s
+";
+    const QUANTITIES: &'static [Quantity<Self>] = HeatDissipationAt::QUANTITIES;
+    const OWN: &'static [&'static str] = &["constant"];
+    type Part = HousingPart;
+    type At<'a> = HeatDissipationAt<'a>;
+    type Answer = f64;
+    type Model = dyn HeatDissipationModel;
+
+    fn usual<'a>(part: &'a HousingPart, notes: Notes<'a>) -> HeatDissipationAt<'a> {
+        HeatDissipationAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
+        model.conductance(at)
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl HeatDissipationModel for Scalar<HeatDissipation> {
+    fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
+        self.value(at)
+    }
+}
+
+crate::register_mechanism!(HeatDissipation);

@@ -1,0 +1,9 @@
+//! Operating temperature: losses and the heat that leaves, in balance. It stands outside of the evaluation of a point.
+
+mod balance;
+mod equilibrium;
+mod housing;
+
+pub use balance::{Balance, Outcome, Root, Step, balance};
+pub use equilibrium::{Equilibrium, Unbalanced};
+pub use housing::{HeatFlow, Housing, Way};

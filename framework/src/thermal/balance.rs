@@ -1,0 +1,451 @@
+//! The temperature at which losses and heat are equal, for any law of both.
+//!
+//! A plain iteration of T = T_ambient + P(T)/(alpha A) may oscillate or leave the range. Here a scan first brackets every
+//! temperature at which the losses fall below the heat, and each step stays inside its bracket: it is that of the
+//! iteration, accelerated by the two or three last ones (secant, or inverse quadratic interpolation where it is safe:
+//! Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149), else the middle.
+
+/// Stretches of the first scan.
+const STRETCHES: usize = 16;
+/// How often the scan is doubled before the losses count as greater everywhere.
+const DOUBLINGS: usize = 4;
+/// Energy residual over the loss at which a balance is found.
+const TOLERANCE: f64 = 1e-10;
+/// Rounding of the heat flows over their sum, below which no residual can be told from zero.
+const ROUNDING: f64 = 1e-14;
+/// Width of a bracket that is closed: some roundings of the temperature, and no less than this. \[K\]
+const CLOSED: f64 = 1e-14;
+/// Slope beside that of the whole bracket from which on a law counts as jumping.
+const STEEPEST: f64 = 1e6;
+/// The most steps in one bracket; halving alone needs half as many.
+const MOST: usize = 120;
+
+/// Losses and heat at one temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Temperature. \[degC\]
+    pub temperature: f64,
+    /// Heat that comes in: losses, and sources beside them. \[W\]
+    pub loss: f64,
+    /// Heat that leaves. \[W\]
+    pub heat: f64,
+    /// Sum of the magnitudes of all heat flows, by which rounding counts. \[W\]
+    pub scale: f64,
+}
+
+impl Step {
+    /// What is left over. \[W\]
+    pub fn residual(&self) -> f64 {
+        self.loss - self.heat
+    }
+
+    fn is_balanced(&self) -> bool {
+        self.residual().abs() <= (TOLERANCE * self.loss).max(ROUNDING * self.scale)
+    }
+}
+
+/// A temperature at which more heat leaves above and less below, so that it keeps itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Root {
+    /// The temperature. \[degC\]
+    pub temperature: f64,
+    /// Losses and heat there; at a jump those of the colder side.
+    pub step: Step,
+    /// Where a law jumps from too much loss to too little: losses and heat on the warmer side.
+    pub beyond: Option<Step>,
+}
+
+/// What became of a balance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// One temperature keeps itself.
+    Converged,
+    /// One temperature keeps itself, at a jump of a law: below it losses are greater than the heat, above it less.
+    AtDiscontinuity,
+    /// Several temperatures keep themselves; the lowest is taken.
+    Several,
+    /// Losses are greater than the heat up to the greatest temperature that was asked for.
+    NoneBelowMaximum,
+    /// A law has no value where the balance would lie.
+    Undefined,
+}
+
+impl Outcome {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::AtDiscontinuity => "at_discontinuity",
+            Self::Several => "several",
+            Self::NoneBelowMaximum => "none_below_maximum",
+            Self::Undefined => "undefined",
+        }
+    }
+}
+
+/// A balance with all that was asked on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balance<E> {
+    /// What became of it.
+    pub outcome: Outcome,
+    /// Temperatures that keep themselves, the lowest first.
+    pub stable: Vec<Root>,
+    /// All steps in the order in which they were asked: the scan, then those of each bracket.
+    pub history: Vec<Step>,
+    /// Number of the first step behind the scan.
+    pub scanned: usize,
+    /// Distance of neighbouring temperatures of the scan. \[K\]
+    pub spacing: f64,
+    /// Where a law had no value, and why: the first of them.
+    pub undefined: Option<(f64, E)>,
+}
+
+impl<E> Balance<E> {
+    /// The temperature that is taken.
+    pub fn taken(&self) -> Option<&Root> {
+        self.stable.first()
+    }
+
+    fn ask(&mut self, temperature: f64, law: &mut impl FnMut(f64) -> Result<Step, E>) -> Option<Step> {
+        match law(temperature) {
+            Ok(step) => {
+                self.history.push(step);
+                Some(step)
+            }
+            Err(reason) => {
+                self.undefined.get_or_insert((temperature, reason));
+                None
+            }
+        }
+    }
+}
+
+/// Finds the temperatures that keep themselves in a range whose lower end no heat leaves. \[degC\]
+///
+/// Crossings closer to each other than the spacing of the scan may be missed, both of them; the residual of what is found
+/// is below 1e-10 of the loss all the same.
+pub fn balance<E>(range: [f64; 2], law: impl FnMut(f64) -> Result<Step, E>) -> Balance<E> {
+    search(range, STRETCHES, DOUBLINGS, law)
+}
+
+/// As [`balance`], where losses fall and the heat rises all the way, so that there is one temperature: without a scan.
+pub fn single<E>(range: [f64; 2], law: impl FnMut(f64) -> Result<Step, E>) -> Balance<E> {
+    search(range, 1, 0, law)
+}
+
+fn search<E>(
+    [low, high]: [f64; 2],
+    stretches: usize,
+    doublings: usize,
+    mut law: impl FnMut(f64) -> Result<Step, E>,
+) -> Balance<E> {
+    let mut found = Balance {
+        outcome: Outcome::NoneBelowMaximum,
+        stable: Vec::new(),
+        history: Vec::new(),
+        scanned: 0,
+        spacing: (high - low) / stretches as f64,
+        undefined: None,
+    };
+    let place = |i: usize, count: usize| low + (high - low) * i as f64 / count as f64;
+    let mut scan: Vec<(f64, Option<Step>)> = (0..=stretches)
+        .map(|i| (place(i, stretches), found.ask(place(i, stretches), &mut law)))
+        .collect();
+    for doubling in 1..=doublings {
+        // Losses above the heat wherever they were asked: look closer before saying that they are so everywhere.
+        if scan
+            .iter()
+            .skip(1)
+            .any(|(_, step)| step.is_none_or(|s| s.residual() <= 0.0))
+        {
+            break;
+        }
+        let count = stretches << doubling;
+        found.spacing = (high - low) / count as f64;
+        let between: Vec<(f64, Option<Step>)> = (0..count / 2)
+            .map(|i| place(2 * i + 1, count))
+            .map(|t| (t, found.ask(t, &mut law)))
+            .collect();
+        let mut both = Vec::with_capacity(count + 1);
+        for (i, old) in scan.into_iter().enumerate() {
+            both.push(old);
+            both.extend(between.get(i).copied());
+        }
+        scan = both;
+    }
+    found.scanned = found.history.len();
+    if let Some((_, Some(first))) = scan.first()
+        && first.is_balanced()
+        && scan[1].1.is_some_and(|next| next.residual() < 0.0)
+    {
+        // Nothing is lost: the lower end itself.
+        found.stable.push(Root {
+            temperature: first.temperature,
+            step: *first,
+            beyond: None,
+        });
+    }
+    let mut gap = false;
+    for pair in scan.windows(2) {
+        match (pair[0].1, pair[1].1) {
+            (Some(a), Some(b)) if a.residual() > 0.0 && b.residual() <= 0.0 => {
+                match close([a, b], &mut found, &mut law) {
+                    Some(root) => found.stable.push(root),
+                    None => gap = true,
+                }
+            }
+            // Losses are below the heat where a law begins to have a value, or above it where a law ends.
+            (None, Some(b)) if b.residual() <= 0.0 => gap = true,
+            (Some(a), None) if a.residual() > 0.0 => gap = true,
+            _ => {}
+        }
+    }
+    let nothing = scan.iter().all(|(_, step)| step.is_none());
+    found.outcome = match &found.stable[..] {
+        [] if gap || nothing => Outcome::Undefined,
+        [] => Outcome::NoneBelowMaximum,
+        [one] if one.beyond.is_some() => Outcome::AtDiscontinuity,
+        [_] => Outcome::Converged,
+        _ => Outcome::Several,
+    };
+    found
+}
+
+/// Closes a bracket from too much loss to too little. Absent where a law has no value inside.
+fn close<E>(
+    [cold, warm]: [Step; 2],
+    found: &mut Balance<E>,
+    law: &mut impl FnMut(f64) -> Result<Step, E>,
+) -> Option<Root> {
+    let root = |step: Step| Root {
+        temperature: step.temperature,
+        step,
+        beyond: None,
+    };
+    // `last` is the newest step, `other` the end of the bracket on the other side, `before` the step that one replaced.
+    let (mut last, mut other) = (warm, cold);
+    let mut share = last.residual() / (last.residual() - other.residual());
+    for _ in 0..MOST {
+        let best = if last.residual().abs() < other.residual().abs() {
+            last
+        } else {
+            other
+        };
+        if best.is_balanced() {
+            return Some(root(best));
+        }
+        let width = (other.temperature - last.temperature).abs();
+        let least = (4.0 * f64::EPSILON * last.temperature.abs()).max(CLOSED) / width;
+        if least > 0.5 {
+            break;
+        }
+        let t = last.temperature + share.clamp(least, 1.0 - least) * (other.temperature - last.temperature);
+        let new = found.ask(t, law)?;
+        let before;
+        if (new.residual() > 0.0) == (last.residual() > 0.0) {
+            before = last;
+        } else {
+            before = other;
+            other = last;
+        }
+        last = new;
+        share = next([last, other, before]);
+    }
+    let (below, above) = if last.residual() > 0.0 {
+        (last, other)
+    } else {
+        (other, last)
+    };
+    // The temperature has no more digits. What is left is rounding where it is no more than the slope makes of the width.
+    let slope = (warm.residual() - cold.residual()).abs() / (warm.temperature - cold.temperature);
+    let width = (above.temperature - below.temperature).abs();
+    if below.residual() - above.residual() <= STEEPEST * slope * width {
+        let best = if below.residual() < -above.residual() {
+            below
+        } else {
+            above
+        };
+        return Some(root(best));
+    }
+    Some(Root {
+        temperature: below.temperature,
+        step: below,
+        beyond: Some(above),
+    })
+}
+
+/// Where to step between two ends of a bracket, as a share of the way from the first to the second.
+fn next([last, other, before]: [Step; 3]) -> f64 {
+    let (x1, x2, x3) = (last.temperature, other.temperature, before.temperature);
+    let (f1, f2, f3) = (last.residual(), other.residual(), before.residual());
+    let (xi, phi) = ((x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2));
+    if phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi {
+        f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
+    } else {
+        0.5
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn step(temperature: f64, loss: f64, conductance: f64) -> Step {
+        let heat = conductance * (temperature - 20.0);
+        Step {
+            temperature,
+            loss,
+            heat,
+            scale: loss + heat.abs(),
+        }
+    }
+
+    fn solved(range: [f64; 2], conductance: f64, law: impl Fn(f64) -> f64) -> Balance<()> {
+        balance(range, |t| Ok(step(t, law(t), conductance)))
+    }
+
+    #[test]
+    fn e7_losses_that_fall_with_temperature() {
+        let found = solved([20.0, 150.0], 8.0, |t| 300.0 * (-0.01 * (t - 40.0)).exp());
+        assert_eq!(found.outcome, Outcome::Converged);
+        assert!((found.stable[0].temperature - 52.9463).abs() < 5e-5);
+        assert!(found.history.len() < 24, "{}", found.history.len());
+    }
+
+    #[test]
+    fn e1_a_constant_loss_is_balanced_where_alpha_a_says() {
+        let found = solved([20.0, 150.0], 24.7 * 0.05, |_| 74.1);
+        assert!((found.stable[0].temperature - 80.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn without_loss_it_stays_at_the_surroundings() {
+        let found = solved([20.0, 150.0], 1.2, |_| 0.0);
+        assert_eq!((found.outcome, found.stable[0].temperature), (Outcome::Converged, 20.0));
+    }
+
+    #[test]
+    fn a_jump_downwards_is_named_with_both_residuals() {
+        let found = solved([20.0, 150.0], 1.0, |t| if t < 61.7 { 80.0 } else { 10.0 });
+        assert_eq!(found.outcome, Outcome::AtDiscontinuity);
+        let root = found.stable[0];
+        let beyond = root.beyond.map_or(f64::NAN, |s| s.residual());
+        assert!((root.temperature - 61.7).abs() < 1e-9);
+        assert!((root.step.residual() - 38.3).abs() < 1e-6 && (beyond + 31.7).abs() < 1e-6);
+    }
+
+    #[test]
+    fn losses_that_rise_faster_than_the_heat_have_no_balance() {
+        let found = solved([20.0, 150.0], 1.0, |t| 2.0 * (t - 10.0));
+        assert_eq!(found.outcome, Outcome::NoneBelowMaximum);
+        assert!(found.spacing < 0.6);
+    }
+
+    #[test]
+    fn of_several_the_lowest_is_taken() {
+        // Two steps down with a rise between them: 40 and 90 degC keep themselves, 60 does not.
+        let found = solved([20.0, 150.0], 1.0, |t| if t < 60.0 { 20.0 } else { 70.0 });
+        assert_eq!(found.outcome, Outcome::Several);
+        let at: Vec<f64> = found.stable.iter().map(|r| r.temperature).collect();
+        assert!((at[0] - 40.0).abs() < 1e-7 && (at[1] - 90.0).abs() < 1e-7, "{at:?}");
+    }
+
+    #[test]
+    fn a_law_without_value_at_the_balance_is_told() {
+        let law = |least: f64| {
+            balance([20.0, 150.0], move |t| {
+                if t < least {
+                    Err("too cold")
+                } else {
+                    Ok(step(t, 50.0, 1.0))
+                }
+            })
+        };
+        assert_eq!(law(30.0).outcome, Outcome::Converged);
+        let lost = law(100.0);
+        assert_eq!(
+            (lost.outcome, lost.undefined),
+            (Outcome::Undefined, Some((20.0, "too cold")))
+        );
+        assert_eq!(law(200.0).outcome, Outcome::Undefined);
+    }
+
+    /// A loss law: falling exponential, humps, and jumps either way.
+    #[derive(Debug, Clone)]
+    struct Law {
+        base: f64,
+        fall: f64,
+        humps: Vec<[f64; 3]>,
+        jumps: Vec<[f64; 2]>,
+    }
+
+    impl Law {
+        fn at(&self, t: f64) -> f64 {
+            let mut loss = self.base * (-self.fall * (t - 20.0)).exp();
+            for [place, width, height] in &self.humps {
+                loss += height * (-((t - place) / width).powi(2)).exp();
+            }
+            for [place, height] in &self.jumps {
+                if t > *place {
+                    loss += height;
+                }
+            }
+            loss.max(0.0)
+        }
+    }
+
+    prop_compose! {
+        fn laws()(
+            base in prop_oneof![Just(0.0), 0.001..2000.0_f64],
+            fall in -0.02..0.08_f64,
+            humps in prop::collection::vec([20.0..150.0_f64, 3.0..40.0, 0.0..200.0], 0..3),
+            jumps in prop::collection::vec([20.0..150.0_f64, -200.0..200.0], 0..4),
+        ) -> Law {
+            Law { base, fall, humps, jumps }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 10_000, ..ProptestConfig::default() })]
+        #[test]
+        fn ten_thousand_laws_balance_or_have_the_outcome_that_is_true(law in laws(), conductance in 0.1..30.0_f64) {
+            let found = solved([20.0, 150.0], conductance, |t| law.at(t));
+            let residual = |t: f64| law.at(t) - conductance * (t - 20.0);
+            for root in &found.stable {
+                let loss = law.at(root.temperature);
+                match root.beyond {
+                    // A loss that is next to nothing is met as well as the digits of the temperature let the heat be.
+                    None => prop_assert!(residual(root.temperature).abs() <= (1e-9 * loss).max(1e-13 * conductance)),
+                    // Residuals of both sides differ in sign, next to each other: the law jumps there.
+                    Some(beyond) => {
+                        prop_assert!(beyond.temperature - root.temperature < 1e-9);
+                        prop_assert!(root.step.residual() > 0.0 && beyond.residual() <= 0.0);
+                        let jump = |[place, _]: &[f64; 2]| root.temperature <= *place && *place <= beyond.temperature;
+                        prop_assert!(law.jumps.iter().any(jump));
+                    }
+                }
+                // It keeps itself: more loss just below, less just above.
+                let (below, above) = (root.temperature - 1e-4, root.temperature + 1e-4);
+                prop_assert!(below < 20.0 || residual(below) > 0.0 || residual(above) < 0.0);
+            }
+            prop_assert!(found.stable.windows(2).all(|w| w[0].temperature < w[1].temperature));
+            match found.outcome {
+                Outcome::Converged => prop_assert!(found.stable.len() == 1 && found.stable[0].beyond.is_none()),
+                Outcome::AtDiscontinuity => prop_assert!(found.stable.len() == 1 && found.stable[0].beyond.is_some()),
+                Outcome::Several => prop_assert!(found.stable.len() > 1),
+                Outcome::NoneBelowMaximum => {
+                    // True at every point of a scan as fine as that of the balance, and at its ends.
+                    let mut t = 20.0;
+                    while t <= 150.0 {
+                        prop_assert!(residual(t) > 0.0 || t == 20.0, "{t}");
+                        t += found.spacing;
+                    }
+                }
+                Outcome::Undefined => prop_assert!(false, "every law has a value everywhere"),
+            }
+        }
+    }
+}

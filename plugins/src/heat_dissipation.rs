@@ -1,0 +1,29 @@
+//! Heat that leaves the gearbox: by the housing to the air, by the flange, by a cooler.
+
+mod air;
+pub mod constant;
+pub mod fins;
+pub mod iso14179_1;
+pub mod iso14179_2;
+pub mod oil_cooler;
+pub mod textbook;
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::mechanism::heat_dissipation::{HeatDissipation, HousingPart};
+use gearloss_framework::registry::Build;
+
+/// 0 degC. \[K\]
+const ZERO_CELSIUS: f64 = 273.15;
+
+fn part(cx: &Build<'_>) -> HousingPart {
+    cx.part::<HeatDissipation>().copied().unwrap_or_default()
+}
+
+/// A quantity of the outside that a model cannot do without.
+fn needed(value: Option<f64>, model: &str, what: &str, example: &str, cx: &Build<'_>) -> Result<f64, Diagnostic> {
+    value.ok_or_else(|| {
+        cx.error(format!("{model} needs {what}")).mend(format!(
+            "add `housing: {{ outside: {{ {example} }} }}` with your figure"
+        ))
+    })
+}

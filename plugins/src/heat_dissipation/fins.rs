@@ -1,0 +1,110 @@
+//! A finned part of the housing.
+//!
+//! Source: straight fins of constant thickness: eta_f = tanh(m L_c)/(m L_c), m = sqrt(2 alpha/(lambda t)), L_c = L + t/2; Q = alpha (A_base + eta_f
+//! A_fins) (T_surface - T_ambient); any textbook of heat transfer. It also serves shafts and feet, as fins of their own.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::ShopUnits;
+use gearloss_framework::mechanism::heat_dissipation::{
+    HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart,
+};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::textbook::{forced, free, length, mixed};
+use super::{ZERO_CELSIUS, needed, part};
+
+const EFFICIENCY: Observed = Observed::new(0, "eta_f", "-", "Efficiency of the fins.");
+
+/// A finned part of the housing, beside the area of `housing.outside`.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Area between the fins. [cm2]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e8))]
+    pub base_area: f64,
+    /// Area of the fins, both sides. [cm2]
+    #[schemars(range(min = 0.01, max = 1e8))]
+    pub fin_area: f64,
+    /// Length of the fins from the housing. [mm]
+    #[schemars(range(min = 0.1, max = 1e4))]
+    pub fin_length: f64,
+    /// Thickness of the fins. [mm]
+    #[schemars(range(min = 0.1, max = 1e3))]
+    pub fin_thickness: f64,
+    /// Heat transfer coefficient; absent, convection of the textbooks without radiation. [W/(m2 K)]
+    #[schemars(range(min = 0.1, max = 1e5))]
+    pub alpha: Option<f64>,
+}
+
+struct Ready {
+    params: Params,
+    part: HousingPart,
+    height: f64,
+    length: f64,
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
+    let part = part(cx);
+    let height = match params.alpha {
+        Some(_) => 1.0,
+        None => needed(part.height, "fins", "the height of the housing", "height: 200 mm", cx)?,
+    };
+    Ok(Ready {
+        length: match params.alpha {
+            Some(_) => 1.0,
+            None => length(&part, "fins", cx)?,
+        },
+        params,
+        part,
+        height,
+    })
+}
+
+/// Efficiency of a fin from coefficient, conductivity, thickness and length.
+fn efficiency(alpha: f64, lambda: f64, t: f64, l: f64) -> f64 {
+    let ml = (2.0 * alpha / (lambda * t)).sqrt() * (l + 0.5 * t);
+    if ml < 1e-6 { 1.0 } else { ml.tanh() / ml }
+}
+
+impl HeatDissipationModel for Ready {
+    fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
+        let alpha = self.params.alpha.unwrap_or_else(|| {
+            let (wall, ambient) = (at.surface_temperature + ZERO_CELSIUS, at.ambient + ZERO_CELSIUS);
+            let (_, free) = free(self.height, wall, ambient);
+            let forced = if self.part.air_speed > 0.0 {
+                forced(self.part.air_speed, self.length, 0.5 * (wall + ambient))
+            } else {
+                0.0
+            };
+            mixed(forced, free)
+        });
+        at.show("alpha", "W/(m2 K)", alpha);
+        at.show("L", "mm", self.params.fin_length.mm());
+        let p = &self.params;
+        let eta = efficiency(alpha, self.part.wall_conductivity, p.fin_thickness, p.fin_length);
+        let eta = at.observe(&EFFICIENCY, eta);
+        Ok(at.show("G", "W/K", alpha * (p.base_area + eta * p.fin_area)))
+    }
+}
+
+register!(HeatDissipation, "fins", Params,
+    meaning: "A finned part of the housing.",
+    source: "straight fins of constant thickness, textbooks",
+    example: "{ type: fins, fin_area: 800 cm2, fin_length: 20 mm, fin_thickness: 3 mm, alpha: 20 W/(m2 K) }",
+    evidence: [formula(Evidence::SeveralSources, "textbooks agree")],
+    observed: [EFFICIENCY], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn e5_a_short_fin_is_nearly_perfect() {
+        assert!((efficiency(20.0, 150.0, 0.003, 0.020) / 0.986525 - 1.0).abs() < 1e-6);
+        assert!((efficiency(1e-12, 150.0, 0.003, 0.020) - 1.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,127 @@
+//! Overall heat transfer coefficients after ISO/TR 14179-1.
+//!
+//! Source: ISO/TR 14179-1:2001, as recalled: Q = k A (T_oil - T_ambient); k in W/(m2 K): small confined space, air of about 0.6 m/s, 10 to
+//! 14; large indoor hall, 1.4 m/s, 16 to 20; outdoors, 3.7 m/s, 18 to 21; with a fan on the shaft 15, 24, 42, 58 at 2.5, 5, 10, 15 m/s, linear
+//! in between. A is the free outer surface that oil touches inside and air outside, without fins, bolts and foundation.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Limit, Undefined};
+use gearloss_framework::mechanism::heat_dissipation::{
+    HeatDissipation, HeatDissipationAt, HeatDissipationModel, WarmSide,
+};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{needed, part};
+
+const AIR: Limit = Limit::new(0, "v_air", "m/s", 2.5, 15.0, "table of the report, recalled");
+const FAN: [(f64, f64); 4] = [(2.5, 15.0), (5.0, 24.0), (10.0, 42.0), (15.0, 58.0)];
+
+/// Where the gearbox stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Place {
+    /// A small confined space.
+    Confined,
+    /// A large hall.
+    #[default]
+    Indoor,
+    /// Outdoors.
+    Outdoor,
+    /// A fan on the shaft blows; the speed of the air is that of `housing.outside`.
+    ShaftFan,
+}
+
+/// Overall heat transfer coefficients by the place of the gearbox.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Where the gearbox stands.
+    #[serde(default)]
+    pub place: Place,
+    /// Where in the range of the place the coefficient lies: 0 least, 1 greatest. [-]
+    #[serde(default = "half")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub within: f64,
+}
+
+fn half() -> f64 {
+    0.5
+}
+
+struct Ready {
+    k: f64,
+    /// Speed of the air of a fan.
+    air: Option<f64>,
+    area: f64,
+}
+
+/// Coefficient with a fan.
+fn fan(v: f64) -> f64 {
+    let v = v.clamp(FAN[0].0, FAN[3].0);
+    let pair = FAN.windows(2).find(|w| v <= w[1].0).unwrap_or(&FAN[2..]);
+    let [(v0, k0), (v1, k1)] = [pair[0], pair[1]];
+    k0 + (v - v0) / (v1 - v0) * (k1 - k0)
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
+    let part = part(cx);
+    let area = needed(part.area, "iso14179_1", "the area of the housing", "area: 500 cm2", cx)?;
+    let range = |least: f64, greatest: f64| least + params.within * (greatest - least);
+    let (k, air) = match params.place {
+        Place::Confined => (range(10.0, 14.0), None),
+        Place::Indoor => (range(16.0, 20.0), None),
+        Place::Outdoor => (range(18.0, 21.0), None),
+        Place::ShaftFan if part.air_speed > 0.0 => (fan(part.air_speed), Some(part.air_speed)),
+        Place::ShaftFan => {
+            return Err(cx
+                .error("iso14179_1 needs the speed of the air that the fan blows")
+                .mend("add `housing: { outside: { air_speed: 5 m/s } }` with your figure"));
+        }
+    };
+    Ok(Ready { k, air, area })
+}
+
+impl HeatDissipationModel for Ready {
+    fn warm_side(&self) -> WarmSide {
+        WarmSide::Oil
+    }
+    fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
+        if let Some(v) = self.air {
+            at.check(&AIR, v);
+        }
+        let k = at.show("k", "W/(m2 K)", self.k);
+        Ok(at.show("k A", "W/K", k * self.area))
+    }
+}
+
+register!(HeatDissipation, "iso14179_1", Params,
+    meaning: "Overall heat transfer coefficients by the place of the gearbox.",
+    source: "ISO/TR 14179-1:2001",
+    example: "{ type: iso14179_1 }",
+    evidence: [
+        formula(Evidence::Recalled, "the table is recalled"),
+        default_of("within", Evidence::Assumed, "the middle of the range"),
+    ],
+    limits: [AIR], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn e2_the_fan_table_is_linear_and_ends() {
+        for (v, k) in [
+            (1.0, 15.0),
+            (2.5, 15.0),
+            (5.0, 24.0),
+            (7.5, 33.0),
+            (12.5, 50.0),
+            (15.0, 58.0),
+            (30.0, 58.0),
+        ] {
+            assert!((fan(v) - k).abs() < 1e-12, "{v}");
+        }
+    }
+}

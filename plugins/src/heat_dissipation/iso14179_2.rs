@@ -1,0 +1,164 @@
+//! Heat of the housing after ISO/TR 14179-2 (Funck).
+//!
+//! Source: ISO/TR 14179-2:2001, after Funck 1985, partly recalled: Q = k A_ca (T_oil - T_ambient), 1/k = A_ca/(alpha_oil A_oil) + s/lambda +
+//! 1/alpha_ca, alpha_ca = alpha_con + alpha_rad; alpha_rad = 0.23e-6 eps ((T_wall + T_amb)/2)^3; free: alpha_con = 18 h^-0.1 ((T_wall -
+//! T_amb)/T_amb)^0.3; forced: alpha_con = 0.0086 Re'^0.64/l_x, Re' = sqrt(Re^2 + Gr/2.5); T in K, lengths in m. T_wall follows from
+//! T_wall = T_amb + k (T_oil - T_amb)/alpha_ca, here in three steps from the temperature of the oil.
+//!
+//! Free convection comes out at about twice the textbooks' value: the air of a workshop moves.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::heat_dissipation::{
+    HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart, WarmSide,
+};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::air::Air;
+use super::{ZERO_CELSIUS, needed, part};
+
+const WALL: Observed = Observed::new(0, "T_wall", "degC", "Temperature of the wall.");
+const ALPHA: Observed = Observed::new(
+    1,
+    "alpha_ca",
+    "W/(m2 K)",
+    "Heat transfer coefficient to the air with radiation.",
+);
+const GRAVITY: f64 = 9.80665;
+
+/// Heat of the housing with free or forced convection, radiation, wall and oil inside.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Heat transfer coefficient from splashing oil to the wall. [W/(m2 K)]
+    #[serde(default = "splash")]
+    #[schemars(range(min = 1.0, max = 1e5))]
+    pub alpha_oil: f64,
+    /// Factor on convection to the air. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.01, max = 100.0))]
+    pub factor: f64,
+}
+
+fn splash() -> f64 {
+    200.0
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+struct Ready {
+    params: Params,
+    part: HousingPart,
+    area: f64,
+    oil_area: f64,
+    /// Height for free convection, length along the flow for forced.
+    size: f64,
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
+    let part = part(cx);
+    let model = "iso14179_2";
+    let area = needed(part.area, model, "the area of the housing", "area: 500 cm2", cx)?;
+    let size = if part.air_speed > 0.0 {
+        needed(
+            part.length,
+            model,
+            "the length along the flow of the air",
+            "length: 200 mm",
+            cx,
+        )?
+    } else {
+        needed(part.height, model, "the height of the housing", "height: 200 mm", cx)?
+    };
+    Ok(Ready {
+        area,
+        oil_area: part.oil_area.unwrap_or(area),
+        size,
+        params,
+        part,
+    })
+}
+
+/// Free convection; height in m, temperatures in K. \[W/(m2 K)\]
+fn free(height: f64, wall: f64, ambient: f64) -> f64 {
+    18.0 * height.powf(-0.1) * ((wall - ambient).abs() / ambient).powf(0.3)
+}
+
+/// Forced convection; speed in m/s, length in m, viscosity of the air in m2/s, temperatures in K. \[W/(m2 K)\]
+fn forced(v: f64, length: f64, nu: f64, wall: f64, ambient: f64) -> f64 {
+    let re = v * length / nu;
+    let gr = GRAVITY * length.powi(3) * (wall - ambient).abs() / (ambient * nu * nu);
+    0.0086 * (re * re + gr / 2.5).sqrt().powf(0.64) / length
+}
+
+/// Radiation; temperatures in K. \[W/(m2 K)\]
+fn radiation(emissivity: f64, wall: f64, ambient: f64) -> f64 {
+    0.23e-6 * emissivity * (0.5 * (wall + ambient)).powi(3)
+}
+
+/// k over the outside; alpha of oil and air, areas, wall thickness over conductivity. \[W/(m2 K)\]
+fn overall(alpha_oil: f64, alpha_ca: f64, area: f64, oil_area: f64, wall: f64) -> f64 {
+    1.0 / (area / (alpha_oil * oil_area) + wall + 1.0 / alpha_ca)
+}
+
+impl HeatDissipationModel for Ready {
+    fn warm_side(&self) -> WarmSide {
+        WarmSide::Oil
+    }
+    fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
+        let ambient = at.ambient + ZERO_CELSIUS;
+        let oil = at.oil_temperature + ZERO_CELSIUS;
+        let wall_resistance = self.part.wall_thickness / self.part.wall_conductivity;
+        let (mut wall, mut k, mut alpha) = (oil, 0.0, 0.0);
+        for _ in 0..3 {
+            let convection = if self.part.air_speed > 0.0 {
+                let air = Air::at(0.5 * (wall + ambient));
+                forced(self.part.air_speed, self.size, air.nu, wall, ambient)
+            } else {
+                free(self.size, wall, ambient)
+            };
+            alpha = self.params.factor * convection + radiation(self.part.emissivity, wall, ambient);
+            if alpha <= 0.0 {
+                // No difference of temperature, still air and no radiation: nothing flows.
+                return Ok(0.0);
+            }
+            k = overall(self.params.alpha_oil, alpha, self.area, self.oil_area, wall_resistance);
+            wall = ambient + k * (oil - ambient) / alpha;
+        }
+        at.observe(&WALL, wall - ZERO_CELSIUS);
+        at.observe(&ALPHA, alpha);
+        at.show("k", "W/(m2 K)", k);
+        Ok(at.show("k A_ca", "W/K", k * self.area))
+    }
+}
+
+register!(HeatDissipation, "iso14179_2", Params,
+    meaning: "Heat of the housing with free or forced convection, radiation, wall and oil inside.",
+    source: "ISO/TR 14179-2:2001, after Funck",
+    example: "{ type: iso14179_2 }",
+    evidence: [
+        formula(Evidence::Recalled, "free and forced convection are recalled; radiation is derived"),
+        default_of("alpha_oil", Evidence::Recalled, "dip lubrication, about 200"),
+    ],
+    observed: [WALL, ALPHA], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn e3_wall_at_80_degc_in_air_of_20_degc() {
+        let (wall, ambient) = (353.15, 293.15);
+        let close = |value: f64, printed: f64| assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
+        close(free(0.3, wall, ambient), 12.6148);
+        close(forced(3.0, 0.3, 1.8e-5, wall, ambient), 29.4029);
+        close(radiation(0.9, wall, ambient), 6.98526);
+        let alpha = free(0.3, wall, ambient) + radiation(0.9, wall, ambient);
+        close(alpha, 19.6000);
+        close(overall(200.0, alpha, 0.40, 0.35, 0.008 / 150.0), 17.6094);
+    }
+}

@@ -1,0 +1,162 @@
+//! Free and forced convection with radiation, as textbooks have them.
+//!
+//! Source: free convection at a vertical wall after Churchill and Chu 1975, Nu = (0.825 + 0.387 Ra^(1/6)/(1 + (0.492/Pr)^(9/16))^(8/27))^2; forced
+//! convection along a plate, laminar Nu = 0.664 Re^0.5 Pr^(1/3), turbulent Nu = 0.037 Re^0.8 Pr^(1/3) from Re = 5e5 on (the greater of both, so
+//! that nothing jumps); mixed (alpha_f^3 + alpha_n^3)^(1/3); radiation eps sigma (T_w^2 + T_a^2)(T_w + T_a). Air at the mean
+//! temperature of wall and surroundings.
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::mechanism::heat_dissipation::{
+    HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart,
+};
+use gearloss_framework::register;
+use gearloss_framework::registry::{Build, Evidence, formula};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::air::Air;
+use super::{ZERO_CELSIUS, needed, part};
+
+/// Stefan-Boltzmann constant. \[W/(m2 K4)\]
+const SIGMA: f64 = 5.670374e-8;
+const GRAVITY: f64 = 9.80665;
+const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1975");
+const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient with radiation.");
+
+/// Free and forced convection with radiation.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct Params {
+    /// Factor on convection, such as 2 for the moving air of a workshop. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.01, max = 100.0))]
+    pub factor: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+struct Ready {
+    factor: f64,
+    part: HousingPart,
+    area: f64,
+    height: f64,
+    length: f64,
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
+    let part = part(cx);
+    let height = needed(
+        part.height,
+        "textbook",
+        "the height of the housing",
+        "height: 200 mm",
+        cx,
+    )?;
+    Ok(Ready {
+        factor: params.factor,
+        area: needed(part.area, "textbook", "the area of the housing", "area: 500 cm2", cx)?,
+        height,
+        length: length(&part, "textbook", cx)?,
+        part,
+    })
+}
+
+/// Length along the flow; it only counts where air moves.
+pub(super) fn length(part: &HousingPart, model: &str, cx: &Build<'_>) -> Result<f64, Diagnostic> {
+    match part.length {
+        None if part.air_speed == 0.0 => Ok(1.0),
+        length => needed(
+            length,
+            model,
+            "the length along the flow of the air",
+            "length: 200 mm",
+            cx,
+        ),
+    }
+}
+
+/// Rayleigh number and heat transfer coefficient of free convection; height in m, temperatures in K.
+pub(super) fn free(height: f64, wall: f64, ambient: f64) -> (f64, f64) {
+    let mean = 0.5 * (wall + ambient);
+    let air = Air::at(mean);
+    let ra = GRAVITY / mean * (wall - ambient).abs() * height.powi(3) / (air.nu * air.nu) * air.prandtl;
+    let root = 0.825 + 0.387 * ra.powf(1.0 / 6.0) / (1.0 + (0.492 / air.prandtl).powf(9.0 / 16.0)).powf(8.0 / 27.0);
+    (ra, root * root * air.conductivity / height)
+}
+
+/// Heat transfer coefficient of forced convection; speed in m/s, length in m, mean temperature in K. \[W/(m2 K)\]
+pub(super) fn forced(v: f64, length: f64, mean: f64) -> f64 {
+    let air = Air::at(mean);
+    let re = v * length / air.nu;
+    let laminar = 0.664 * re.sqrt();
+    let nu = if re < 5e5 {
+        laminar
+    } else {
+        laminar.max(0.037 * re.powf(0.8))
+    };
+    nu * air.prandtl.cbrt() * air.conductivity / length
+}
+
+/// Both together. \[W/(m2 K)\]
+pub(super) fn mixed(forced: f64, free: f64) -> f64 {
+    (forced.powi(3) + free.powi(3)).cbrt()
+}
+
+fn radiation(emissivity: f64, wall: f64, ambient: f64) -> f64 {
+    emissivity * SIGMA * (wall * wall + ambient * ambient) * (wall + ambient)
+}
+
+impl HeatDissipationModel for Ready {
+    fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
+        let (wall, ambient) = (at.surface_temperature + ZERO_CELSIUS, at.ambient + ZERO_CELSIUS);
+        let (ra, free) = free(self.height, wall, ambient);
+        at.check(&RAYLEIGH, ra);
+        at.show("alpha_n", "W/(m2 K)", free);
+        let forced = if self.part.air_speed > 0.0 {
+            at.show(
+                "alpha_f",
+                "W/(m2 K)",
+                forced(self.part.air_speed, self.length, 0.5 * (wall + ambient)),
+            )
+        } else {
+            0.0
+        };
+        let radiation = at.show("alpha_rad", "W/(m2 K)", radiation(self.part.emissivity, wall, ambient));
+        let alpha = at.observe(&ALPHA, self.factor * mixed(forced, free) + radiation);
+        Ok(at.show("alpha A", "W/K", alpha * self.area))
+    }
+}
+
+register!(HeatDissipation, "textbook", Params,
+    meaning: "Free and forced convection with radiation.",
+    source: "Churchill and Chu 1975; flat plate; Stefan-Boltzmann",
+    example: "{ type: textbook }",
+    evidence: [formula(Evidence::SeveralSources, "textbooks agree; a housing is no plate")],
+    limits: [RAYLEIGH], observed: [ALPHA], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn e4_free_convection_at_a_wall() {
+        let (_, alpha) = free(0.3, 353.15, 293.15);
+        // The check value belongs to g = 9.81 m/s2; alpha goes with about the third root of g.
+        assert!(
+            (alpha * (9.81 / GRAVITY).cbrt() / 5.81938 - 1.0).abs() < 2e-5,
+            "{alpha}"
+        );
+        // Radiation by its mean temperature, as ISO/TR 14179-2 has it, is within one percent.
+        assert!((radiation(0.9, 353.15, 293.15) / 6.94790 - 1.0).abs() < 0.011);
+    }
+
+    #[test]
+    fn mixed_convection_is_the_greater_where_one_is_small() {
+        assert!((mixed(30.0, 0.0) - 30.0).abs() < 1e-12 && (mixed(1.0, 30.0) / 30.0 - 1.0).abs() < 1e-4);
+        assert!(forced(10.0, 0.3, 320.0) > forced(5.0, 0.3, 320.0));
+        // Nothing falls where the flow becomes turbulent.
+        assert!(forced(30.3, 0.3, 320.0) >= forced(29.7, 0.3, 320.0));
+    }
+}
