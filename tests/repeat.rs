@@ -4,7 +4,7 @@
 mod common;
 
 use common::{RPM, language, two_speed_with};
-use gearloss_framework::analysis::{Points, run_grid};
+use gearloss_framework::analysis::{OilTemperature, Points, run_grid};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 
@@ -44,7 +44,7 @@ fn one_thread_and_many_give_the_same_bits() {
         speed_at: "input".to_owned(),
         torques: (0..31).map(|i| f64::from(i) - 10.0).collect(),
         speeds: (0..23).map(|i| f64::from(i) * 1000.0 * RPM).collect(),
-        temperature: 100.0,
+        oil: OilTemperature::Fixed(100.0),
         flow: PowerFlow::Real,
     };
     let on = |threads: usize| {

@@ -3,7 +3,9 @@
 mod grid;
 mod notes;
 mod sums;
+mod temperature;
 
 pub use grid::{GridResult, PointResult, Points, run_grid};
 pub use notes::{Note, WeakPoint, evidence, notes};
 pub use sums::{SUMS, sum_of};
+pub use temperature::OilTemperature;

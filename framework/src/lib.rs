@@ -21,6 +21,7 @@ pub mod loss;
 pub mod lubricant;
 pub mod mechanism;
 pub mod registry;
+pub mod report;
 pub mod resolve;
 pub mod study;
 pub mod table;

@@ -48,7 +48,7 @@ pub struct Conditions {
     /// Port at which the speed is given.
     #[serde(default = "input")]
     pub speed_at: String,
-    /// Temperature of the oil; absent, that of the gearbox. [degC]
+    /// Temperature of the oil; absent, that of the gearbox: the one stated there, or that of the balance at each point. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil_temperature: Option<f64>,
     /// Whether losses change the torques of what comes after them.
@@ -84,6 +84,37 @@ pub struct Grid {
     pub torque: TorqueAxis,
     /// Speeds: one, a list, or from, to and step.
     pub speed: SpeedAxis,
+    /// Values that change from point to point beside torque and speed: resolved path to values, such as
+    /// `housing.oil.volume: [60 ml, 90 ml]`. Every combination is solved.
+    #[serde(default)]
+    pub bind: Ordered<Value>,
+}
+
+impl Grid {
+    /// Every combination of the bound values, as overrides; one without any where nothing is bound.
+    ///
+    /// # Errors
+    /// The path of which no values are listed.
+    pub fn combinations(&self) -> Result<Vec<Vec<(String, Value)>>, String> {
+        let mut all: Vec<Vec<(String, Value)>> = vec![Vec::new()];
+        for (path, values) in self.bind.iter() {
+            let values = values
+                .as_array()
+                .filter(|list| !list.is_empty())
+                .ok_or_else(|| path.to_owned())?;
+            all = all
+                .iter()
+                .flat_map(|before| {
+                    values.iter().map(|value| {
+                        let mut more = before.clone();
+                        more.push((path.to_owned(), value.clone()));
+                        more
+                    })
+                })
+                .collect();
+        }
+        Ok(all)
+    }
 }
 
 /// An analysis.
@@ -100,6 +131,12 @@ pub enum Analysis {
     ComponentCompare(ComponentCompareEntry),
     /// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
     ContactPath(ContactPathEntry),
+    /// Losses of a list of operating points from a file, as stacked bars, with room for what was measured.
+    OperatingPoints(OperatingPointsEntry),
+    /// The torque, or the speed, at which the balance reaches a given temperature.
+    ThermalLimit(ThermalLimitEntry),
+    /// How the temperature of one point is found: losses and heat over temperature, and every step.
+    Balance(BalanceEntry),
 }
 
 /// Losses and efficiency over a grid.
@@ -112,9 +149,95 @@ pub struct MapEntry {
     /// Sets of models; absent, the models of the gearbox.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// Formats to write; absent, both.
-    #[serde(default = "both")]
-    pub write: Vec<Write>,
+    /// Formats to write; absent, CSV and JSON. Pictures show efficiency, loss and, with a balance, temperature.
+    #[serde(default = "data")]
+    pub write: Vec<WriteAlso>,
+}
+
+/// Losses of a list of operating points from a file.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct OperatingPointsEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// CSV file beside the study, one row for each point: `name`, `torque [Nm]`, `speed [rpm]`, the columns of `bind`, and what
+    /// was measured: `measured_loss [W]` and `measured_temperature [degC]` of the oil, each with an error such as
+    /// `measured_loss_error [W]`. Cells of measured columns may be empty.
+    pub file: String,
+    /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit stands
+    /// in the header: `volume [ml]`.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "all")]
+    pub write: Vec<WriteAlso>,
+}
+
+/// The torque, or the speed, at which the balance reaches a given temperature.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ThermalLimitEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Temperatures of the oil that may be reached. [degC]
+    #[schemars(inner(range(min = 0.0, max = 250.0)), length(min = 1))]
+    pub temperature: Vec<f64>,
+    /// What is looked for: the torque at each speed, or the speed at each torque.
+    #[serde(default)]
+    pub find: Find,
+    /// Torques: the range in which the limit is looked for, from its first to its last; or those at which the speed is.
+    pub torque: TorqueAxis,
+    /// Speeds: those at which the torque is looked for; or the range in which the limit is.
+    pub speed: SpeedAxis,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "all")]
+    pub write: Vec<WriteAlso>,
+}
+
+/// What a limit is looked for in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Find {
+    /// The torque at each speed.
+    #[default]
+    Torque,
+    /// The speed at each torque.
+    Speed,
+}
+
+/// How the temperature of one point is found.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct BalanceEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Torque. [Nm]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub torque: f64,
+    /// Speed. [rpm]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub speed: f64,
+    /// Overrides for this analysis: resolved path to value.
+    #[serde(default)]
+    pub set: Ordered<Value>,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "all")]
+    pub write: Vec<WriteAlso>,
 }
 
 /// Difference between sets of models over a grid.
@@ -228,6 +351,38 @@ fn both() -> Vec<Write> {
     vec![Write::Csv, Write::Json]
 }
 
+fn data() -> Vec<WriteAlso> {
+    vec![WriteAlso::Csv, WriteAlso::Json]
+}
+
+fn all() -> Vec<WriteAlso> {
+    vec![WriteAlso::Csv, WriteAlso::Json, WriteAlso::Svg]
+}
+
+/// A format to write, pictures among them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WriteAlso {
+    /// Comma-separated values.
+    Csv,
+    /// JSON.
+    Json,
+    /// Pictures, one file each.
+    Svg,
+}
+
+impl WriteAlso {
+    /// The formats of data among those asked for.
+    pub fn data(list: &[Self]) -> Vec<Write> {
+        let data = |format: &Self| match format {
+            Self::Csv => Some(Write::Csv),
+            Self::Json => Some(Write::Json),
+            Self::Svg => None,
+        };
+        list.iter().filter_map(data).collect()
+    }
+}
+
 /// A format to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -247,13 +402,15 @@ pub enum Quantity {
     Efficiency,
     /// Sum of all losses.
     Loss,
+    /// Temperature of the oil, where it is found by balance.
+    Temperature,
 }
 
 /// How a difference counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Difference {
-    /// Efficiency points (0.01), or watts for a loss.
+    /// Efficiency points (0.01), watts for a loss, kelvins for a temperature.
     #[default]
     Points,
     /// Percent of the base.

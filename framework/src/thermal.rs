@@ -3,7 +3,9 @@
 mod balance;
 mod equilibrium;
 mod housing;
+mod limit;
 
 pub use balance::{Balance, Outcome, Root, Step, balance};
 pub use equilibrium::{Equilibrium, Unbalanced};
 pub use housing::{HeatFlow, Housing, Way};
+pub use limit::Limit;

@@ -1,8 +1,6 @@
 //! `explain`: every step of the loss of one component, in the source's symbols and units.
 
 use gearloss_framework::document::did_you_mean;
-use gearloss_framework::evaluate::Point;
-use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Step;
 use gearloss_framework::resolve::{Came, Resolved, lookup};
@@ -10,7 +8,7 @@ use gearloss_framework::transmission::{PartInfo, Transmission};
 use serde_json::Value;
 
 use super::point::prepare;
-use super::solve::{RPM, heading};
+use super::solve::{RPM, heading, of_balance};
 use super::{choice, language};
 use crate::args::ExplainArgs;
 use crate::output::{End, Failure, Out, significant};
@@ -23,15 +21,14 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
     let chosen = parts_of(&transmission, &args.component)?;
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
-    let temperatures = vec![prepared.temperature; transmission.nodes()];
-    let point = Point {
-        speeds: &prepared.speeds,
-        torques: &prepared.torques,
-        flow: prepared.flow,
-        tolerance: Tolerance::default(),
-    };
-    let solution = transmission.evaluate(&prepared.case, &point, &temperatures, &mut scratch);
-    out.text(&heading(&transmission, &solution, &prepared))?;
+    let point = prepared.point();
+    let (oil, balance) = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
+    let solution = transmission.evaluate(&prepared.case, &point, &vec![oil; transmission.nodes()], &mut scratch);
+    out.text(&heading(&transmission, &solution, &prepared, oil))?;
+    if let Some(balance) = &balance {
+        out.text(&of_balance(&transmission, balance))?;
+        out.line("")?;
+    }
     for part in chosen {
         let info = &transmission.parts()[part];
         let (loss, trace) = solution.explain(part);

@@ -1,7 +1,9 @@
 //! One operating point from the arguments.
 
+use gearloss_framework::analysis::OilTemperature;
 use gearloss_framework::document::{Unit, parse_quantity};
-use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::{Case, Transmission};
 
@@ -14,8 +16,19 @@ pub struct Prepared {
     pub gear: String,
     pub speeds: Vec<f64>,
     pub torques: Vec<f64>,
-    pub temperature: f64,
+    pub oil: OilTemperature,
     pub flow: PowerFlow,
+}
+
+impl Prepared {
+    pub fn point(&self) -> Point<'_> {
+        Point {
+            speeds: &self.speeds,
+            torques: &self.torques,
+            flow: self.flow,
+            tolerance: Tolerance::default(),
+        }
+    }
 }
 
 fn quantity(option: &str, text: &str, unit: &'static str) -> Result<f64, Failure> {
@@ -93,16 +106,16 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
     let case = transmission
         .case(&gear, &speed_names, &torque_names)
         .map_err(|list| Failure::from(gearbox.findings(list)))?;
-    let temperature = match &args.oil_temperature {
-        Some(text) => quantity("--oil-temperature", text, "degC")?,
-        None => transmission.oil_temperature,
+    let given = match &args.oil_temperature {
+        Some(text) => Some(quantity("--oil-temperature", text, "degC")?),
+        None => None,
     };
     Ok(Prepared {
         case,
         gear,
         speeds: speeds.iter().map(|s| s.1).collect(),
         torques: torques.iter().map(|s| s.1).collect(),
-        temperature,
+        oil: OilTemperature::of(transmission, given),
         flow: if args.power_flow == FlowArg::Real {
             PowerFlow::Real
         } else {

@@ -1,21 +1,25 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
+mod balance;
 mod breakdown;
 mod compare;
 mod component_compare;
 mod contact_path;
 mod map;
+mod operating_points;
+mod thermal_limit;
 mod write;
 
 use std::path::PathBuf;
 
-use gearloss_framework::analysis::{GridResult, Points, run_grid};
+use gearloss_framework::analysis::{GridResult, OilTemperature, Points, run_grid};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::study::Analysis;
 use gearloss_framework::transmission::Transmission;
 use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::Value;
 
 use super::language;
 use super::study_files::Study;
@@ -41,8 +45,20 @@ pub(super) struct Runner<'a> {
 impl Runner<'_> {
     /// The gearbox under each set; under its own models where no set is named.
     fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &[String]) -> Result<Vec<Built<'s>>, Failure> {
+        self.built_with(gearbox, sets, &[])
+    }
+
+    /// As [`Runner::built`], with further overrides.
+    fn built_with<'s>(
+        &'s self,
+        gearbox: &'s Gearbox,
+        sets: &[String],
+        overrides: &[(String, Value)],
+    ) -> Result<Vec<Built<'s>>, Failure> {
         let build = |set: Option<&str>| -> Result<Built<'s>, Failure> {
-            let resolved = gearbox.resolve(self.language, &self.study.choice(set))?;
+            let mut choice = self.study.choice(set);
+            choice.overrides.extend_from_slice(overrides);
+            let resolved = gearbox.resolve(self.language, &choice)?;
             let transmission = gearbox.build(self.language, &resolved)?;
             Ok(Built {
                 name: set.unwrap_or("own").to_owned(),
@@ -67,7 +83,7 @@ impl Runner<'_> {
             speed_at: conditions.speed_at.clone(),
             torques,
             speeds,
-            temperature: conditions.oil_temperature.unwrap_or(transmission.oil_temperature),
+            oil: OilTemperature::of(transmission, conditions.oil_temperature),
             flow: conditions.power_flow,
         }
     }
@@ -112,6 +128,9 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::Breakdown(entry) => breakdown::run(&runner, name, entry, out),
             Analysis::ComponentCompare(entry) => component_compare::run(&runner, name, entry, out),
             Analysis::ContactPath(entry) => contact_path::run(&runner, name, entry, out),
+            Analysis::OperatingPoints(entry) => operating_points::run(&runner, name, entry, out),
+            Analysis::ThermalLimit(entry) => thermal_limit::run(&runner, name, entry, out),
+            Analysis::Balance(entry) => balance::run(&runner, name, entry, out),
         };
         match done {
             Ok(()) => {}
@@ -143,4 +162,10 @@ fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -> Re
             .findings(vec![error.mend("give a step that leads from one end to the other")])
             .into()
     })
+}
+
+/// The gear state that an analysis names, or the first.
+fn gear_of<'a>(named: Option<&'a str>, transmission: &'a Transmission) -> &'a str {
+    let first = transmission.states().first().map_or("", |s| s.name.as_str());
+    named.unwrap_or(first)
 }

@@ -1,9 +1,10 @@
 //! `solve`: one operating point, every part's loss, the sum and the efficiency.
 
 use gearloss_framework::analysis::{Note, SUMS, evidence, notes, sum_of};
-use gearloss_framework::evaluate::{Point, Solution};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::loss::Extent;
+use gearloss_framework::thermal::{Equilibrium, Outcome, Step, Unbalanced};
 use gearloss_framework::transmission::Transmission;
 use serde_json::{Value, json};
 
@@ -23,26 +24,33 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let transmission = gearbox.build(&language, &resolved)?;
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
-    let temperatures = vec![prepared.temperature; transmission.nodes()];
-    let point = Point {
-        speeds: &prepared.speeds,
-        torques: &prepared.torques,
-        flow: prepared.flow,
-        tolerance: Tolerance::default(),
-    };
-    let solution = transmission.evaluate(&prepared.case, &point, &temperatures, &mut scratch);
-    let seen = notes(&transmission, solution.extents());
+    let point = prepared.point();
+    let (oil, balance) = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
+    // What ways of heat noted counts over all points, of which there is one.
+    let of_heat = scratch.totals.clone();
+    let solution = transmission.evaluate(&prepared.case, &point, &vec![oil; transmission.nodes()], &mut scratch);
+    let extents: Vec<Extent> = of_heat
+        .iter()
+        .zip(solution.extents())
+        .map(|(heat, seen)| heat.merge(seen.once()))
+        .collect();
+    let seen = notes(&transmission, &extents);
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
     match args.format {
         Format::Json => {
             let mut value = as_json(&transmission, &solution, &prepared);
+            value["oil_temperature_degc"] = json!(oil);
+            value["thermal"] = json!(balance.as_ref().map(|b| json_of_balance(&transmission, b)));
             value["notes"] = json!(seen);
             value["evidence"] = json!(known);
             value["unreached"] = json!(resolved.unreached);
             out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
         }
         Format::Table => {
-            out.text(&as_table(&transmission, &solution, &prepared))?;
+            out.text(&as_table(&transmission, &solution, &prepared, oil))?;
+            if let Some(balance) = &balance {
+                out.text(&of_balance(&transmission, balance))?;
+            }
             out.text(&outside(&seen))?;
             for line in &resolved.unreached {
                 out.line(format!("note: {line}"))?;
@@ -57,7 +65,8 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             }
         }
     }
-    let mut end = if solution.is_complete() {
+    let balanced = balance.as_ref().is_none_or(|b| b.oil().is_some());
+    let mut end = if solution.is_complete() && balanced {
         End::Fine
     } else {
         End::Finding
@@ -78,7 +87,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
 }
 
 /// The point in words and the state of the transmission.
-pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared) -> String {
+pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, oil: f64) -> String {
     let mut text = String::new();
     if !transmission.title().is_empty() {
         text.push_str(&format!("{}\n", transmission.title()));
@@ -86,7 +95,7 @@ pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &
     text.push_str(&format!(
         "gear {}, oil {} degC, {} flow\n\n",
         prepared.gear,
-        significant(prepared.temperature),
+        significant(oil),
         if matches!(prepared.flow, gearloss_framework::evaluate::PowerFlow::Real) {
             "real"
         } else {
@@ -108,8 +117,8 @@ pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &
     text
 }
 
-fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared) -> String {
-    let mut text = heading(transmission, solution, prepared);
+fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, oil: f64) -> String {
+    let mut text = heading(transmission, solution, prepared, oil);
     if !transmission.supports().is_empty() {
         let mut loads = Table::new(&["support", "radial N", "axial N", "tilting Nm"]);
         for (i, path) in transmission.supports().iter().enumerate() {
@@ -181,6 +190,96 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
         text.push_str(&format!("{}: {reason}\n", part.path));
     }
     text
+}
+
+/// What became of the balance, in lines.
+pub fn of_balance(transmission: &Transmission, balance: &Equilibrium) -> String {
+    let housing = transmission.housing();
+    let mut text = format!("balance: {}", balance.outcome.name());
+    if let (Some(oil), Some(surface)) = (balance.oil(), balance.surface) {
+        text.push_str(&format!(
+            ", oil {oil:.2} degC, surface {surface:.2} degC, surroundings {} degC",
+            significant(housing.ambient)
+        ));
+    }
+    text.push_str(&format!(", {} evaluations\n", balance.evaluations()));
+    for (way, watts) in housing.ways().iter().zip(&balance.ways) {
+        text.push_str(&format!("  {} takes {watts:.3} W\n", way.path));
+    }
+    if housing.into_oil + housing.into_surface > 0.0 {
+        text.push_str(&format!(
+            "  sources bring {} W into the oil and {} W into the surface\n",
+            significant(housing.into_oil),
+            significant(housing.into_surface)
+        ));
+    }
+    for root in &balance.stable {
+        if let Some(beyond) = root.beyond {
+            text.push_str(&format!(
+                "  at {:.4} degC a law jumps: {:.4} W are left over below it and {:.4} W above\n",
+                root.temperature,
+                root.step.residual(),
+                beyond.residual()
+            ));
+        }
+    }
+    match balance.outcome {
+        Outcome::Several => {
+            let all: Vec<String> = balance.stable.iter().map(|r| format!("{:.2}", r.temperature)).collect();
+            text.push_str(&format!(
+                "  these keep themselves: {} degC; the lowest is taken\n",
+                all.join(", ")
+            ));
+        }
+        Outcome::NoneBelowMaximum => text.push_str(&format!(
+            "  losses are greater than the heat up to {} degC, at which the losses above are shown\n",
+            significant(housing.maximum)
+        )),
+        Outcome::Undefined => {
+            if let Some((temperature, why)) = &balance.undefined {
+                text.push_str(&format!(
+                    "  at {temperature:.2} degC {}; the losses above are those at {} degC\n",
+                    because(transmission, why),
+                    significant(housing.maximum)
+                ));
+            }
+        }
+        Outcome::Converged | Outcome::AtDiscontinuity => {}
+    }
+    text
+}
+
+fn because(transmission: &Transmission, why: &Unbalanced) -> String {
+    match why {
+        Unbalanced::Part(part, reason) => format!("{}: {reason}", transmission.parts()[*part].path),
+        Unbalanced::Way(way, reason) => format!("{}: {reason}", transmission.housing().ways()[*way].path),
+        Unbalanced::Flow => "the transmission locks itself, or loads and losses do not agree".to_owned(),
+    }
+}
+
+/// A balance with its history.
+pub fn json_of_balance(transmission: &Transmission, balance: &Equilibrium) -> Value {
+    let step = |s: &Step| json!({ "oil_temperature_degc": s.temperature, "loss_w": s.loss, "heat_w": s.heat, "residual_w": s.residual() });
+    let housing = transmission.housing();
+    json!({
+        "outcome": balance.outcome,
+        "oil_temperature_degc": balance.oil(),
+        "surface_temperature_degc": balance.surface,
+        "ambient_degc": housing.ambient,
+        "stable": balance.stable.iter().map(|r| json!({
+            "oil_temperature_degc": r.temperature, "residual_w": r.step.residual(),
+            "residual_beyond_jump_w": r.beyond.map(|s| s.residual()),
+        })).collect::<Vec<_>>(),
+        "ways": housing.ways().iter().zip(&balance.ways).map(|(way, watts)| json!({
+            "path": way.path, "heat_w": watts,
+        })).collect::<Vec<_>>(),
+        "sources_w": { "oil": housing.into_oil, "surface": housing.into_surface },
+        "undefined": balance.undefined.as_ref().map(|(t, why)| json!({
+            "oil_temperature_degc": t, "reason": because(transmission, why),
+        })),
+        "scan": balance.scanned,
+        "history": balance.history.iter().map(step).collect::<Vec<_>>(),
+    })
 }
 
 /// The largest power inside over the power that goes in.
@@ -272,7 +371,6 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
         "format": "gearloss-point/1",
         "gearloss": env!("CARGO_PKG_VERSION"),
         "gear": prepared.gear,
-        "oil_temperature_degc": prepared.temperature,
         "power_flow": prepared.flow,
         "status": solution.status(),
         "efficiency": solution.efficiency(),

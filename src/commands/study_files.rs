@@ -131,6 +131,9 @@ impl Study {
                 Analysis::Breakdown(b) => (b.gearbox.as_ref(), None, b.model_sets.iter().collect()),
                 Analysis::ComponentCompare(c) => (c.gearbox.as_ref(), None, c.model_set.iter().collect()),
                 Analysis::ContactPath(c) => (c.gearbox.as_ref(), None, c.model_sets.iter().collect()),
+                Analysis::OperatingPoints(o) => (o.gearbox.as_ref(), None, o.model_sets.iter().collect()),
+                Analysis::ThermalLimit(l) => (l.gearbox.as_ref(), None, l.model_sets.iter().collect()),
+                Analysis::Balance(b) => (b.gearbox.as_ref(), None, b.model_sets.iter().collect()),
             };
             if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
                 found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));

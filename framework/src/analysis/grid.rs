@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::sums;
+use super::{OilTemperature, sums};
 use crate::document::Diagnostic;
 use crate::evaluate::{Point, PowerFlow};
 use crate::flow::{Status, Tolerance};
 use crate::loss::{Extent, Undefined};
+use crate::thermal::{Equilibrium, Outcome as ThermalOutcome};
 use crate::transmission::{Case, Transmission};
 
 /// Points per task; fixed, so that the bits do not hang on the number of threads.
@@ -25,8 +26,8 @@ pub struct Points {
     pub torques: Vec<f64>,
     /// Speeds. \[rad/s\]
     pub speeds: Vec<f64>,
-    /// Temperature of the oil. \[degC\]
-    pub temperature: f64,
+    /// Temperature of the oil.
+    pub oil: OilTemperature,
     /// Real or ideal flow.
     pub flow: PowerFlow,
 }
@@ -38,6 +39,12 @@ pub struct PointResult {
     pub torque: f64,
     /// Given speed. \[rad/s\]
     pub speed: f64,
+    /// Temperature of the oil; absent where no balance was found, and with it everything that hangs on it. \[degC\]
+    pub oil: Option<f64>,
+    /// Temperature of the surface, where it was found by balance. \[degC\]
+    pub surface: Option<f64>,
+    /// What became of the balance, where the temperature is not given.
+    pub balance: Option<ThermalOutcome>,
     /// What the transmission does.
     pub status: Status,
     /// Power out over power in.
@@ -58,6 +65,25 @@ pub struct PointResult {
     pub undefined: Option<(usize, Undefined)>,
     /// Passes over the loss models.
     pub passes: usize,
+    /// Evaluations of the point on the way to its temperature.
+    pub evaluations: usize,
+}
+
+impl PointResult {
+    /// Without all that hangs on a temperature that was not found.
+    fn without_temperature(self) -> Self {
+        Self {
+            oil: None,
+            efficiency: None,
+            loss: None,
+            loss_torque: None,
+            input: None,
+            output: None,
+            sums: [0.0; 6],
+            parts: vec![0.0; self.parts.len()],
+            ..self
+        }
+    }
 }
 
 /// A solved grid: torques outside, speeds inside.
@@ -97,7 +123,6 @@ pub fn run_grid(
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<GridResult, Vec<Diagnostic>> {
     let case = points.case(transmission)?;
-    let temperatures = vec![points.temperature; transmission.nodes()];
     let all: Vec<(f64, f64)> = points
         .torques
         .iter()
@@ -117,14 +142,20 @@ pub fn run_grid(
                         flow: points.flow,
                         tolerance: Tolerance::default(),
                     };
-                    let solution = transmission.evaluate(&case, &point, &temperatures, &mut scratch);
+                    let (oil, balance) = points.oil.find(transmission, &case, &point, &mut scratch);
+                    let solution = transmission.evaluate(&case, &point, &vec![oil; transmission.nodes()], &mut scratch);
                     let mut totals = [0.0; 6];
                     for (part, loss) in solution.parts() {
                         sums::add(&mut totals, transmission, part, &loss);
                     }
-                    PointResult {
+                    let found = balance.as_ref().is_none_or(|b| b.oil().is_some());
+                    let result = PointResult {
                         torque: *torque,
                         speed: *speed,
+                        oil: Some(oil),
+                        surface: balance.as_ref().and_then(|b| b.surface),
+                        balance: balance.as_ref().map(|b| b.outcome),
+                        evaluations: balance.as_ref().map_or(0, Equilibrium::evaluations),
                         status: solution.status(),
                         efficiency: solution.efficiency(),
                         loss: solution.loss(),
@@ -135,7 +166,8 @@ pub fn run_grid(
                         parts: solution.watts().to_vec(),
                         undefined: solution.undefined_part(),
                         passes: solution.passes(),
-                    }
+                    };
+                    if found { result } else { result.without_temperature() }
                 })
                 .collect();
             progress(chunk.len());

@@ -2,6 +2,7 @@
 
 use gearloss_framework::analysis::{PointResult, SUMS};
 use gearloss_framework::study::{As, BreakdownEntry, By};
+use gearloss_framework::transmission::PartInfo;
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
@@ -35,7 +36,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
         let points = runner.points(&b.transmission, gear, torques.clone(), speeds.clone());
         let solved = runner.solve(b, &points)?;
         let names = names(b, entry.by);
-        let stacks: Vec<Option<Vec<f64>>> = solved.points.iter().map(|p| stack(b, p, entry, &names)).collect();
+        let stacks: Vec<Option<Vec<f64>>> = solved.points.iter().map(|p| shares(b, p, entry, &names)).collect();
         for (point, stack) in solved.points.iter().zip(&stacks) {
             for (i, share) in names.iter().enumerate() {
                 rows.push(vec![
@@ -90,17 +91,23 @@ fn component(path: &str) -> &str {
     path.split(".drag.").next().unwrap_or(path)
 }
 
-fn names(built: &Built<'_>, by: By) -> Vec<String> {
+/// Name of the share that a part belongs to, by mechanism or by component.
+pub fn name_of(part: &PartInfo, by: By) -> &str {
+    if by == By::Mechanism {
+        part.mechanism
+    } else {
+        component(&part.path)
+    }
+}
+
+/// Names of the shares.
+pub fn names(built: &Built<'_>, by: By) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     match by {
         By::Sum => names.extend(SUMS.iter().map(|(name, _)| (*name).to_owned())),
         By::Mechanism | By::Component => {
             for part in built.transmission.parts() {
-                let name = if by == By::Mechanism {
-                    part.mechanism
-                } else {
-                    component(&part.path)
-                };
+                let name = name_of(part, by);
                 if !names.iter().any(|n| n == name) {
                     names.push(name.to_owned());
                 }
@@ -110,29 +117,29 @@ fn names(built: &Built<'_>, by: By) -> Vec<String> {
     names
 }
 
-/// The stack of one point; absent where its loss is.
-fn stack(built: &Built<'_>, point: &PointResult, entry: &BreakdownEntry, names: &[String]) -> Option<Vec<f64>> {
-    let loss = point.loss?;
+/// The stack of one point in W; absent where its loss is.
+pub fn stack(built: &Built<'_>, point: &PointResult, by: By, names: &[String]) -> Option<Vec<f64>> {
+    point.loss?;
     let mut stack = vec![0.0; names.len()];
-    match entry.by {
+    match by {
         By::Sum => stack.copy_from_slice(&point.sums),
         By::Mechanism | By::Component => {
             for (part, watts) in built.transmission.parts().iter().zip(&point.parts) {
-                let name = if entry.by == By::Mechanism {
-                    part.mechanism
-                } else {
-                    component(&part.path)
-                };
+                let name = name_of(part, by);
                 if let Some(i) = names.iter().position(|n| n == name) {
                     stack[i] += watts;
                 }
             }
         }
     }
+    Some(stack)
+}
+
+/// The stack in the unit of the analysis.
+fn shares(built: &Built<'_>, point: &PointResult, entry: &BreakdownEntry, names: &[String]) -> Option<Vec<f64>> {
+    let mut stack = stack(built, point, entry.by, names)?;
     if entry.unit == As::Percent {
-        if loss == 0.0 {
-            return None;
-        }
+        let loss = point.loss.filter(|loss| *loss != 0.0)?;
         for watts in &mut stack {
             *watts *= 100.0 / loss;
         }

@@ -1,6 +1,7 @@
 //! Difference between sets of models over a grid: the other set minus the base.
 
 use gearloss_framework::analysis::{GridResult, PointResult};
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::study::{CompareEntry, Difference, Quantity};
 use serde_json::{Value, json};
 
@@ -14,6 +15,17 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, out: &mut Out)
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let grid = runner.study.grid(&path, &entry.grid)?;
+    if !grid.bind.is_empty() {
+        let path = format!("grids.{}.bind", entry.grid);
+        let error = Diagnostic::error(path, "a comparison takes a grid without bound values")
+            .mend("give it a grid of its own, and the value under `conditions: { set: ... }`");
+        return Err(runner.study.findings(vec![error]).into());
+    }
+    if (entry.quantity, entry.difference) == (Quantity::Temperature, Difference::Percent) {
+        let error = Diagnostic::error(format!("{path}.difference"), "a temperature has no percentage")
+            .mend("write `difference: points`, which counts kelvins");
+        return Err(runner.study.findings(vec![error]).into());
+    }
     let torques = axis(runner, &format!("grids.{}.torque", entry.grid), grid.torque.values())?;
     let speeds = axis(runner, &format!("grids.{}.speed", entry.grid), grid.speed.values())?;
     let sets: Vec<String> = std::iter::once(&entry.base).chain(&entry.against).cloned().collect();
@@ -26,23 +38,26 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, out: &mut Out)
     let quantity = |p: &PointResult| match entry.quantity {
         Quantity::Efficiency => p.efficiency,
         Quantity::Loss => p.loss,
+        Quantity::Temperature => p.oil,
     };
     let unit = match (entry.difference, entry.quantity) {
         (Difference::Percent, _) => "percent",
         (Difference::Points, Quantity::Efficiency) => "points",
         (Difference::Points, Quantity::Loss) => "w",
+        (Difference::Points, Quantity::Temperature) => "k",
     };
     let difference = |base: Option<f64>, other: Option<f64>| -> Option<f64> {
         let (base, other) = (base?, other?);
         match (entry.difference, entry.quantity) {
             (Difference::Percent, _) => (base != 0.0).then(|| 100.0 * (other - base) / base),
             (Difference::Points, Quantity::Efficiency) => Some(100.0 * (other - base)),
-            (Difference::Points, Quantity::Loss) => Some(other - base),
+            (Difference::Points, Quantity::Loss | Quantity::Temperature) => Some(other - base),
         }
     };
     let what = match entry.quantity {
         Quantity::Efficiency => "efficiency",
         Quantity::Loss => "loss_w",
+        Quantity::Temperature => "oil_temperature_degc",
     };
     let header: Vec<String> = [
         "model_set",

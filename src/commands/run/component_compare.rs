@@ -99,7 +99,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
     let given = runner.points(&models[0].built.transmission, "", Vec::new(), Vec::new());
     value["component"] = entry.component.clone().into();
     value["gear"] = models[0].gear.clone().into();
-    value["oil_temperature_degc"] = json!(given.temperature);
+    value["oil_temperature_degc"] = json!(given.oil.given());
     value["power_flow"] = json!(given.flow);
     value["torque_at"] = conditions.torque_at.clone().into();
     value["speed_at"] = conditions.speed_at.clone().into();
@@ -203,7 +203,6 @@ fn answers(
 ) -> Result<Vec<Answer>, Vec<Diagnostic>> {
     let given = runner.points(transmission, gear, Vec::new(), Vec::new());
     let case = given.case(transmission)?;
-    let temperatures = vec![given.temperature; transmission.nodes()];
     let mut scratch = transmission.scratch(&case);
     Ok(points
         .iter()
@@ -215,7 +214,8 @@ fn answers(
                 flow: given.flow,
                 tolerance: Tolerance::default(),
             };
-            let solution = transmission.evaluate(&case, &point, &temperatures, &mut scratch);
+            let (oil, _) = given.oil.find(transmission, &case, &point, &mut scratch);
+            let solution = transmission.evaluate(&case, &point, &vec![oil; transmission.nodes()], &mut scratch);
             let loss = solution.explain(part).0;
             Answer {
                 torque: *torque,

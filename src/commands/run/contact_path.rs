@@ -178,7 +178,8 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
         tolerance: Tolerance::default(),
     };
     let mut scratch = t.scratch(&case);
-    let solution = t.evaluate(&case, &point, &vec![given.temperature; t.nodes()], &mut scratch);
+    let (oil, _) = given.oil.find(t, &case, &point, &mut scratch);
+    let solution = t.evaluate(&case, &point, &vec![oil; t.nodes()], &mut scratch);
     let at = solution.mesh_at(index);
     let part = Arc::new(at.part.clone());
     let model = &built.resolved.value["meshes"][&entry.mesh]["model"];
@@ -232,7 +233,7 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
         sharing,
         silent,
         gear: given.gear.clone(),
-        temperature: given.temperature,
+        temperature: oil,
     })
 }
 

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use gearloss_framework::report::plot::PlotFault;
 use gearloss_framework::study::Write;
 use serde_json::{Value, json};
 
@@ -74,6 +75,20 @@ pub fn write(
         files.push(path);
     }
     Ok(files)
+}
+
+/// Writes a picture.
+pub fn picture(runner: &Runner<'_>, name: &str, svg: Result<String, PlotFault>) -> Result<(), Failure> {
+    let path = runner.folder.join(format!("{name}.svg"));
+    let failed = |e: &dyn std::fmt::Display| {
+        Failure::input(
+            format!("cannot write {}: {e}", path.display()),
+            "name another folder with -o",
+        )
+    };
+    let svg = svg.map_err(|e| failed(&e))?;
+    fs::create_dir_all(&runner.folder).map_err(|e| failed(&e))?;
+    fs::write(&path, svg).map_err(|e| failed(&e))
 }
 
 /// A cell: the number with all its digits, or nothing.

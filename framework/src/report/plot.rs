@@ -1,0 +1,400 @@
+//! Pictures as SVG with readable text: stacked bars, maps, lines.
+
+// Places of pixels are small numbers.
+#![allow(clippy::cast_possible_wrap)]
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// Colours that stay apart for every kind of colour vision (Okabe and Ito 2008).
+const COLOURS: [RGBColor; 8] = [
+    RGBColor(0, 114, 178),
+    RGBColor(230, 159, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(213, 94, 0),
+    RGBColor(240, 228, 66),
+    RGBColor(120, 120, 120),
+];
+
+/// Anchors of a scale from dark to light whose lightness rises evenly (viridis).
+const SCALE: [(u8, u8, u8); 6] = [
+    (68, 1, 84),
+    (65, 68, 135),
+    (42, 120, 142),
+    (34, 168, 132),
+    (122, 209, 81),
+    (253, 231, 37),
+];
+
+const SIZE: (u32, u32) = (960, 560);
+const TEXT: i32 = 15;
+
+/// Why a picture could not be drawn.
+pub type PlotFault = String;
+
+/// One bar of a stack.
+#[derive(Debug, Clone, Default)]
+pub struct Bar {
+    /// Below the bar.
+    pub label: String,
+    /// Heights from below, in the order of the names.
+    pub shares: Vec<f64>,
+    /// Above the bar.
+    pub above: String,
+    /// Measured height with the error of the measurement, beside the stack.
+    pub measured: Option<(f64, f64)>,
+    /// Above the measured bar.
+    pub above_measured: String,
+}
+
+/// One line.
+#[derive(Debug, Clone, Default)]
+pub struct Line {
+    /// Name in the legend.
+    pub name: String,
+    /// Points; a gap ends a stretch.
+    pub points: Vec<Option<(f64, f64)>>,
+    /// Points are marked.
+    pub marked: bool,
+}
+
+fn drawn(
+    title: &str,
+    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), PlotFault>,
+) -> Result<String, PlotFault> {
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
+        root.fill(&WHITE).map_err(fault)?;
+        let heading = ("sans-serif", TEXT + 3).into_font().color(&BLACK);
+        root.draw(&Text::new(title.to_owned(), (16, 14), heading))
+            .map_err(fault)?;
+        draw(&root)?;
+        root.present().map_err(fault)?;
+    }
+    Ok(svg)
+}
+
+fn fault(error: impl std::fmt::Display) -> PlotFault {
+    error.to_string()
+}
+
+fn colour(i: usize) -> RGBColor {
+    COLOURS[i % COLOURS.len()]
+}
+
+/// A colour of the scale, from zero to one.
+fn shade(share: f64) -> RGBColor {
+    let place = share.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
+    let i = (place.floor() as usize).min(SCALE.len() - 2);
+    let mix = |a: u8, b: u8| (f64::from(a) + (place - i as f64) * (f64::from(b) - f64::from(a))).round() as u8;
+    let (a, b) = (SCALE[i], SCALE[i + 1]);
+    RGBColor(mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
+}
+
+/// A number with as many digits as a reader wants.
+fn short(x: f64) -> String {
+    let digits = match x.abs() {
+        0.0 => 0,
+        a if a >= 100.0 => 0,
+        a if a >= 10.0 => 1,
+        a if a >= 1.0 => 2,
+        a if a >= 0.1 => 3,
+        _ => 4,
+    };
+    format!("{x:.digits$}")
+}
+
+/// Range of numbers with a little air above; from zero where none is below.
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for x in values.filter(|x| x.is_finite()) {
+        low = low.min(x);
+        high = high.max(x);
+    }
+    if low > high {
+        return (0.0, 1.0);
+    }
+    let span = (high - low).max(1e-9 * high.abs()).max(1e-12);
+    (low - 0.03 * span, high + 0.08 * span)
+}
+
+fn legend(root: &DrawingArea<SVGBackend<'_>, Shift>, names: &[String], solid: bool) -> Result<(), PlotFault> {
+    let style = ("sans-serif", TEXT).into_font().color(&BLACK);
+    for (i, name) in names.iter().enumerate() {
+        let (x, y) = (SIZE.0 as i32 - 190, 60 + 24 * i as i32);
+        let mark = if solid {
+            Rectangle::new([(x, y), (x + 16, y + 14)], colour(i).filled())
+        } else {
+            Rectangle::new([(x, y + 6), (x + 16, y + 9)], colour(i).filled())
+        };
+        root.draw(&mark).map_err(fault)?;
+        root.draw(&Text::new(name.clone(), (x + 24, y), style.clone()))
+            .map_err(fault)?;
+    }
+    Ok(())
+}
+
+/// Stacked bars side by side, with room for a measured bar and its error beside each.
+///
+/// # Errors
+/// If drawing fails.
+pub fn bars(title: &str, height: &str, names: &[String], bars: &[Bar]) -> Result<String, PlotFault> {
+    drawn(title, |root| {
+        let measured = bars.iter().any(|b| b.measured.is_some());
+        let tallest = bars
+            .iter()
+            .flat_map(|b| [b.shares.iter().sum(), b.measured.map_or(0.0, |(m, e)| m + e)])
+            .fold(0.0, f64::max);
+        let count = bars.len().max(1) as f64;
+        let area = root.margin(40, 10, 10, 200);
+        let mut chart = ChartBuilder::on(&area)
+            .x_label_area_size(80)
+            .y_label_area_size(70)
+            .build_cartesian_2d(0.0..count, 0.0..(1.12 * tallest).max(1e-9))
+            .map_err(fault)?;
+        chart
+            .configure_mesh()
+            .disable_x_mesh()
+            .disable_x_axis()
+            .y_desc(height)
+            .light_line_style(TRANSPARENT)
+            .label_style(("sans-serif", TEXT))
+            .axis_desc_style(("sans-serif", TEXT))
+            .draw()
+            .map_err(fault)?;
+        let centred = ("sans-serif", TEXT - 2)
+            .into_font()
+            .color(&BLACK)
+            .pos(Pos::new(HPos::Center, VPos::Bottom));
+        for (i, bar) in bars.iter().enumerate() {
+            let left = i as f64 + 0.12;
+            let right = if measured { i as f64 + 0.50 } else { i as f64 + 0.88 };
+            let mut low = 0.0;
+            for (k, share) in bar.shares.iter().enumerate() {
+                let part = Rectangle::new([(left, low), (right, low + share)], colour(k).filled());
+                chart.draw_series([part]).map_err(fault)?;
+                low += share;
+            }
+            let mut text = |x: f64, y: f64, text: &str| {
+                let text = Text::new(text.to_owned(), (x, y), centred.clone());
+                chart.draw_series([text]).map(|_| ()).map_err(fault)
+            };
+            text(0.5 * (left + right), low + 0.01 * tallest, &bar.above)?;
+            if let Some((value, error)) = bar.measured {
+                let (left, right) = (i as f64 + 0.52, i as f64 + 0.88);
+                let middle = 0.5 * (left + right);
+                text(middle, value + error + 0.01 * tallest, &bar.above_measured)?;
+                let outline = Rectangle::new([(left, 0.0), (right, value)], BLACK.stroke_width(1));
+                chart.draw_series([outline]).map_err(fault)?;
+                let whisker = vec![(middle, (value - error).max(0.0)), (middle, value + error)];
+                chart
+                    .draw_series([PathElement::new(whisker, BLACK.stroke_width(2))])
+                    .map_err(fault)?;
+            }
+            // Below the axis.
+            let (x, y) = chart.backend_coord(&(i as f64 + 0.5, 0.0));
+            let below = ("sans-serif", TEXT - 2)
+                .into_font()
+                .color(&BLACK)
+                .pos(Pos::new(HPos::Center, VPos::Top));
+            for (line, words) in bar.label.split('\n').enumerate() {
+                root.draw(&Text::new(
+                    words.to_owned(),
+                    (x, y + 8 + 16 * line as i32),
+                    below.clone(),
+                ))
+                .map_err(fault)?;
+            }
+        }
+        let mut names = names.to_vec();
+        if measured {
+            names.push("measured: outline".to_owned());
+        }
+        legend(root, &names, true)
+    })
+}
+
+/// A map: one cell for each pair of values, coloured and numbered. Values run over x first; a gap stays white.
+///
+/// # Errors
+/// If drawing fails.
+pub fn map(
+    title: &str,
+    (x_name, xs): (&str, &[String]),
+    (y_name, ys): (&str, &[String]),
+    values: &[Option<f64>],
+) -> Result<String, PlotFault> {
+    drawn(title, |root| {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values.iter().flatten() {
+            low = low.min(*value);
+            high = high.max(*value);
+        }
+        let share = |value: f64| if high > low { (value - low) / (high - low) } else { 0.5 };
+        let (left, top, width, height) = (90, 50, 740, 430);
+        let (columns, rows) = (xs.len().max(1) as i32, ys.len().max(1) as i32);
+        let x_at = |i: i32| left + width * i / columns;
+        let y_at = |j: i32| top + height - height * j / rows;
+        let size = (width / columns / 4).min(height / rows / 2).clamp(6, TEXT);
+        // Numbers in cells that are too small for them would be a blur.
+        let numbered = width / columns >= 34 && height / rows >= 14;
+        let style = |colour: &RGBColor, size: i32, pos: Pos| ("sans-serif", size).into_font().color(colour).pos(pos);
+        let middle = Pos::new(HPos::Center, VPos::Center);
+        for j in 0..rows {
+            for i in 0..columns {
+                let Some(Some(value)) = values.get((j * columns + i) as usize) else {
+                    continue;
+                };
+                let cell = [(x_at(i), y_at(j + 1)), (x_at(i + 1), y_at(j))];
+                root.draw(&Rectangle::new(cell, shade(share(*value)).filled()))
+                    .map_err(fault)?;
+                if numbered {
+                    let ink = if share(*value) > 0.6 { BLACK } else { WHITE };
+                    let at = (i32::midpoint(cell[0].0, cell[1].0), i32::midpoint(cell[0].1, cell[1].1));
+                    root.draw(&Text::new(short(*value), at, style(&ink, size, middle)))
+                        .map_err(fault)?;
+                }
+            }
+        }
+        let every = |count: usize| count.div_ceil(16).max(1);
+        for (i, x) in xs.iter().enumerate().step_by(every(xs.len())) {
+            let at = (i32::midpoint(x_at(i as i32), x_at(i as i32 + 1)), top + height + 6);
+            let below = style(&BLACK, TEXT - 2, Pos::new(HPos::Center, VPos::Top));
+            root.draw(&Text::new(x.clone(), at, below)).map_err(fault)?;
+        }
+        for (j, y) in ys.iter().enumerate().step_by(every(ys.len())) {
+            let at = (left - 6, i32::midpoint(y_at(j as i32), y_at(j as i32 + 1)));
+            let beside = style(&BLACK, TEXT - 2, Pos::new(HPos::Right, VPos::Center));
+            root.draw(&Text::new(y.clone(), at, beside)).map_err(fault)?;
+        }
+        let name = style(&BLACK, TEXT, Pos::new(HPos::Center, VPos::Top));
+        root.draw(&Text::new(
+            x_name.to_owned(),
+            (left + width / 2, top + height + 34),
+            name,
+        ))
+        .map_err(fault)?;
+        let name = style(&BLACK, TEXT, Pos::new(HPos::Left, VPos::Bottom));
+        root.draw(&Text::new(y_name.to_owned(), (20, top - 4), name))
+            .map_err(fault)?;
+        // The scale beside the map.
+        if low <= high {
+            let (x, steps) = (left + width + 30, 40);
+            for k in 0..steps {
+                let part = [
+                    (x, top + height - height * (k + 1) / steps),
+                    (x + 18, top + height - height * k / steps),
+                ];
+                let tone = shade((f64::from(k) + 0.5) / f64::from(steps));
+                root.draw(&Rectangle::new(part, tone.filled())).map_err(fault)?;
+            }
+            for (value, y) in [(low, top + height), (0.5 * (low + high), top + height / 2), (high, top)] {
+                let beside = style(&BLACK, TEXT - 2, Pos::new(HPos::Left, VPos::Center));
+                root.draw(&Text::new(short(value), (x + 24, y), beside))
+                    .map_err(fault)?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Lines over one axis.
+///
+/// # Errors
+/// If drawing fails.
+pub fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> Result<String, PlotFault> {
+    drawn(title, |root| {
+        let points = || lines.iter().flat_map(|l| l.points.iter().flatten());
+        let (x, y) = (range(points().map(|p| p.0)), range(points().map(|p| p.1)));
+        let area = root.margin(40, 10, 10, 200);
+        let mut chart = ChartBuilder::on(&area)
+            .x_label_area_size(50)
+            .y_label_area_size(70)
+            .build_cartesian_2d(x.0..x.1, y.0..y.1)
+            .map_err(fault)?;
+        chart
+            .configure_mesh()
+            .x_desc(x_name)
+            .y_desc(y_name)
+            .light_line_style(TRANSPARENT)
+            .label_style(("sans-serif", TEXT))
+            .axis_desc_style(("sans-serif", TEXT))
+            .draw()
+            .map_err(fault)?;
+        for (i, line) in lines.iter().enumerate() {
+            for stretch in line.points.split(Option::is_none) {
+                let stretch: Vec<(f64, f64)> = stretch.iter().flatten().copied().collect();
+                chart
+                    .draw_series(LineSeries::new(stretch.clone(), colour(i).stroke_width(2)))
+                    .map_err(fault)?;
+                if line.marked || stretch.len() == 1 {
+                    let marks = stretch.iter().map(|p| Circle::new(*p, 3, colour(i).filled()));
+                    chart.draw_series(marks).map_err(fault)?;
+                }
+            }
+        }
+        let names: Vec<String> = lines.iter().map(|l| l.name.clone()).collect();
+        legend(root, &names, false)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn words(list: &[&str]) -> Vec<String> {
+        list.iter().map(|w| (*w).to_owned()).collect()
+    }
+
+    #[test]
+    fn pictures_hold_their_words() {
+        let bar = Bar {
+            label: "1\nloaded".to_owned(),
+            shares: vec![1.0, 2.0],
+            above: "61 degC".to_owned(),
+            measured: Some((3.1, 0.2)),
+            above_measured: "60 degC".to_owned(),
+        };
+        let names = ["mesh".to_owned(), "seals".to_owned()];
+        let svg = bars("Twelve tests", "loss W", &names, &[bar.clone(), bar]).unwrap();
+        for word in [
+            "Twelve tests",
+            "loss W",
+            "mesh",
+            "seals",
+            "61 degC",
+            "60 degC",
+            "loaded",
+            "measured",
+        ] {
+            assert!(svg.contains(word), "{word}");
+        }
+        let svg = map(
+            "Loss",
+            ("speed rpm", &words(&["1000", "2000"])),
+            ("volume ml", &words(&["60", "90"])),
+            &[Some(1.5), None, Some(3.0), Some(4.0)],
+        )
+        .unwrap();
+        for word in ["speed rpm", "volume ml", "1.50", "2000", "60"] {
+            assert!(svg.contains(word), "{word}");
+        }
+        let line = Line {
+            name: "limit".to_owned(),
+            points: vec![Some((0.0, 1.0)), Some((1.0, 2.0)), None, Some((3.0, 1.0))],
+            marked: true,
+        };
+        assert!(lines("Limit", "speed", "torque", &[line]).unwrap().contains("limit"));
+    }
+
+    #[test]
+    fn nothing_to_draw_is_no_fault() {
+        assert!(bars("a", "b", &[], &[]).is_ok() && lines("a", "b", "c", &[]).is_ok());
+        assert!(map("a", ("b", &[]), ("c", &[]), &[]).is_ok());
+    }
+}

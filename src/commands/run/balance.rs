@@ -1,0 +1,108 @@
+//! How the temperature of one point is found: losses and heat over temperature, and every step.
+
+use gearloss_framework::evaluate::Point;
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::report::plot::{self, Line};
+use gearloss_framework::study::{BalanceEntry, WriteAlso};
+use gearloss_framework::thermal::Step;
+use serde_json::{Value, json};
+
+use super::super::solve::{json_of_balance, of_balance};
+use super::thermal_limit::needs_balance;
+use super::write::{cell, head, picture, write};
+use super::{Runner, gear_of};
+use crate::output::{Failure, Out};
+
+pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let set: Vec<(String, Value)> = entry
+        .set
+        .iter()
+        .map(|(path, value)| (path.to_owned(), value.clone()))
+        .collect();
+    let built = runner.built_with(gearbox, &entry.model_sets, &set)?;
+    let header = [
+        "model_set",
+        "step",
+        "of",
+        "oil_temperature_degc",
+        "loss_w",
+        "heat_w",
+        "residual_w",
+    ]
+    .map(str::to_owned);
+    let (mut rows, mut results) = (Vec::new(), Vec::new());
+    for b in &built {
+        needs_balance(runner, &path, b)?;
+        let t = &b.transmission;
+        let points = runner.points(t, gear_of(entry.gear.as_deref(), t), Vec::new(), Vec::new());
+        let case = points.case(t).map_err(|list| Failure::from(b.gearbox.findings(list)))?;
+        let torques = [entry.torque];
+        let point = Point {
+            speeds: &[entry.speed],
+            torques: &torques[..case.torque_ports.len()],
+            flow: points.flow,
+            tolerance: Tolerance::default(),
+        };
+        let found = t.equilibrium(&case, &point, &mut t.scratch(&case));
+        out.line(format!("{name}: models {}", b.name))?;
+        out.line(of_balance(t, &found))?;
+        for (i, step) in found.history.iter().enumerate() {
+            let of = if i < found.scanned { "scan" } else { "solution" };
+            let mut row = vec![b.name.clone(), (i + 1).to_string(), of.to_owned()];
+            row.extend([step.temperature, step.loss, step.heat, step.residual()].map(|x| cell(Some(x))));
+            rows.push(row);
+        }
+        results.push(json!({ "model_set": b.name, "gear": points.gear, "balance": json_of_balance(t, &found) }));
+        if entry.write.contains(&WriteAlso::Svg) {
+            pictures(runner, &format!("{name}-{}", b.name), &found.history, found.scanned)?;
+        }
+    }
+    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
+    value["balances"] = Value::Array(results);
+    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value).map(|_| ())
+}
+
+/// Losses and heat over temperature; temperature and residual over the steps behind the scan.
+fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize) -> Result<(), Failure> {
+    let mut sorted: Vec<&Step> = history.iter().collect();
+    sorted.sort_by(|a, b| a.temperature.total_cmp(&b.temperature));
+    let line = |name: &str, y: fn(&Step) -> f64| Line {
+        name: name.to_owned(),
+        points: sorted.iter().map(|s| Some((s.temperature, y(s)))).collect(),
+        marked: true,
+    };
+    let curves = [line("loss", |s| s.loss), line("heat", |s| s.heat)];
+    let title = format!("{name}: losses and the heat that leaves");
+    picture(
+        runner,
+        name,
+        plot::lines(&title, "oil temperature in degC", "W", &curves),
+    )?;
+    let steps = &history[scanned..];
+    let line = |name: &str, y: &dyn Fn(&Step) -> Option<f64>| Line {
+        name: name.to_owned(),
+        points: steps
+            .iter()
+            .enumerate()
+            .map(|(i, s)| Some((i as f64 + 1.0, y(s)?)))
+            .collect(),
+        marked: true,
+    };
+    let temperature = [line("oil temperature", &|s| Some(s.temperature))];
+    let title = format!("{name}: temperature over the steps behind the scan");
+    picture(
+        runner,
+        &format!("{name}-steps"),
+        plot::lines(&title, "step", "degC", &temperature),
+    )?;
+    // A residual of zero has no logarithm; it ends the line.
+    let residual = [line("residual", &|s| {
+        let share = (s.residual() / s.loss).abs();
+        (share > 0.0 && share.is_finite()).then(|| share.log10())
+    })];
+    let title = format!("{name}: residual over the steps behind the scan");
+    let svg = plot::lines(&title, "step", "log10 of the residual over the loss", &residual);
+    picture(runner, &format!("{name}-residual"), svg)
+}
