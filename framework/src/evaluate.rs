@@ -392,7 +392,9 @@ impl Transmission {
         };
         if matches!(outcome, Outcome::Converged { .. }) {
             for (total, seen) in s.totals.iter_mut().zip(&s.cells) {
-                *total = total.merge(seen.once());
+                if seen.seen > 0 {
+                    *total = total.merge(seen.once());
+                }
             }
         }
     }

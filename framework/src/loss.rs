@@ -250,9 +250,10 @@ impl Extent {
 
     #[inline]
     fn add(self, x: f64, outside: bool) -> Self {
+        // What is no number passes by, as with `min` and `max`, which promise more and cost more.
         Self {
-            least: self.least.min(x),
-            greatest: self.greatest.max(x),
+            least: if x < self.least { x } else { self.least },
+            greatest: if x > self.greatest { x } else { self.greatest },
             seen: self.seen + 1,
             outside: self.outside + u32::from(outside),
         }
@@ -262,8 +263,16 @@ impl Extent {
     #[inline]
     pub fn merge(self, other: Self) -> Self {
         Self {
-            least: self.least.min(other.least),
-            greatest: self.greatest.max(other.greatest),
+            least: if other.least < self.least {
+                other.least
+            } else {
+                self.least
+            },
+            greatest: if other.greatest > self.greatest {
+                other.greatest
+            } else {
+                self.greatest
+            },
             seen: self.seen.saturating_add(other.seen),
             outside: self.outside.saturating_add(other.outside),
         }
@@ -319,6 +328,13 @@ pub struct Trace {
 }
 
 impl Trace {
+    /// Out of the way of models, which are explained once and evaluated ever so often.
+    #[cold]
+    #[inline(never)]
+    fn write(&self, step: Step) {
+        self.steps.borrow_mut().push(step);
+    }
+
     /// The steps in the order in which the model took them.
     pub fn into_steps(self) -> Vec<Step> {
         self.steps.into_inner()
@@ -431,7 +447,7 @@ impl<'a> Notes<'a> {
     #[inline]
     pub fn branch(&self, taken: &'static str) {
         if let Some(trace) = self.trace {
-            trace.steps.borrow_mut().push(Step::Branch {
+            trace.write(Step::Branch {
                 instance: self.base.instance,
                 taken,
             });
@@ -441,7 +457,7 @@ impl<'a> Notes<'a> {
     #[inline]
     fn step(&self, symbol: &'static str, unit: &'static str, value: f64) {
         if let Some(trace) = self.trace {
-            trace.steps.borrow_mut().push(Step::Value {
+            trace.write(Step::Value {
                 instance: self.base.instance,
                 symbol,
                 unit,
