@@ -113,6 +113,7 @@ impl Transmission {
                     // What rests brakes nothing; it is asked once, at the end.
                     if speed != 0.0 {
                         s.braking.push(i);
+                        s.kept[i][0] = f64::NAN;
                     }
                 } else {
                     *loss = component_loss(component, &state, Notes::new(cells, component.notes));
@@ -139,6 +140,7 @@ impl Transmission {
             passed,
             tangential,
             cells,
+            kept,
             component_losses,
             mesh_losses,
             idle_drags,
@@ -150,6 +152,7 @@ impl Transmission {
         let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
         let (idle_drags, relative) = (&*idle_drags, &*relative);
         let cells = Cell::from_mut(cells.as_mut_slice()).as_slice_of_cells();
+        let kept = Cell::from_mut(kept.as_mut_slice()).as_slice_of_cells();
         // Torques of the first pass are a guess that nobody reads about.
         let mut guess = point.flow == PowerFlow::Real && !standing;
         let losses = |flow: &mut FlowState<'_>| {
@@ -173,7 +176,8 @@ impl Transmission {
             for &i in &*braking {
                 let (component, speed) = (&self.components[i], relative[i]);
                 let loss = &mut component_losses[i];
-                *loss = component_loss(component, &state, notes(component.notes));
+                let notes = notes(component.notes).keeping(kept[i].as_array_of_cells());
+                *loss = component_loss(component, &state, notes);
                 let moment = moment(loss, speed) * component.count;
                 brake(component.between, speed, moment, flow.drags);
             }

@@ -7,6 +7,9 @@ use std::cell::{Cell, RefCell};
 /// The most terms that one model may have.
 pub const MOST_TERMS: usize = 4;
 
+/// The most numbers that a model may keep over the passes of one point.
+pub const MOST_KEPT: usize = 6;
+
 /// One named share of a loss, such as rolling, sliding or drag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Term {
@@ -360,6 +363,7 @@ pub struct Notes<'a> {
     cells: &'a [Cell<Extent>],
     base: NoteBase,
     trace: Option<&'a Trace>,
+    kept: Option<&'a [Cell<f64>; MOST_KEPT]>,
 }
 
 impl<'a> Notes<'a> {
@@ -373,6 +377,7 @@ impl<'a> Notes<'a> {
             end: 0,
         },
         trace: None,
+        kept: None,
     };
 
     /// Notes of one instance into the cells of a scratch.
@@ -382,6 +387,7 @@ impl<'a> Notes<'a> {
             cells,
             base,
             trace: None,
+            kept: None,
         }
     }
 
@@ -405,7 +411,34 @@ impl<'a> Notes<'a> {
     /// The same place to write, seen by a nested instance.
     #[inline]
     pub fn of(self, base: NoteBase) -> Self {
-        Self { base, ..self }
+        Self {
+            base,
+            kept: None,
+            ..self
+        }
+    }
+
+    /// The same notes, with a place for what the instance computes [`once`](Self::once); not a number where nothing was yet.
+    #[inline]
+    pub fn keeping(self, kept: &'a [Cell<f64>; MOST_KEPT]) -> Self {
+        Self {
+            kept: Some(kept),
+            ..self
+        }
+    }
+
+    /// Numbers that follow from speed, oil and its level alone. The passes of one point, between which only loads change,
+    /// share them; without a place to keep them they are computed anew. Limits and observed quantities are noted elsewhere.
+    #[inline]
+    pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
+        const { assert!(0 < N && N <= MOST_KEPT) };
+        let Some(kept) = self.kept else { return numbers() };
+        if kept[0].get().is_nan() {
+            for (kept, number) in kept.iter().zip(numbers()) {
+                kept.set(number);
+            }
+        }
+        std::array::from_fn(|i| kept[i].get())
     }
 
     /// True when the steps are written down.
