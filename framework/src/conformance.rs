@@ -9,7 +9,7 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use crate::language::Language;
-use crate::loss::{Extent, Notes, Undefined};
+use crate::loss::{Extent, MOST_KEPT, NoteBase, Notes, Undefined};
 use crate::mechanism::{Answer, Mechanism, Quantity};
 use crate::registry::{Build, Entry, Evidence, Files, Registry, from_resolved};
 
@@ -141,6 +141,7 @@ pub fn conform<M: Mechanism>(
     if entry.evidence.iter().all(|g| g.grade != Evidence::User) {
         faults.extend(rest_and_reversal::<M>(&slot, &usual));
     }
+    faults.extend(keeping::<M>(&slot, &part, slot.notes, cells));
     faults.dedup();
     faults.truncate(12);
     faults
@@ -178,6 +179,32 @@ fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_>) -> Vec<S
         }
         ((Err(_), _), (Err(_), _)) => {}
         _ => faults.push("is undefined in one sense only".to_owned()),
+    }
+    faults
+}
+
+/// What a model keeps over the passes of a point must not hang on loads, which change between them, nor swallow notes.
+fn keeping<M: Mechanism>(model: &M::Model, part: &M::Part, base: NoteBase, cells: &[Cell<Extent>]) -> Vec<String> {
+    let kept = [const { Cell::new(f64::NAN) }; MOST_KEPT];
+    let _ = M::answer(model, &M::usual(part, Notes::MUTED.keeping(&kept)));
+    let ask = |notes, q: &Quantity<M>, value| {
+        let mut at = M::usual(part, notes);
+        (q.set)(&mut at, q.unit().to_si(value));
+        let noted = |cells: &[Cell<Extent>]| cells.iter().map(Cell::get).collect::<Vec<_>>();
+        (M::answer(model, &at), M::speed(&at), noted(cells))
+    };
+    let mut faults = Vec::new();
+    for q in M::QUANTITIES.iter().filter(|q| matches!(q.unit().symbol, "N" | "Nm")) {
+        for value in [q.least, q.greatest] {
+            let (anew, speed, notes) = ask(Notes::fresh(cells, base), q, value);
+            let (again, _, notes_again) = ask(Notes::fresh(cells, base).keeping(&kept), q, value);
+            if !same(&anew, &again, speed) {
+                faults.push(format!("keeps what hangs on `{}` over the passes of a point", q.name));
+            }
+            if notes != notes_again {
+                faults.push("notes within what it keeps over the passes of a point".to_owned());
+            }
+        }
     }
     faults
 }

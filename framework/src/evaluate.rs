@@ -132,6 +132,7 @@ impl Transmission {
                     // What rests brakes nothing; it is asked once, at the end.
                     if speed != 0.0 {
                         s.braking.push(i);
+                        s.kept[i][0] = f64::NAN;
                     }
                 } else {
                     *loss = component_loss(component, &state, noting(quiet, cells, component.notes));
@@ -160,6 +161,7 @@ impl Transmission {
             passed,
             tangential,
             cells,
+            kept,
             component_losses,
             mesh_losses,
             idle_drags,
@@ -171,6 +173,7 @@ impl Transmission {
         let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
         let (idle_drags, relative) = (&*idle_drags, &*relative);
         let cells = Cell::from_mut(cells.as_mut_slice()).as_slice_of_cells();
+        let kept = Cell::from_mut(kept.as_mut_slice()).as_slice_of_cells();
         // Torques of the first pass are a guess that nobody reads about.
         let mut guess = point.flow == PowerFlow::Real && !standing;
         let losses = |flow: &mut FlowState<'_>| {
@@ -207,7 +210,8 @@ impl Transmission {
             for &i in &*braking {
                 let (component, speed) = (&self.components[i], relative[i]);
                 let loss = &mut component_losses[i];
-                *loss = loaded_loss(component, &state, uneven_loads, notes(component.notes));
+                let notes = notes(component.notes).map(|n| n.keeping(kept[i].as_array_of_cells()));
+                *loss = loaded_loss(component, &state, uneven_loads, notes);
                 let moment = moment(loss, speed) * component.count;
                 brake(component.between, speed, moment, flow.drags);
             }
@@ -243,7 +247,9 @@ impl Transmission {
         self.finish(standing, outcome, s);
         if !quiet && matches!(outcome, Outcome::Converged { .. }) {
             for (total, seen) in s.totals.iter_mut().zip(&s.cells) {
-                *total = total.merge(seen.once());
+                if seen.seen > 0 {
+                    *total = total.merge(seen.once());
+                }
             }
         }
     }

@@ -7,6 +7,9 @@ use std::cell::{Cell, RefCell};
 /// The most terms that one model may have.
 pub const MOST_TERMS: usize = 4;
 
+/// The most numbers that a model may keep over the passes of one point.
+pub const MOST_KEPT: usize = 6;
+
 /// One named share of a loss, such as rolling, sliding or drag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Term {
@@ -260,9 +263,10 @@ impl Extent {
 
     #[inline]
     fn add(self, x: f64, outside: bool) -> Self {
+        // What is no number passes by, as with `min` and `max`, which promise more and cost more.
         Self {
-            least: self.least.min(x),
-            greatest: self.greatest.max(x),
+            least: if x < self.least { x } else { self.least },
+            greatest: if x > self.greatest { x } else { self.greatest },
             seen: self.seen + 1,
             outside: self.outside + u32::from(outside),
         }
@@ -272,8 +276,16 @@ impl Extent {
     #[inline]
     pub fn merge(self, other: Self) -> Self {
         Self {
-            least: self.least.min(other.least),
-            greatest: self.greatest.max(other.greatest),
+            least: if other.least < self.least {
+                other.least
+            } else {
+                self.least
+            },
+            greatest: if other.greatest > self.greatest {
+                other.greatest
+            } else {
+                self.greatest
+            },
             seen: self.seen.saturating_add(other.seen),
             outside: self.outside.saturating_add(other.outside),
         }
@@ -329,6 +341,13 @@ pub struct Trace {
 }
 
 impl Trace {
+    /// Out of the way of models, which are explained once and evaluated ever so often.
+    #[cold]
+    #[inline(never)]
+    fn write(&self, step: Step) {
+        self.steps.borrow_mut().push(step);
+    }
+
     /// The steps in the order in which the model took them.
     pub fn into_steps(self) -> Vec<Step> {
         self.steps.into_inner()
@@ -354,6 +373,7 @@ pub struct Notes<'a> {
     cells: &'a [Cell<Extent>],
     base: NoteBase,
     trace: Option<&'a Trace>,
+    kept: Option<&'a [Cell<f64>; MOST_KEPT]>,
 }
 
 impl<'a> Notes<'a> {
@@ -367,6 +387,7 @@ impl<'a> Notes<'a> {
             end: 0,
         },
         trace: None,
+        kept: None,
     };
 
     /// Notes of one instance into the cells of a scratch.
@@ -376,6 +397,7 @@ impl<'a> Notes<'a> {
             cells,
             base,
             trace: None,
+            kept: None,
         }
     }
 
@@ -399,7 +421,34 @@ impl<'a> Notes<'a> {
     /// The same place to write, seen by a nested instance.
     #[inline]
     pub fn of(self, base: NoteBase) -> Self {
-        Self { base, ..self }
+        Self {
+            base,
+            kept: None,
+            ..self
+        }
+    }
+
+    /// The same notes, with a place for what the instance computes [`once`](Self::once); not a number where nothing was yet.
+    #[inline]
+    pub fn keeping(self, kept: &'a [Cell<f64>; MOST_KEPT]) -> Self {
+        Self {
+            kept: Some(kept),
+            ..self
+        }
+    }
+
+    /// Numbers that follow from speed, oil and its level alone. The passes of one point, between which only loads change,
+    /// share them; without a place to keep them they are computed anew. Limits and observed quantities are noted elsewhere.
+    #[inline]
+    pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
+        const { assert!(0 < N && N <= MOST_KEPT) };
+        let Some(kept) = self.kept else { return numbers() };
+        if kept[0].get().is_nan() {
+            for (kept, number) in kept.iter().zip(numbers()) {
+                kept.set(number);
+            }
+        }
+        std::array::from_fn(|i| kept[i].get())
     }
 
     /// True when the steps are written down.
@@ -441,7 +490,7 @@ impl<'a> Notes<'a> {
     #[inline]
     pub fn branch(&self, taken: &'static str) {
         if let Some(trace) = self.trace {
-            trace.steps.borrow_mut().push(Step::Branch {
+            trace.write(Step::Branch {
                 instance: self.base.instance,
                 taken,
             });
@@ -451,7 +500,7 @@ impl<'a> Notes<'a> {
     #[inline]
     fn step(&self, symbol: &'static str, unit: &'static str, value: f64) {
         if let Some(trace) = self.trace {
-            trace.steps.borrow_mut().push(Step::Value {
+            trace.write(Step::Value {
                 instance: self.base.instance,
                 symbol,
                 unit,

@@ -244,6 +244,12 @@ macro_rules! context {
                 self.notes.show(symbol, unit, x)
             }
 
+            /// Numbers that follow from speed, oil and its level alone, computed once for all passes of a point.
+            #[inline]
+            pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
+                self.notes.once(numbers)
+            }
+
             /// Names the branch that was taken in an explanation.
             #[inline]
             pub fn branch(&self, taken: &'static str) {

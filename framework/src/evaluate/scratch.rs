@@ -3,7 +3,7 @@
 use crate::attach::Oil;
 use crate::flow::{Balance, Status, Work};
 use crate::loads::SupportLoad;
-use crate::loss::{Extent, Loss, Undefined};
+use crate::loss::{Extent, Loss, MOST_KEPT, Undefined};
 use crate::transmission::{Case, Transmission};
 
 /// A loss that was not evaluated yet.
@@ -32,6 +32,8 @@ pub struct Scratch {
     pub(super) relative: Vec<f64>,
     /// Components that carry load and turn: they are asked in every pass.
     pub(super) braking: Vec<usize>,
+    /// What the models of the components keep over the passes of a point.
+    pub(super) kept: Vec<[f64; MOST_KEPT]>,
     pub(super) cells: Vec<Extent>,
     pub(super) work: Work,
     pub(super) watts: Vec<f64>,
@@ -80,6 +82,7 @@ impl Scratch {
             idle_drags: vec![0.0; columns],
             relative: vec![0.0; transmission.components.len()],
             braking: Vec::with_capacity(transmission.components.len()),
+            kept: vec![[f64::NAN; MOST_KEPT]; transmission.components.len()],
             cells: vec![Extent::EMPTY; transmission.cells],
             work: case.flow.work(),
             watts: vec![0.0; transmission.parts.len()],

@@ -1,8 +1,8 @@
 //! Equilibrium of every member for given losses: one product with the inverse, and one small system for friction.
 
-use super::linear::{add, add_product, back, factor};
+use super::linear::{add, back, factor, larger, product};
 use super::system::{Flow, MeshRow};
-use super::work::{Drive, Work};
+use super::work::{Active, Drive, Work};
 
 /// Speeds below this of the fastest one are rounding.
 const STILL: f64 = 1e-12;
@@ -14,22 +14,20 @@ impl Flow {
         if !self.friction(work) {
             return false;
         }
-        work.residual.copy_from_slice(&work.right);
-        work.unknown.fill(0.0);
-        // The second turn is one step of refinement, which keeps the balance at rounding where the flow is kept.
-        for turn in 0..2 {
+        self.step(work);
+        work.unknown.copy_from_slice(&work.step);
+        if kept {
+            // One step of refinement keeps the balance at rounding.
+            product(&self.base, &work.unknown, &mut work.residual);
+            for (residual, right) in work.residual.iter().zip(&mut work.right) {
+                *right -= residual;
+            }
+            for own in &work.active {
+                let lost = own.share * work.unknown[own.row];
+                add(-lost, &self.friction[own.mesh].sides[own.side].change, &mut work.right);
+            }
             self.step(work);
             add(1.0, &work.step, &mut work.unknown);
-            if turn == 1 || !kept {
-                break;
-            }
-            work.residual.copy_from_slice(&work.right);
-            add_product(-1.0, &self.base, &work.unknown, &mut work.residual);
-            for &k in &work.active {
-                let side = &self.friction[k].sides[driven_side(work.drives[k])];
-                let lost = work.used.share(k) * work.unknown[self.friction[k].row];
-                add(-lost, &side.change, &mut work.residual);
-            }
         }
         if !work.unknown.iter().all(|x| x.is_finite()) {
             return false;
@@ -52,7 +50,7 @@ impl Flow {
         }
         work.applied.fill(0.0);
         work.applied[..self.columns].copy_from_slice(&work.ports);
-        let still = STILL * speeds.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+        let still = STILL * speeds.iter().fold(0.0, |most, w| larger(most, w.abs()));
         for (relative, mesh) in work.relative.iter_mut().zip(&self.meshes) {
             *relative = [mesh.second, mesh.first].map(|gear| relative_speed(gear, mesh, speeds, still));
         }
@@ -86,29 +84,38 @@ impl Flow {
     /// Factors the small system of the meshes with friction: identity plus responses times shares.
     fn friction(&self, work: &mut Work) -> bool {
         work.active.clear();
-        work.active
-            .extend((0..self.meshes.len()).filter(|k| work.used.share(*k) > 0.0));
-        let count = work.active.len();
-        for (j, &k) in work.active.iter().enumerate() {
-            let response = &self.friction[k].sides[driven_side(work.drives[k])].response;
-            for (i, &other) in work.active.iter().enumerate() {
-                let unit = f64::from(u8::from(i == j));
-                work.small[j * count + i] = unit + response[self.friction[other].row] * work.used.share(k);
+        for (mesh, (friction, drive)) in self.friction.iter().zip(&work.drives).enumerate() {
+            let share = work.used.share(mesh);
+            if share > 0.0 {
+                work.active.push(Active {
+                    mesh,
+                    row: friction.row,
+                    side: driven_side(*drive),
+                    share,
+                });
             }
+        }
+        let count = work.active.len();
+        for (j, own) in work.active.iter().enumerate() {
+            let coupling = &self.friction[own.mesh].sides[own.side].coupling;
+            let column = &mut work.small[j * count..(j + 1) * count];
+            for (entry, other) in column.iter_mut().zip(&work.active) {
+                *entry = coupling[other.mesh] * own.share;
+            }
+            column[j] += 1.0;
         }
         factor(&mut work.small[..count * count], &mut work.order[..count], count)
     }
 
-    /// The solution for the residual (Sherman, Morrison and Woodbury).
+    /// The solution for the right side (Sherman, Morrison and Woodbury).
     fn step(&self, work: &mut Work) {
-        work.step.fill(0.0);
-        add_product(1.0, &self.inverse, &work.residual, &mut work.step);
+        product(&self.inverse, &work.right, &mut work.step);
         let count = work.active.len();
         if count == 0 {
             return;
         }
-        for (share, &k) in work.shares.iter_mut().zip(&work.active) {
-            *share = work.step[self.friction[k].row];
+        for (share, own) in work.shares.iter_mut().zip(&work.active) {
+            *share = work.step[own.row];
         }
         back(
             &work.small[..count * count],
@@ -116,10 +123,9 @@ impl Flow {
             count,
             &mut work.shares[..count],
         );
-        for (share, &k) in work.shares.iter().zip(&work.active) {
-            let lost = share * work.used.share(k);
-            let response = &self.friction[k].sides[driven_side(work.drives[k])].response;
-            add(-lost, response, &mut work.step);
+        for (share, own) in work.shares.iter().zip(&work.active) {
+            let lost = share * own.share;
+            add(-lost, &self.friction[own.mesh].sides[own.side].response, &mut work.step);
         }
     }
 
@@ -129,14 +135,14 @@ impl Flow {
         for (k, mesh) in self.meshes.iter().enumerate() {
             let relative = work.relative[k];
             let rolling = -work.multipliers[mesh.row] * mesh.z1 * relative[1];
-            largest = largest.max(rolling.abs());
+            largest = larger(largest, rolling.abs());
             let moves = relative[driven_side(work.drives[k])] != 0.0;
             let constant = if moves { work.used.constant(k) } else { 0.0 };
             work.mesh_loss[k] = work.used.share(k) * rolling.abs() + constant;
             work.rolling[k] = rolling;
         }
         for (speed, torque) in speeds.iter().zip(&work.ports) {
-            largest = largest.max((speed * torque).abs());
+            largest = larger(largest, (speed * torque).abs());
         }
         work.largest = largest;
     }

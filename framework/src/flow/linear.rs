@@ -22,7 +22,9 @@ pub(super) fn factor(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool 
                 other.swap(k, pivot);
             }
         }
-        let inverse = 1.0 / column[k];
+        // The pivot is kept as what it is multiplied by.
+        column[k] = 1.0 / column[k];
+        let inverse = column[k];
         let lower = &mut column[k + 1..];
         for x in lower.iter_mut() {
             *x *= inverse;
@@ -43,16 +45,14 @@ pub(super) fn back(factors: &[f64], order: &[usize], n: usize, x: &mut [f64]) {
         x.swap(k, *place);
     }
     for (k, column) in factors.chunks_exact(n).enumerate() {
-        let value = x[k];
-        for (x, l) in x[k + 1..].iter_mut().zip(&column[k + 1..]) {
-            *x -= l * value;
+        for i in k + 1..n {
+            x[i] -= column[i] * x[k];
         }
     }
     for (k, column) in factors.chunks_exact(n).enumerate().rev() {
-        x[k] /= column[k];
-        let value = x[k];
-        for (x, u) in x[..k].iter_mut().zip(column) {
-            *x -= u * value;
+        x[k] *= column[k];
+        for i in 0..k {
+            x[i] -= column[i] * x[k];
         }
     }
 }
@@ -72,18 +72,33 @@ pub(super) fn inverse(mut matrix: Vec<f64>, n: usize) -> Option<Vec<f64>> {
     Some(inverse)
 }
 
-/// Length of a column with its padding: groups of four need no rest.
+/// Length of a vector with its padding: groups of four need no rest.
 pub(super) fn padded(n: usize) -> usize {
     n.next_multiple_of(4)
 }
 
-/// A matrix whose columns are padded with zeros.
-pub(super) fn pad(matrix: &[f64], n: usize) -> Vec<f64> {
-    let mut wide = vec![0.0; n * padded(n)];
-    for (wide, column) in wide.chunks_exact_mut(padded(n)).zip(matrix.chunks_exact(n)) {
-        wide[..n].copy_from_slice(column);
+/// A square matrix for [`product`]: four rows at a time, column by column, padded with zeros.
+#[derive(Debug, Clone)]
+pub(super) struct Panels {
+    parts: Vec<[f64; 4]>,
+    columns: usize,
+}
+
+impl Panels {
+    /// A matrix that is given column by column.
+    pub fn new(matrix: &[f64], n: usize) -> Self {
+        let entry = |row: usize, column: usize| if row < n { matrix[column * n + row] } else { 0.0 };
+        let parts = (0..padded(n))
+            .step_by(4)
+            .flat_map(|first| (0..n).map(move |column| [0, 1, 2, 3].map(|i| entry(first + i, column))))
+            .collect();
+        Self { parts, columns: n }
     }
-    wide
+}
+
+/// The larger of two numbers; the first where the second is no number. Cheaper than `max`, which cares for both.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }
 
 /// Adds a factor times a vector; both are padded.
@@ -93,19 +108,16 @@ pub(super) fn add(factor: f64, vector: &[f64], sum: &mut [f64]) {
     }
 }
 
-/// Adds a factor times a matrix times a vector; columns and vectors are padded.
-pub(super) fn add_product(factor: f64, matrix: &[f64], x: &[f64], sum: &mut [f64]) {
-    let groups = matrix.as_chunks::<4>().0;
-    let stride = sum.len() / 4;
-    for (first, sum) in sum.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+/// Writes a matrix times a vector; the vectors are padded.
+pub(super) fn product(matrix: &Panels, x: &[f64], y: &mut [f64]) {
+    let panels = matrix.parts.chunks_exact(matrix.columns);
+    for (y, panel) in y.as_chunks_mut::<4>().0.iter_mut().zip(panels) {
         let mut total = [0.0; 4];
-        for (part, x) in groups.iter().skip(first).step_by(stride).zip(x) {
+        for (part, x) in panel.iter().zip(x) {
             for (total, part) in total.iter_mut().zip(part) {
                 *total += part * x;
             }
         }
-        for (sum, total) in sum.iter_mut().zip(total) {
-            *sum += factor * total;
-        }
+        *y = total;
     }
 }

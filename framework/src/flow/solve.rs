@@ -1,5 +1,6 @@
 //! The one loop between torque and loss.
 
+use super::linear::larger;
 use super::system::Flow;
 use super::work::{Drive, FlowState, Outcome, Tolerance, Work};
 
@@ -20,14 +21,15 @@ impl Flow {
         work.used.values.fill(0.0);
         work.drags.fill(0.0);
         work.mismatch = 0.0;
-        self.begin(speeds, torques, work);
+        self.begin(speeds, torques, work, true);
     }
 
-    /// The flow without losses of meshes, for the drags in `work.used`, and the drivers that follow.
-    fn begin(&self, speeds: &[f64], torques: &[f64], work: &mut Work) {
+    /// The flow without losses of meshes, for the drags in `work.used`, and the drivers that follow; to rounding where it is
+    /// `kept`.
+    fn begin(&self, speeds: &[f64], torques: &[f64], work: &mut Work, kept: bool) {
         self.prepare(speeds, torques, work);
         work.drives.fill(Drive::Neither);
-        if !self.solve(speeds, work, true) {
+        if !self.solve(speeds, work, kept) {
             // Only torques beyond the range of numbers lead here.
             work.multipliers.fill(0.0);
             work.ports.fill(0.0);
@@ -59,7 +61,7 @@ impl Flow {
     ) -> Outcome {
         work.used.values.fill(0.0);
         work.used.drags_mut().copy_from_slice(steady);
-        self.begin(speeds, torques, work);
+        self.begin(speeds, torques, work, false);
         work.turned.fill(0);
         let mut passes = 0;
         let task = Task {
@@ -94,7 +96,7 @@ impl Flow {
                 return End::Open;
             }
             self.weigh(speeds, work);
-            work.mismatch = work.entries().fold(0.0_f64, |most, e| most.max(e.mismatch().abs()));
+            work.mismatch = work.entries().fold(0.0, |most, e| larger(most, e.mismatch().abs()));
             let left = if known { remaining(work) } else { work.mismatch };
             let last = known && left <= SAFETY * tolerance.power * work.largest;
             if work.mismatch < least {
@@ -259,21 +261,24 @@ fn turn(work: &mut Work) -> bool {
 /// Error to expect after one more plain step: the mismatch of each loss falls as it did in the last step, or as all of them did,
 /// whichever is slower. A loss that has just appeared says nothing yet about how it falls.
 fn remaining(work: &Work) -> f64 {
-    let (moved, followed) = work.entries().fold((0.0_f64, 0.0_f64), |(moved, followed), entry| {
+    let (moved, followed) = work.entries().fold((0.0, 0.0), |(moved, followed), entry| {
         (
-            moved.max((entry.moved() * entry.weight).abs()),
-            followed.max((entry.followed() * entry.weight).abs()),
+            larger(moved, (entry.moved() * entry.weight).abs()),
+            larger(followed, (entry.followed() * entry.weight).abs()),
         )
     });
     let common = if moved > 0.0 { followed / moved } else { 1.0 };
-    let mut most = 0.0_f64;
+    let mut most = 0.0;
     for entry in work.entries() {
         let mismatch = entry.mismatch().abs();
+        if mismatch == 0.0 {
+            continue;
+        }
         let (moved, followed) = (entry.moved().abs(), entry.followed().abs());
         let own = if followed < moved { followed / moved } else { 1.0 };
-        let falls = common.max(own);
+        let falls = larger(common, own);
         // All steps to come, as a geometric series.
-        most = most.max(mismatch * falls / (1.0 - falls).max(1e-3));
+        most = larger(most, mismatch * falls / larger(1e-3, 1.0 - falls));
     }
     most
 }

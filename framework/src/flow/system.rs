@@ -1,6 +1,6 @@
 //! The square system of equilibrium: multipliers of rows and torques of ports.
 
-use super::linear::{add_product, inverse, pad, padded};
+use super::linear::{Panels, inverse, padded, product};
 use crate::kinematics::Train;
 
 /// A mesh among the rows.
@@ -65,6 +65,8 @@ pub(super) struct Side {
     pub change: Vec<f64>,
     /// The inverse times the change.
     pub response: Vec<f64>,
+    /// Its entries at the rows of all meshes.
+    pub coupling: Vec<f64>,
 }
 
 /// The equilibrium of one gear state for one choice of given torques.
@@ -73,10 +75,10 @@ pub struct Flow {
     pub(super) columns: usize,
     pub(super) rows: usize,
     pub(super) size: usize,
-    /// The matrix without friction, column by column, each padded.
-    pub(super) base: Vec<f64>,
+    /// The matrix without friction.
+    pub(super) base: Panels,
     /// Its inverse.
-    pub(super) inverse: Vec<f64>,
+    pub(super) inverse: Panels,
     /// Scale of each row: the unknown is the multiplier over its scale.
     pub(super) scale: Vec<f64>,
     pub(super) meshes: Vec<MeshRow>,
@@ -139,7 +141,7 @@ impl Flow {
         for &(row, part, member, equation) in &parts {
             base[row * size + equation] = part * base[row * size + member];
         }
-        let inverse = pad(&inverse(base.clone(), size).ok_or(FlowFault::Singular)?, size);
+        let inverse = Panels::new(&inverse(base.clone(), size).ok_or(FlowFault::Singular)?, size);
         let friction = meshes
             .iter()
             .map(|mesh| Friction {
@@ -156,8 +158,13 @@ impl Flow {
                         change[equation] += part * change[member];
                     }
                     let mut response = vec![0.0; padded(size)];
-                    add_product(1.0, &inverse, &change, &mut response);
-                    Side { change, response }
+                    product(&inverse, &change, &mut response);
+                    let coupling = meshes.iter().map(|other| response[other.row]).collect();
+                    Side {
+                        change,
+                        response,
+                        coupling,
+                    }
                 }),
             })
             .collect();
@@ -165,7 +172,7 @@ impl Flow {
             columns: n,
             rows: m,
             size,
-            base: pad(&base, size),
+            base: Panels::new(&base, size),
             inverse,
             scale,
             meshes,

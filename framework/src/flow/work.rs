@@ -99,6 +99,18 @@ impl Losses {
     }
 }
 
+/// A mesh with friction in the present solve.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Active {
+    pub mesh: usize,
+    /// Number of its row.
+    pub row: usize,
+    /// Which side of [`super::system::Friction`] loses torque.
+    pub side: usize,
+    /// Share of its rolling power that is lost.
+    pub share: f64,
+}
+
 /// One entry of the losses over two passes.
 pub(super) struct Entry {
     pub used: f64,
@@ -164,7 +176,7 @@ pub struct Work {
     pub(super) unknown: Vec<f64>,
     pub(super) step: Vec<f64>,
     /// The small system of the meshes with friction.
-    pub(super) active: Vec<usize>,
+    pub(super) active: Vec<Active>,
     pub(super) small: Vec<f64>,
     pub(super) order: Vec<usize>,
     pub(super) shares: Vec<f64>,

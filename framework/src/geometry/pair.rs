@@ -136,6 +136,10 @@ pub struct Pair {
     pub working_angle: f64,
     /// Base helix angle. \[rad\]
     pub base_helix: f64,
+    /// Sine of `working_angle`, which mesh losses ask for at every point.
+    pub sin_working_angle: f64,
+    /// Cosine of `base_helix`, likewise.
+    pub cos_base_helix: f64,
     /// Helix angle at the working pitch cylinder. \[rad\]
     pub working_helix: f64,
     /// Reference centre distance. \[m\]
@@ -297,6 +301,8 @@ impl Pair {
             transverse_angle: alpha_t,
             working_angle,
             base_helix,
+            sin_working_angle: working_angle.sin(),
+            cos_base_helix: base_helix.cos(),
             working_helix: (beta.tan() * alpha_t.cos() / working_angle.cos()).atan(),
             reference_distance: a,
             centre_distance,

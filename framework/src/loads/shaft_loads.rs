@@ -207,7 +207,12 @@ impl ShaftLoads {
             loads[support] = SupportLoad {
                 radial: length(sum.force),
                 axial: 0.0,
-                tilting: length(sum.couple),
+                // Few supports take a couple, and a root takes time.
+                tilting: if sum.couple == [0.0; 2] {
+                    0.0
+                } else {
+                    length(sum.couple)
+                },
                 untaken: 0.0,
             };
         }

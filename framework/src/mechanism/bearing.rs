@@ -17,7 +17,8 @@ pub enum Bearing {}
 
 /// Friction of one rolling bearing. A model answers with moments about the bearing's axis.
 pub trait BearingModel: Send + Sync {
-    /// Loss at one operating point. Pure; must not allocate.
+    /// Loss at one operating point. Pure; must not allocate. What hangs on speed and oil alone may go into
+    /// [`BearingAt::once`], which spares it in all passes of a point but the first.
     fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined>;
 }
 

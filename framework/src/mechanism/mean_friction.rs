@@ -62,7 +62,7 @@ impl<'a> MeanFrictionAt<'a> {
         let part = at.part;
         let pair = &part.pair;
         let tangential = at.torque / pair.base_radius[0];
-        let normal_force = tangential / pair.base_helix.cos();
+        let normal_force = tangential / pair.cos_base_helix;
         let pitch_speed = at.speed.abs() * pair.working_radius[0];
         Self {
             part,
@@ -71,7 +71,7 @@ impl<'a> MeanFrictionAt<'a> {
             pressure: hertz(normal_force / pair.facewidth, part.modulus, pair.pitch_radius),
             speed: at.speed.abs(),
             pitch_speed,
-            sum_speed: 2.0 * pitch_speed * pair.working_angle.sin(),
+            sum_speed: 2.0 * pitch_speed * pair.sin_working_angle,
             radius: pair.pitch_radius,
             ra: part.ra,
             rq: part.rq,

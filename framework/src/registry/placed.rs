@@ -34,7 +34,7 @@ fn one() -> u32 {
 
 /// A component in its seat with its model.
 pub trait Placed: Send + Sync {
-    /// Loss of one copy.
+    /// Loss of one copy, with the notes of its model.
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined>;
     /// The two members that feel the reaction; absent for the housing.
     fn between(&self) -> [Option<u16>; 2];
@@ -58,7 +58,7 @@ struct PlacedAs<C: Component> {
 impl<C: Component> Placed for PlacedAs<C> {
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::answer(&self.model, &C::at(&self.part, site, notes.of(self.model.notes)))
+        C::answer(&self.model, &C::at(&self.part, site, notes))
     }
     fn between(&self) -> [Option<u16>; 2] {
         C::Attachment::between(self.seat)

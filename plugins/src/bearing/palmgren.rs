@@ -108,21 +108,9 @@ fn ratio(load: f64, other: f64) -> f64 {
     }
 }
 
-impl BearingModel for Palmgren {
-    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
-        let (fr, fa) = (at.show("Fr", "N", at.radial), at.show("Fa", "N", at.axial));
-        let law = &self.law;
-        let (p0, p1) = law.rule.equivalent(fr, fa);
-        let f1 = if law.exponent == 0.0 {
-            law.z
-        } else {
-            law.z * (at.show("P0", "N", p0) / self.c0).powf(law.exponent)
-        };
-        let f1 = at.show("f1", "-", f1);
-        let p1 = at.observe(&P1, p1);
-        if self.spherical_thrust {
-            at.check(&RADIAL_RATIO, ratio(fr, fa));
-        }
+impl Palmgren {
+    /// The load-independent moment. \[N mm\]
+    fn no_load(&self, at: &BearingAt<'_>) -> f64 {
         let f0 = match self.f0 {
             F0::Fixed(f0) => f0,
             F0::Dip { least, most, covered } => {
@@ -139,7 +127,26 @@ impl BearingModel for Palmgren {
             160e-7 * f0 * self.cube
         };
         at.show("f0", "-", f0);
-        let m0 = at.show("M0", "N mm", m0);
+        at.show("M0", "N mm", m0)
+    }
+}
+
+impl BearingModel for Palmgren {
+    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
+        let (fr, fa) = (at.show("Fr", "N", at.radial), at.show("Fa", "N", at.axial));
+        let law = &self.law;
+        let (p0, p1) = law.rule.equivalent(fr, fa);
+        let f1 = if law.exponent == 0.0 {
+            law.z
+        } else {
+            law.z * (at.show("P0", "N", p0) / self.c0).powf(law.exponent)
+        };
+        let f1 = at.show("f1", "-", f1);
+        let p1 = at.observe(&P1, p1);
+        if self.spherical_thrust {
+            at.check(&RADIAL_RATIO, ratio(fr, fa));
+        }
+        let [m0] = at.once(|| [self.no_load(at)]);
         let m1 = at.show(
             "M1",
             "N mm",

@@ -291,10 +291,18 @@ impl BearingModel for Model {
                 .with(&SLIDING, (MU_START * g_sl).nmm_in_nm())
                 .with(&SEAL, seals));
         }
-        let (ln_n, ln_nu) = (n.ln(), nu.ln());
-        let phi_ish = 1.0 / (1.0 + 1.84e-9 * (1.28 * (ln_n + self.ln_d_m) + 0.64 * ln_nu).exp());
-        let phi_rs = (-self.starvation * nu * n).max(-700.0).exp();
-        let phi_bl = (-2.6e-8 * (1.4 * (ln_n + ln_nu)).exp() * self.d_m).max(-700.0).exp();
+        let height = at.oil_height.mm();
+        let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(|| {
+            let (ln_n, ln_nu) = (n.ln(), nu.ln());
+            let drag = self.drag.as_ref();
+            [
+                1.0 / (1.0 + 1.84e-9 * (1.28 * (ln_n + self.ln_d_m) + 0.64 * ln_nu).exp()),
+                (-self.starvation * nu * n).max(-700.0).exp(),
+                (-2.6e-8 * (1.4 * (ln_n + ln_nu)).exp() * self.d_m).max(-700.0).exp(),
+                (0.6 * (ln_n + ln_nu)).exp(),
+                drag.map_or(0.0, |drag| drag.moment(height, n.min(self.fastest), nu)),
+            ]
+        });
         let mu_bl = self
             .mu_bl
             .unwrap_or(if at.mu_bl > 0.0 { at.mu_bl } else { self.edition_mu_bl });
@@ -302,16 +310,16 @@ impl BearingModel for Model {
         let mu_sl = at.observe(&MU_SL, at.observe(&PHI_BL, phi_bl) * mu_bl + (1.0 - phi_bl) * mu_ehl);
         at.show("phi_ish", "-", phi_ish);
         at.show("phi_rs", "-", phi_rs);
-        let m_rr = at.show("M_rr", "N mm", phi_ish * phi_rs * g_rr * (0.6 * (ln_n + ln_nu)).exp());
+        let m_rr = at.show("M_rr", "N mm", phi_ish * phi_rs * g_rr * viscous);
         let m_sl = at.show("M_sl", "N mm", g_sl * mu_sl);
         let loss = Loss::MOMENTS
             .with(&ROLLING, m_rr.nmm_in_nm())
             .with(&SLIDING, m_sl.nmm_in_nm())
             .with(&SEAL, seals);
         Ok(match &self.drag {
-            Some(drag) => {
-                let height = at.show("H", "mm", at.oil_height.mm());
-                match drag.depth(height, 0.5 * at.part.outside.mm()) {
+            Some(law) => {
+                at.show("H", "mm", height);
+                match law.depth(height, 0.5 * at.part.outside.mm()) {
                     Depth::Low => at.check(&VISCOSITY, nu),
                     Depth::Deep => at.check(&VISCOSITY_DEEP, nu),
                     Depth::None => nu,
@@ -319,8 +327,7 @@ impl BearingModel for Model {
                 if n > self.fastest {
                     at.branch("n d_m above 0.5e6: the speed of the drag is held there");
                 }
-                let moment = drag.moment(height, n.min(self.fastest), nu);
-                loss.with(&DRAG, at.show("M_drag", "N mm", moment).nmm_in_nm())
+                loss.with(&DRAG, at.show("M_drag", "N mm", drag).nmm_in_nm())
             }
             None => loss,
         })

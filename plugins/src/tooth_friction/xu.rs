@@ -6,6 +6,8 @@
 //! Fitted for a 75W-90 gear oil; it has no parameter for the kind of oil.
 //! Not for S above about 1 um, where exp(S) runs away, nor for oils near 1 mPa s, where lg nu0 vanishes.
 
+use std::f64::consts::LOG10_E;
+
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathAt, ToothFriction, ToothFrictionModel};
@@ -13,6 +15,8 @@ use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::exponential::exponentials;
 
 const B: [f64; 9] = [
     -8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958, 0.620305,
@@ -103,18 +107,23 @@ impl ToothFrictionModel for Xu {
             mu.fill(0.0);
             return Ok(());
         }
-        let lg = nu0.log10();
+        let ln_nu0 = nu0.ln();
         // Everything that is the same along the path, once.
-        let common = B[0] + B[8] * s.exp() + B[1] * unit.ln() + B[5] * path.speed.ln() + B[6] * nu0.ln();
-        let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-        for (node, mu) in path.nodes.iter().zip(mu) {
-            let x = node.slide_roll * unit * node.root_load * lg;
+        let common = B[0] + B[8] * s.exp() + B[1] * unit.ln() + B[5] * path.speed.ln() + B[6] * ln_nu0;
+        let fall = -unit * ln_nu0 * LOG10_E;
+        for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+            *mu = fall * node.slide_roll * node.root_load;
+        }
+        exponentials(mu);
+        for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+            let x = fall * node.slide_roll * node.root_load;
             let geometry =
                 B[1] * node.ln_root_load + B[2] * node.ln_slide_roll + B[5] * node.ln_rolling + B[7] * node.ln_radius;
-            *mu = (common + geometry + B[3] * x + B[4] * (-x).exp()).exp();
-            least = least.min(*mu);
-            most = most.max(*mu);
+            *mu = common + geometry - B[3] * x + B[4] * *mu;
         }
+        exponentials(mu);
+        let least = mu.iter().fold(f64::INFINITY, |least, mu| least.min(*mu));
+        let most = mu.iter().fold(0.0, |most: f64, mu| most.max(*mu));
         for end in 0..2 {
             path.notes.check(&PRESSURE, unit * path.extent.root_load[end]);
             path.notes.check(&SLIDE_ROLL, path.extent.slide_roll[end]);
