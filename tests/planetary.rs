@@ -483,3 +483,29 @@ fn the_estimate_grows_with_level_and_speed_and_rests_on_assumptions() {
         at(0.0, 3000.0)
     );
 }
+
+/// Check A7: speeds of planets in the housing's and in the carrier's frame.
+#[test]
+fn a7_planets_turn_as_willis_says() {
+    let language = language();
+    for (teeth, sun, carrier, planet) in [
+        ([24, 24, 72], 3000.0, 750.0, -1500.0),
+        ([30, 20, 70], 1000.0, 300.0, -750.0),
+    ] {
+        let t = built(&language, &simple(teeth, ["none", "none"], "count: 2", ""));
+        let case = t.case("only", &["input"], &["input"]).unwrap();
+        let mut scratch = t.scratch(&case);
+        let point = Point {
+            speeds: &[sun * RPM],
+            torques: &[0.0],
+            flow: PowerFlow::Ideal,
+            tolerance: Tolerance::default(),
+        };
+        let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+        let speed = |name: &str| solution.speed(t.members().iter().position(|m| m == name).unwrap()) / RPM;
+        assert!((speed("carrier") / carrier - 1.0).abs() < 1e-12 && (speed("planet") / planet - 1.0).abs() < 1e-12);
+        // In the carrier's frame, where losses arise.
+        let relative = speed("planet") - speed("carrier");
+        assert!((relative + (sun - carrier) * f64::from(teeth[0]) / f64::from(teeth[1])).abs() < 1e-9);
+    }
+}

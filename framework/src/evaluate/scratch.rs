@@ -47,6 +47,11 @@ pub struct Scratch {
 }
 
 impl Scratch {
+    /// Passes over the loss models of the point that was evaluated last.
+    pub fn passes(&self) -> usize {
+        self.passes
+    }
+
     /// Where models of heat dissipation note what they saw; it counts over all points.
     pub(crate) fn heat_cells(&mut self) -> &mut [Extent] {
         &mut self.totals

@@ -34,6 +34,8 @@ pub struct Equilibrium {
     pub history: Vec<Step>,
     /// Number of the first step behind the scan.
     pub scanned: usize,
+    /// Passes over the loss models on the way.
+    pub passes: usize,
     /// Where losses or heat had no value, and why.
     pub undefined: Option<(f64, Unbalanced)>,
 }
@@ -62,8 +64,10 @@ impl Transmission {
                 heat_capacity,
             }
         };
+        let mut passes = 0;
         let found = balance([housing.coldest(), housing.maximum], |t| {
             let loss = self.probe(case, point, &[t], scratch)?;
+            passes += scratch.passes();
             let flow = housing.flow(&sump(t)).map_err(|(way, e)| Unbalanced::Way(way, e))?;
             Ok(Step {
                 temperature: t,
@@ -89,6 +93,7 @@ impl Transmission {
             ways,
             history: found.history,
             scanned: found.scanned,
+            passes,
             undefined: found.undefined,
         }
     }

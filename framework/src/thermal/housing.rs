@@ -63,6 +63,7 @@ impl Housing {
     pub(crate) fn new(entry: &GearboxEntry, build: &mut Build<'_>, found: &mut Vec<Diagnostic>) -> Self {
         let thermal = &entry.thermal;
         let part = Arc::new(part(entry.housing.outside.as_ref()));
+        let before = found.len();
         let mut ways = Vec::new();
         let slots = thermal.heat_dissipation.iter().flat_map(|slots| slots.0.iter());
         for (name, choice) in slots {
@@ -91,7 +92,8 @@ impl Housing {
             into_oil: sum(HeatInto::Oil),
             into_surface: sum(HeatInto::Surface),
         };
-        if thermal.mode == ThermalMode::Balance {
+        // What is wrong with a way was said already.
+        if thermal.mode == ThermalMode::Balance && found.len() == before {
             housing.check(thermal, found);
         }
         housing
