@@ -232,8 +232,9 @@ pub fn of_balance(transmission: &Transmission, balance: &Equilibrium) -> String 
             ));
         }
         Outcome::NoneBelowMaximum => text.push_str(&format!(
-            "  losses are greater than the heat up to {} degC, at which the losses above are shown\n",
-            significant(housing.maximum)
+            "  losses are greater than the heat up to {} degC, at which the losses above are shown; looked for every {} K\n",
+            significant(housing.maximum),
+            significant(balance.spacing)
         )),
         Outcome::Undefined => {
             if let Some((temperature, why)) = &balance.undefined {
@@ -278,6 +279,7 @@ pub fn json_of_balance(transmission: &Transmission, balance: &Equilibrium) -> Va
             "oil_temperature_degc": t, "reason": because(transmission, why),
         })),
         "scan": balance.scanned,
+        "scan_spacing_k": balance.spacing,
         "history": balance.history.iter().map(step).collect::<Vec<_>>(),
     })
 }

@@ -34,6 +34,8 @@ pub struct Equilibrium {
     pub history: Vec<Step>,
     /// Number of the first step behind the scan.
     pub scanned: usize,
+    /// Distance of neighbouring temperatures of the scan: two balances that lie closer may both be missed. \[K\]
+    pub spacing: f64,
     /// Passes over the loss models on the way.
     pub passes: usize,
     /// Where losses or heat had no value, and why.
@@ -93,6 +95,7 @@ impl Transmission {
             ways,
             history: found.history,
             scanned: found.scanned,
+            spacing: found.spacing,
             passes,
             undefined: found.undefined,
         }
