@@ -2,10 +2,12 @@
 
 mod grid;
 mod notes;
+mod statistics;
 mod sums;
 mod temperature;
 
 pub use grid::{GridResult, PointResult, Points, run_grid};
 pub use notes::{Note, WeakPoint, evidence, notes};
+pub use statistics::{Statistics, bands, histogram};
 pub use sums::{SUMS, sum_of};
 pub use temperature::OilTemperature;

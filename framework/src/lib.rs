@@ -19,6 +19,7 @@ pub mod language;
 pub mod loads;
 pub mod loss;
 pub mod lubricant;
+pub mod measured;
 pub mod mechanism;
 pub mod registry;
 pub mod report;

@@ -10,6 +10,7 @@ pub use axes::{Span, SpeedAxis, SpeedSpan, TorqueAxis, TorqueSpan};
 
 use crate::description::Ordered;
 use crate::evaluate::PowerFlow;
+use crate::measured::MeasuredEntry;
 
 /// A study.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -146,7 +147,7 @@ pub struct MapEntry {
     pub gearbox: Option<String>,
     /// Grid.
     pub grid: String,
-    /// Sets of models; absent, the models of the gearbox.
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Formats to write; absent, CSV and JSON. Pictures show efficiency, loss and, with a balance, temperature.
@@ -161,7 +162,7 @@ pub struct OperatingPointsEntry {
     pub gearbox: Option<String>,
     /// Gear state; absent, the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox.
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// CSV file beside the study, one row for each point: `name`, `torque [Nm]`, `speed [rpm]`, the columns of `bind`, and what
@@ -187,7 +188,7 @@ pub struct ThermalLimitEntry {
     pub gearbox: Option<String>,
     /// Gear state; absent, the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox.
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Temperatures of the oil that may be reached. [degC]
@@ -223,7 +224,7 @@ pub struct BalanceEntry {
     pub gearbox: Option<String>,
     /// Gear state; absent, the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox.
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Torque. [Nm]
@@ -240,27 +241,34 @@ pub struct BalanceEntry {
     pub write: Vec<WriteAlso>,
 }
 
-/// Difference between sets of models over a grid.
+/// Difference between sets of models, and products, over a grid; or between them and what was measured.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CompareEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox of every set that names none; absent, the first.
     pub gearbox: Option<String>,
-    /// Grid.
-    pub grid: String,
-    /// Set that the others are compared with.
-    pub base: String,
-    /// Sets to compare.
+    /// Grid; not with `data`.
+    pub grid: Option<String>,
+    /// Set that the others are compared with; not with `data`. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    pub base: Option<String>,
+    /// Measured points that the sets are compared with.
+    pub data: Option<MeasuredEntry>,
+    /// Columns of the data that change a value of the gearbox: column to resolved path.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// Gear state of the data where no column says it; absent, the first.
+    pub gear: Option<String>,
+    /// Sets to compare; `PRODUCT/SET` takes another gearbox.
     #[schemars(length(min = 1))]
     pub against: Vec<String>,
     /// What is compared.
     #[serde(default)]
     pub quantity: Quantity,
-    /// How the difference counts: the other set minus the base.
+    /// How the difference counts: the other set minus the base, or the model minus the measurement.
     #[serde(default)]
     pub difference: Difference,
-    /// Formats to write; absent, both.
-    #[serde(default = "both")]
-    pub write: Vec<Write>,
+    /// Formats to write; absent, CSV and JSON. Pictures show the differences and, with data, parity.
+    #[serde(default = "data")]
+    pub write: Vec<WriteAlso>,
 }
 
 /// Losses by mechanism or component over speed.
@@ -270,7 +278,7 @@ pub struct BreakdownEntry {
     pub gearbox: Option<String>,
     /// Gear state; absent, the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox.
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// What the losses are summed by.
@@ -323,7 +331,7 @@ pub struct ContactPathEntry {
     pub gearbox: Option<String>,
     /// Gear state; absent, the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox.
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Mesh, one of `meshes`.
@@ -402,8 +410,42 @@ pub enum Quantity {
     Efficiency,
     /// Sum of all losses.
     Loss,
+    /// Loss over the speed of the reference port.
+    LossTorque,
     /// Temperature of the oil, where it is found by balance.
     Temperature,
+}
+
+impl Quantity {
+    /// Name in results, with its unit.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Efficiency => "efficiency",
+            Self::Loss => "loss_w",
+            Self::LossTorque => "loss_torque_nm",
+            Self::Temperature => "oil_temperature_degc",
+        }
+    }
+
+    /// Unit of a difference.
+    pub fn unit(self, difference: Difference) -> &'static str {
+        match (difference, self) {
+            (Difference::Percent, _) => "percent",
+            (Difference::Points, Self::Efficiency) => "points",
+            (Difference::Points, Self::Loss) => "w",
+            (Difference::Points, Self::LossTorque) => "nm",
+            (Difference::Points, Self::Temperature) => "k",
+        }
+    }
+
+    /// The other value minus the base, in that unit; absent where the base is zero and a percentage is asked for.
+    pub fn difference(self, difference: Difference, base: f64, other: f64) -> Option<f64> {
+        match (difference, self) {
+            (Difference::Percent, _) => (base != 0.0).then(|| 100.0 * (other - base) / base),
+            (Difference::Points, Self::Efficiency) => Some(100.0 * (other - base)),
+            (Difference::Points, _) => Some(other - base),
+        }
+    }
 }
 
 /// How a difference counts.

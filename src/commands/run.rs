@@ -44,7 +44,7 @@ pub(super) struct Runner<'a> {
 
 impl Runner<'_> {
     /// The gearbox under each set; under its own models where no set is named.
-    fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &[String]) -> Result<Vec<Built<'s>>, Failure> {
+    fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &'s [String]) -> Result<Vec<Built<'s>>, Failure> {
         self.built_with(gearbox, sets, &[])
     }
 
@@ -52,16 +52,20 @@ impl Runner<'_> {
     fn built_with<'s>(
         &'s self,
         gearbox: &'s Gearbox,
-        sets: &[String],
+        sets: &'s [String],
         overrides: &[(String, Value)],
     ) -> Result<Vec<Built<'s>>, Failure> {
-        let build = |set: Option<&str>| -> Result<Built<'s>, Failure> {
+        let build = |name: Option<&'s str>| -> Result<Built<'s>, Failure> {
+            let (gearbox, set) = match name {
+                Some(name) => self.study.reference("analyses", name, gearbox)?,
+                None => (gearbox, None),
+            };
             let mut choice = self.study.choice(set);
             choice.overrides.extend_from_slice(overrides);
             let resolved = gearbox.resolve(self.language, &choice)?;
             let transmission = gearbox.build(self.language, &resolved)?;
             Ok(Built {
-                name: set.unwrap_or("own").to_owned(),
+                name: name.unwrap_or("own").to_owned(),
                 gearbox,
                 resolved,
                 transmission,
@@ -168,4 +172,9 @@ fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -> Re
 fn gear_of<'a>(named: Option<&'a str>, transmission: &'a Transmission) -> &'a str {
     let first = transmission.states().first().map_or("", |s| s.name.as_str());
     named.unwrap_or(first)
+}
+
+/// A bound value as it goes into the document: a text with its unit, or a bare number.
+fn bound_value(text: &str) -> Value {
+    text.parse::<f64>().map_or_else(|_| Value::from(text), Value::from)
 }

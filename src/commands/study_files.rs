@@ -101,6 +101,20 @@ impl Study {
         }
     }
 
+    /// A set that an analysis names: `SET` of the given gearbox, or `PRODUCT/SET`; the set `own` stands for none.
+    pub fn reference<'a>(
+        &'a self,
+        path: &str,
+        name: &'a str,
+        gearbox: &'a Gearbox,
+    ) -> Result<(&'a Gearbox, Option<&'a str>), Findings> {
+        let Some((product, set)) = name.split_once('/') else {
+            return Ok((gearbox, Some(name)));
+        };
+        let (_, gearbox) = self.gearbox(path, Some(&product.to_owned()))?;
+        Ok((gearbox, Some(set).filter(|set| *set != "own")))
+    }
+
     /// The choice of a set, with the overrides of the conditions.
     pub fn choice(&self, set: Option<&str>) -> Choice {
         Choice {
@@ -125,8 +139,8 @@ impl Study {
             let (gearbox, grid, sets): (Option<&String>, Option<&String>, Vec<&String>) = match analysis {
                 Analysis::Map(map) => (map.gearbox.as_ref(), Some(&map.grid), map.model_sets.iter().collect()),
                 Analysis::Compare(compare) => {
-                    let sets = std::iter::once(&compare.base).chain(&compare.against).collect();
-                    (compare.gearbox.as_ref(), Some(&compare.grid), sets)
+                    let sets = compare.base.iter().chain(&compare.against).collect();
+                    (compare.gearbox.as_ref(), compare.grid.as_ref(), sets)
                 }
                 Analysis::Breakdown(b) => (b.gearbox.as_ref(), None, b.model_sets.iter().collect()),
                 Analysis::ComponentCompare(c) => (c.gearbox.as_ref(), None, c.model_set.iter().collect()),
@@ -139,8 +153,13 @@ impl Study {
                 found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));
             }
             let (_, gearbox) = self.gearbox(&path, gearbox)?;
-            let at_hand = sets_of(language, &gearbox.value, &self.sets);
             for set in sets {
+                let (gearbox, set) = self.reference(&path, set, gearbox)?;
+                let Some(set) = set else {
+                    gearbox.transmission(language, &self.choice(None))?;
+                    continue;
+                };
+                let at_hand = sets_of(language, &gearbox.value, &self.sets);
                 match expand_set(&at_hand, set) {
                     Ok(_) => {
                         gearbox.transmission(language, &self.choice(Some(set)))?;

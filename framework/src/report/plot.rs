@@ -57,8 +57,20 @@ pub struct Line {
     pub name: String,
     /// Points; a gap ends a stretch.
     pub points: Vec<Option<(f64, f64)>>,
-    /// Points are marked.
-    pub marked: bool,
+    /// How it is drawn.
+    pub stroke: Stroke,
+}
+
+/// How a line is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Stroke {
+    /// As a line.
+    #[default]
+    Line,
+    /// As a line with its points.
+    Marked,
+    /// As points without a line.
+    Dots,
 }
 
 fn drawn(
@@ -328,10 +340,12 @@ pub fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> Result<
         for (i, line) in lines.iter().enumerate() {
             for stretch in line.points.split(Option::is_none) {
                 let stretch: Vec<(f64, f64)> = stretch.iter().flatten().copied().collect();
-                chart
-                    .draw_series(LineSeries::new(stretch.clone(), colour(i).stroke_width(2)))
-                    .map_err(fault)?;
-                if line.marked || stretch.len() == 1 {
+                if line.stroke != Stroke::Dots {
+                    chart
+                        .draw_series(LineSeries::new(stretch.clone(), colour(i).stroke_width(2)))
+                        .map_err(fault)?;
+                }
+                if line.stroke != Stroke::Line || stretch.len() == 1 {
                     let marks = stretch.iter().map(|p| Circle::new(*p, 3, colour(i).filled()));
                     chart.draw_series(marks).map_err(fault)?;
                 }
@@ -387,7 +401,7 @@ mod tests {
         let line = Line {
             name: "limit".to_owned(),
             points: vec![Some((0.0, 1.0)), Some((1.0, 2.0)), None, Some((3.0, 1.0))],
-            marked: true,
+            stroke: Stroke::Marked,
         };
         assert!(lines("Limit", "speed", "torque", &[line]).unwrap().contains("limit"));
     }

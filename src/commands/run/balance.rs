@@ -2,7 +2,7 @@
 
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::report::plot::{self, Line};
+use gearloss_framework::report::plot::{self, Line, Stroke};
 use gearloss_framework::study::{BalanceEntry, WriteAlso};
 use gearloss_framework::thermal::Step;
 use serde_json::{Value, json};
@@ -71,7 +71,7 @@ fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize) -
     let line = |name: &str, y: fn(&Step) -> f64| Line {
         name: name.to_owned(),
         points: sorted.iter().map(|s| Some((s.temperature, y(s)))).collect(),
-        marked: true,
+        stroke: Stroke::Marked,
     };
     let curves = [line("loss", |s| s.loss), line("heat", |s| s.heat)];
     let title = format!("{name}: losses and the heat that leaves");
@@ -88,7 +88,7 @@ fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize) -
             .enumerate()
             .map(|(i, s)| Some((i as f64 + 1.0, y(s)?)))
             .collect(),
-        marked: true,
+        stroke: Stroke::Marked,
     };
     let temperature = [line("oil temperature", &|s| Some(s.temperature))];
     let title = format!("{name}: temperature over the steps behind the scan");

@@ -12,7 +12,7 @@ use super::super::solve::RPM;
 use super::breakdown::{name_of, names, stack};
 use super::map::tidy;
 use super::write::{cell, head, picture, write};
-use super::{Built, Runner, gear_of};
+use super::{Built, Runner, bound_value, gear_of};
 use crate::output::{Failure, Out, Table, number};
 
 /// One row of the file.
@@ -48,7 +48,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
     let mut built: Vec<Vec<Built<'_>>> = Vec::new();
     for bound in &combinations {
         let paths = entry.bind.iter().map(|(_, path)| path.clone());
-        let overrides: Vec<(String, Value)> = paths.zip(bound.iter().map(|v| Value::from(v.as_str()))).collect();
+        let overrides: Vec<(String, Value)> = paths.zip(bound.iter().map(|v| bound_value(v))).collect();
         built.push(runner.built_with(gearbox, &entry.model_sets, &overrides)?);
     }
     let mut header: Vec<String> = ["model_set", "gear", "name"].map(str::to_owned).to_vec();

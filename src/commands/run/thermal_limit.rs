@@ -4,7 +4,7 @@ use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::report::plot::{self, Line};
+use gearloss_framework::report::plot::{self, Line, Stroke};
 use gearloss_framework::study::{Find, ThermalLimitEntry, WriteAlso};
 use gearloss_framework::thermal::Limit;
 use serde_json::{Value, json};
@@ -96,7 +96,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
                         Some((x, y(f)?))
                     })
                     .collect(),
-                marked: true,
+                stroke: Stroke::Marked,
             };
             limits.push(line(&|f| match entry.find {
                 Find::Torque => f.torque,

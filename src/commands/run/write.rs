@@ -79,7 +79,8 @@ pub fn write(
 
 /// Writes a picture.
 pub fn picture(runner: &Runner<'_>, name: &str, svg: Result<String, PlotFault>) -> Result<(), Failure> {
-    let path = runner.folder.join(format!("{name}.svg"));
+    // A product stands before its set with a slash.
+    let path = runner.folder.join(format!("{}.svg", name.replace('/', "-")));
     let failed = |e: &dyn std::fmt::Display| {
         Failure::input(
             format!("cannot write {}: {e}", path.display()),

@@ -1,0 +1,124 @@
+//! Figures of a list of differences, and bands of them.
+
+use serde::Serialize;
+
+/// Figures of a list of differences.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Number of differences.
+    pub count: usize,
+    /// Least.
+    pub least: f64,
+    /// Greatest.
+    pub greatest: f64,
+    /// Mean.
+    pub mean: f64,
+    /// Root of the mean square.
+    pub rms: f64,
+}
+
+impl Statistics {
+    /// Of a list; absent where it is empty.
+    pub fn of(list: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let (mut count, mut sum, mut squares) = (0_usize, 0.0, 0.0);
+        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        for x in list {
+            count += 1;
+            sum += x;
+            squares += x * x;
+            least = least.min(x);
+            greatest = greatest.max(x);
+        }
+        (count > 0).then(|| Self {
+            count,
+            least,
+            greatest,
+            mean: sum / count as f64,
+            rms: (squares / count as f64).sqrt(),
+        })
+    }
+}
+
+/// The most bands that values make of themselves.
+const MOST: usize = 8;
+
+/// Bands over a coordinate: one for each value where there are few, else bands of about as many points each. Lower and upper
+/// end, and the places of the points in it.
+pub fn bands(coordinates: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
+    let mut order: Vec<usize> = (0..coordinates.len()).collect();
+    order.sort_by(|a, b| coordinates[*a].total_cmp(&coordinates[*b]));
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for i in order {
+        // Measured speeds scatter about what the rig was told.
+        let near = |group: &Vec<usize>| {
+            let first = coordinates[group[0]];
+            (coordinates[i] - first).abs() <= 0.005 * first.abs().max(1e-9)
+        };
+        match groups.last_mut() {
+            Some(group) if near(group) => group.push(i),
+            _ => groups.push(vec![i]),
+        }
+    }
+    if groups.len() > MOST {
+        let all: Vec<usize> = groups.concat();
+        let size = all.len().div_ceil(MOST);
+        groups = all.chunks(size).map(<[usize]>::to_vec).collect();
+    }
+    let ends = |group: &Vec<usize>| [coordinates[group[0]], coordinates[group[group.len() - 1]]];
+    groups.into_iter().map(|group| (ends(&group), group)).collect()
+}
+
+/// Counts in cells of one width: lower end of the first cell, width, counts. The number of cells goes with the root of the
+/// number of values.
+pub fn histogram(values: &[f64]) -> (f64, f64, Vec<usize>) {
+    let Some(of) = Statistics::of(values.iter().copied()) else {
+        return (0.0, 1.0, Vec::new());
+    };
+    let cells = ((of.count as f64).sqrt().ceil() as usize).clamp(1, 40);
+    let width = ((of.greatest - of.least) / cells as f64)
+        .max(1e-12 * of.greatest.abs())
+        .max(1e-300);
+    let mut counts = vec![0; cells];
+    for x in values {
+        let i = (((x - of.least) / width) as usize).min(cells - 1);
+        counts[i] += 1;
+    }
+    (of.least, width, counts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_of_a_list() {
+        let of = Statistics::of([1.0, -1.0, 3.0, 1.0]);
+        let expected = Statistics {
+            count: 4,
+            least: -1.0,
+            greatest: 3.0,
+            mean: 1.0,
+            rms: 3.0_f64.sqrt(),
+        };
+        assert_eq!(of, Some(expected));
+        assert_eq!(Statistics::of([]), None);
+    }
+
+    #[test]
+    fn bands_gather_what_belongs_together_and_lose_nothing() {
+        let few = bands(&[1000.0, 3000.0, 1002.0, 2999.0]);
+        assert_eq!(few.iter().map(|b| b.1.len()).collect::<Vec<_>>(), [2, 2]);
+        let many: Vec<f64> = (0..100).map(f64::from).collect();
+        let bands = bands(&many);
+        assert!(bands.len() <= MOST && bands.iter().map(|b| b.1.len()).sum::<usize>() == 100);
+    }
+
+    #[test]
+    fn a_histogram_counts_every_value_once() {
+        let values: Vec<f64> = (0..50).map(|i| f64::from(i * i)).collect();
+        let (low, width, counts) = histogram(&values);
+        assert_eq!(counts.iter().sum::<usize>(), 50);
+        assert!(low == 0.0 && (low + width * counts.len() as f64 - 2401.0).abs() < 1e-9);
+        assert_eq!(histogram(&[2.0, 2.0]).2.iter().sum::<usize>(), 2);
+    }
+}

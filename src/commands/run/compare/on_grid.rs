@@ -1,0 +1,164 @@
+//! Difference between sets of models over a grid: the other set minus the base.
+
+use gearloss_framework::analysis::{GridResult, PointResult};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::report::plot;
+use gearloss_framework::study::{CompareEntry, WriteAlso};
+use serde_json::{Value, json};
+
+use super::super::super::solve::RPM;
+use super::super::map::{spread, tidy};
+use super::super::write::{cell, head, picture, write};
+use super::super::{Runner, axis};
+use super::of;
+use crate::output::{Failure, Out, Table, number};
+
+pub fn run(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &CompareEntry,
+    (grid_name, base): (&str, &str),
+    out: &mut Out,
+) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let grid = runner.study.grid(&path, grid_name)?;
+    if !grid.bind.is_empty() {
+        let path = format!("grids.{grid_name}.bind");
+        let error = Diagnostic::error(path, "a comparison takes a grid without bound values")
+            .mend("give it a grid of its own, and the value under `conditions: { set: ... }`");
+        return Err(runner.study.findings(vec![error]).into());
+    }
+    let torques = axis(runner, &format!("grids.{grid_name}.torque"), grid.torque.values())?;
+    let speeds = axis(runner, &format!("grids.{grid_name}.speed"), grid.speed.values())?;
+    let sets: Vec<String> = std::iter::once(base.to_owned())
+        .chain(entry.against.iter().cloned())
+        .collect();
+    let built = runner.built(gearbox, &sets)?;
+    let mut solved: Vec<GridResult> = Vec::new();
+    for b in &built {
+        let points = runner.points(&b.transmission, &grid.gear, torques.clone(), speeds.clone());
+        solved.push(runner.solve(b, &points)?);
+    }
+    let quantity = |p: &PointResult| of(p, entry.quantity);
+    let unit = entry.quantity.unit(entry.difference);
+    let what = entry.quantity.name();
+    let header: Vec<String> = [
+        "model_set",
+        "base",
+        "gear",
+        "torque_nm",
+        "speed_rpm",
+        what,
+        &format!("base_{what}"),
+        &format!("difference_{unit}"),
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    let mut rows = Vec::new();
+    let mut results = Vec::new();
+    let mut gaps: Vec<Vec<Option<f64>>> = Vec::new();
+    for (b, other) in built.iter().zip(&solved).skip(1) {
+        let differences: Vec<Option<f64>> = solved[0]
+            .points
+            .iter()
+            .zip(&other.points)
+            .map(|(base, other)| {
+                entry
+                    .quantity
+                    .difference(entry.difference, quantity(base)?, quantity(other)?)
+            })
+            .collect();
+        for ((first, point), gap) in solved[0].points.iter().zip(&other.points).zip(&differences) {
+            rows.push(vec![
+                b.name.clone(),
+                base.to_owned(),
+                grid.gear.clone(),
+                cell(Some(point.torque)),
+                cell(Some(tidy(point.speed * RPM))),
+                cell(quantity(point)),
+                cell(quantity(first)),
+                cell(*gap),
+            ]);
+        }
+        out.line(format!(
+            "{name}: {what} of {} minus {} in {unit}, gear {}",
+            b.name, base, grid.gear
+        ))?;
+        let shown = spread(speeds.len());
+        let mut titles = vec!["torque Nm".to_owned()];
+        titles.extend(shown.iter().map(|i| format!("{:.0} rpm", speeds[*i] * RPM)));
+        let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+        for t in spread(torques.len()) {
+            let mut row = vec![format!("{}", torques[t])];
+            row.extend(shown.iter().map(|i| number(differences[t * speeds.len() + i], 2)));
+            table.row(row);
+        }
+        out.text(&table.render())?;
+        let extreme = |pick: fn(f64, f64) -> bool| {
+            let mut best: Option<(usize, f64)> = None;
+            for (i, gap) in differences.iter().enumerate() {
+                if let Some(gap) = gap
+                    && best.is_none_or(|(_, so_far)| pick(*gap, so_far))
+                {
+                    best = Some((i, *gap));
+                }
+            }
+            best
+        };
+        let (least, greatest) = (extreme(|a, b| a < b), extreme(|a, b| a > b));
+        let known: Vec<f64> = differences.iter().flatten().copied().collect();
+        let mean = (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64);
+        let place = |found: Option<(usize, f64)>| {
+            found.map_or_else(
+                || "-".to_owned(),
+                |(i, gap)| {
+                    format!(
+                        "{gap:.3} at {} Nm, {:.0} rpm",
+                        other.points[i].torque,
+                        other.points[i].speed * RPM
+                    )
+                },
+            )
+        };
+        out.line(format!(
+            "least {}; greatest {}; mean {}",
+            place(least),
+            place(greatest),
+            number(mean, 3)
+        ))?;
+        out.line("")?;
+        let at = |found: Option<(usize, f64)>| {
+            found.map(|(i, gap)| {
+                json!({ "difference": gap, "torque_nm": other.points[i].torque, "speed_rpm": tidy(other.points[i].speed * RPM) })
+            })
+        };
+        results.push(json!({
+            "model_set": b.name,
+            "base": base,
+            "quantity": entry.quantity,
+            "unit": unit,
+            "least": at(least),
+            "greatest": at(greatest),
+            "mean": mean,
+            "points": differences.iter().zip(&other.points).map(|(gap, p)| json!({
+                "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "difference": gap,
+            })).collect::<Vec<_>>(),
+        }));
+        gaps.push(differences);
+    }
+    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
+    value["comparisons"] = Value::Array(results);
+    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
+    if entry.write.contains(&WriteAlso::Svg) {
+        let label = |x: f64| format!("{}", tidy(x));
+        let columns: Vec<String> = speeds.iter().map(|w| label(w * RPM)).collect();
+        let lines: Vec<String> = torques.iter().map(|t| label(*t)).collect();
+        for (b, differences) in built.iter().skip(1).zip(&gaps) {
+            let title = format!("{name}: {what} of {} minus {base} in {unit}", b.name);
+            let svg = plot::map(&title, ("speed rpm", &columns), ("torque Nm", &lines), differences);
+            picture(runner, &format!("{name}-{}", b.name), svg)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,410 @@
+//! Models against measured points: the model minus the measurement.
+
+use gearloss_framework::analysis::{OilTemperature, PointResult, Statistics, bands, histogram};
+use gearloss_framework::description::ThermalMode;
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
+use gearloss_framework::report::plot::{self, Line, Stroke};
+use gearloss_framework::study::{CompareEntry, Quantity, WriteAlso};
+use serde_json::{Value, json};
+
+use super::super::super::solve::RPM;
+use super::super::map::tidy;
+use super::super::write::{cell, head, picture, write};
+use super::super::{Built, Runner, bound_value, gear_of};
+use super::of;
+use crate::output::{Failure, Out, Table, number};
+
+/// One measured point beside one model.
+struct Pair {
+    row: usize,
+    torque: f64,
+    speed: f64,
+    oil: Option<f64>,
+    measured: Option<f64>,
+    model: Option<f64>,
+    difference: Option<f64>,
+    /// The same difference as a loss, in percent of the measured loss.
+    of_loss: Option<f64>,
+    /// Accuracy of the measured quantity, where a column tells it.
+    accuracy: Option<f64>,
+}
+
+/// One set of models at all measured points.
+struct Compared<'a> {
+    built: Vec<Built<'a>>,
+    name: String,
+    pairs: Vec<Pair>,
+}
+
+pub fn run(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &CompareEntry,
+    data: &MeasuredEntry,
+    out: &mut Out,
+) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let measured = read(runner, &path, data, entry)?;
+    for note in &measured.notes {
+        out.line(format!("{name}: {}: {note}", data.file))?;
+    }
+    let all: Vec<Compared<'_>> = entry
+        .against
+        .iter()
+        .map(|set| compared(runner, &path, entry, &measured, set))
+        .collect::<Result<_, _>>()?;
+    if all.iter().all(|c| c.pairs.iter().all(|p| p.measured.is_none())) {
+        let error = Diagnostic::error(
+            format!("{path}.data"),
+            format!("{}: nothing gives a measured {}", data.file, entry.quantity.name()),
+        )
+        .mend("name a column of it, or columns of torque and speed at both ports");
+        return Err(runner.study.findings(vec![error]).into());
+    }
+    let unit = entry.quantity.unit(entry.difference);
+    let what = entry.quantity.name();
+    let header = [
+        "model_set",
+        "line",
+        "name",
+        "gear",
+        "torque_nm",
+        "speed_rpm",
+        "oil_temperature_degc",
+        &format!("measured_{what}"),
+        what,
+        &format!("difference_{unit}"),
+        "loss_difference_percent_of_loss",
+        &format!("accuracy_{what}"),
+    ]
+    .map(str::to_owned);
+    let (mut rows, mut results) = (Vec::new(), Vec::new());
+    for c in &all {
+        for pair in &c.pairs {
+            let row = &measured.rows[pair.row];
+            let mut cells = vec![c.name.clone(), row.line.to_string()];
+            cells.push(row.name.clone().unwrap_or_default());
+            cells.push(row.gear.clone().unwrap_or_default());
+            cells.extend([cell(Some(pair.torque)), cell(Some(tidy(pair.speed * RPM)))]);
+            cells.extend(
+                [
+                    pair.oil,
+                    pair.measured,
+                    pair.model,
+                    pair.difference,
+                    pair.of_loss,
+                    pair.accuracy,
+                ]
+                .map(cell),
+            );
+            rows.push(cells);
+        }
+        results.push(show(name, entry, c, out)?);
+    }
+    verdict(name, entry, &all, out)?;
+    let built: Vec<&Built<'_>> = all.iter().flat_map(|c| &c.built).collect();
+    let mut value = head(runner, name, &built);
+    value["data"] = json!({ "file": data.file, "points": measured.rows.len(), "notes": measured.notes });
+    value["comparisons"] = Value::Array(results);
+    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
+    if entry.write.contains(&WriteAlso::Svg) {
+        pictures(runner, name, entry, &all)?;
+    }
+    Ok(())
+}
+
+fn read(runner: &Runner<'_>, path: &str, data: &MeasuredEntry, entry: &CompareEntry) -> Result<Measured, Failure> {
+    let file = runner.study.folder.join(&data.file);
+    let wrong = |message: String, mend: String| -> Failure {
+        let error = Diagnostic::error(format!("{path}.data"), format!("{}: {message}", data.file)).mend(mend);
+        runner.study.findings(vec![error]).into()
+    };
+    let bytes = std::fs::read(&file).map_err(|e| {
+        wrong(
+            format!("cannot read: {e}"),
+            "file names are relative to the study".to_owned(),
+        )
+    })?;
+    let bind: Vec<&str> = entry.bind.ids().collect();
+    data.read(&bytes, &bind)
+        .map_err(|fault| wrong(fault.message, fault.mend))
+}
+
+/// What was measured, from whichever columns give it.
+struct Seen {
+    efficiency: Option<f64>,
+    loss: Option<f64>,
+    loss_torque: Option<f64>,
+    oil: Option<f64>,
+}
+
+impl Seen {
+    /// Torque and speed are those at the ports of the conditions; `out` columns those at the other port. Power counts as it
+    /// flows: what goes in is positive.
+    fn of(measured: &Measured, row: &Row, torque: f64, speed: f64, reference: f64) -> Self {
+        let value = |quantity: &str| measured.value(row, quantity);
+        let here = torque * speed;
+        let there = value("torque_out").zip(value("speed_out")).map(|(t, w)| t * w);
+        // Rigs write the torque of the brake with either sign: power comes in at one port and out at the other.
+        let both = there.map(|there| (here.abs().max(there.abs()), here.abs().min(there.abs())));
+        let loss = value("loss")
+            .or_else(|| value("loss_torque").map(|t| t * reference.abs()))
+            .or_else(|| both.map(|(more, less)| more - less))
+            .or_else(|| {
+                let eta = value("efficiency")?;
+                if here > 0.0 {
+                    Some(here * (1.0 - eta))
+                } else {
+                    (eta > 0.0).then(|| -here * (1.0 / eta - 1.0))
+                }
+            });
+        let efficiency = value("efficiency")
+            .or_else(|| both.map(|(more, less)| less / more))
+            .or_else(|| {
+                let loss = loss?;
+                if here > 0.0 {
+                    Some((here - loss) / here)
+                } else {
+                    (here < 0.0).then(|| -here / (loss - here))
+                }
+            })
+            .filter(|eta| eta.is_finite());
+        Self {
+            efficiency,
+            loss,
+            loss_torque: value("loss_torque").or_else(|| Some(loss? / reference.abs()).filter(|t| t.is_finite())),
+            oil: value("oil_temperature"),
+        }
+    }
+
+    fn quantity(&self, quantity: Quantity) -> Option<f64> {
+        match quantity {
+            Quantity::Efficiency => self.efficiency,
+            Quantity::Loss => self.loss,
+            Quantity::LossTorque => self.loss_torque,
+            Quantity::Temperature => self.oil,
+        }
+    }
+}
+
+fn compared<'a>(
+    runner: &'a Runner<'_>,
+    path: &str,
+    entry: &'a CompareEntry,
+    measured: &Measured,
+    set: &'a String,
+) -> Result<Compared<'a>, Failure> {
+    let (_, gearbox) = runner.study.gearbox(path, entry.gearbox.as_ref())?;
+    // One transmission for each combination of bound values.
+    let mut combinations: Vec<&Vec<String>> = Vec::new();
+    for row in &measured.rows {
+        if !combinations.contains(&&row.bound) {
+            combinations.push(&row.bound);
+        }
+    }
+    let mut built: Vec<Built<'_>> = Vec::new();
+    for bound in &combinations {
+        let paths = entry.bind.iter().map(|(_, path)| path.clone());
+        let overrides: Vec<(String, Value)> = paths.zip(bound.iter().map(|v| bound_value(v))).collect();
+        built.extend(runner.built_with(gearbox, std::slice::from_ref(set), &overrides)?);
+    }
+    let accuracy = match entry.quantity {
+        Quantity::Efficiency => "efficiency_accuracy",
+        Quantity::Loss => "loss_accuracy",
+        Quantity::LossTorque => "loss_torque_accuracy",
+        Quantity::Temperature => "oil_temperature_accuracy",
+    };
+    let mut pairs = Vec::new();
+    for (i, row) in measured.rows.iter().enumerate() {
+        let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
+        let b = &built[place];
+        let t = &b.transmission;
+        let value = |quantity: &str| measured.value(row, quantity);
+        let (torque, speed) = (value("torque").unwrap_or(0.0), value("speed").unwrap_or(0.0));
+        let gear = gear_of(row.gear.as_deref().or(entry.gear.as_deref()), t);
+        let mut points = runner.points(t, gear, vec![torque], vec![speed]);
+        // The measured temperature counts where the model does not find its own.
+        if let (Some(oil), ThermalMode::Fixed) = (value("oil_temperature"), t.thermal_mode) {
+            points.oil = OilTemperature::Fixed(oil);
+        }
+        let Some(point) = runner.solve(b, &points)?.points.pop() else {
+            continue;
+        };
+        pairs.push(pair(entry, measured, (i, row), &point, value(accuracy)));
+    }
+    Ok(Compared {
+        built,
+        name: set.clone(),
+        pairs,
+    })
+}
+
+fn pair(
+    entry: &CompareEntry,
+    measured: &Measured,
+    (i, row): (usize, &Row),
+    point: &PointResult,
+    accuracy: Option<f64>,
+) -> Pair {
+    let reference = point.loss.zip(point.loss_torque).map_or(point.speed, |(p, t)| p / t);
+    let seen = Seen::of(measured, row, point.torque, point.speed, reference);
+    let (saw, model) = (seen.quantity(entry.quantity), of(point, entry.quantity));
+    Pair {
+        row: i,
+        torque: point.torque,
+        speed: point.speed,
+        oil: point.oil,
+        measured: saw,
+        model,
+        difference: saw
+            .zip(model)
+            .and_then(|(saw, model)| entry.quantity.difference(entry.difference, saw, model)),
+        of_loss: seen
+            .loss
+            .zip(point.loss)
+            .and_then(|(saw, model)| (saw != 0.0).then(|| 100.0 * (model - saw) / saw)),
+        accuracy,
+    }
+}
+
+fn show(name: &str, entry: &CompareEntry, c: &Compared<'_>, out: &mut Out) -> Result<Value, Failure> {
+    let unit = entry.quantity.unit(entry.difference);
+    let differences = || c.pairs.iter().filter_map(|p| p.difference);
+    let of_all = Statistics::of(differences());
+    let of_loss = Statistics::of(c.pairs.iter().filter_map(|p| p.of_loss));
+    out.line(format!(
+        "{name}: {} minus measurement, {} in {unit}",
+        c.name,
+        entry.quantity.name()
+    ))?;
+    let figures = |s: &Statistics| {
+        [s.least, s.greatest, s.mean, s.rms]
+            .map(|x| number(Some(x), 3))
+            .to_vec()
+    };
+    let mut table = Table::new(&["over", "points", "least", "greatest", "mean", "rms"]);
+    let mut line = |over: String, s: Option<Statistics>| {
+        let mut row = vec![over, s.map_or(0, |s| s.count).to_string()];
+        row.extend(s.map_or_else(|| vec!["-".to_owned(); 4], |s| figures(&s)));
+        table.row(row);
+    };
+    line("all points".to_owned(), of_all);
+    line("all points, loss in % of loss".to_owned(), of_loss);
+    let mut groups = Vec::new();
+    for (what, unit_of, factor) in [("torque", "Nm", 1.0), ("speed", "rpm", RPM)] {
+        let at: Vec<f64> = c
+            .pairs
+            .iter()
+            .map(|p| if what == "torque" { p.torque } else { p.speed * factor })
+            .collect();
+        for ([from, to], places) in bands(&at) {
+            let of_band = Statistics::of(places.iter().filter_map(|i| c.pairs[*i].difference));
+            let range = if (to - from).abs() <= 0.005 * to.abs() {
+                format!("{from:.1}")
+            } else {
+                format!("{from:.1} to {to:.1}")
+            };
+            line(format!("{what} {range} {unit_of}"), of_band);
+            groups.push(json!({ "over": what, "unit": unit_of, "from": from, "to": to, "difference": of_band }));
+        }
+    }
+    out.text(&table.render())?;
+    out.line("")?;
+    Ok(json!({
+        "model_set": c.name,
+        "quantity": entry.quantity,
+        "unit": unit,
+        "difference": of_all,
+        "loss_percent_of_loss": of_loss,
+        "bands": groups,
+        "points": c.pairs.iter().map(|p| json!({
+            "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "oil_temperature_degc": p.oil,
+            "measured": p.measured, "model": p.model, "difference": p.difference, "loss_percent_of_loss": p.of_loss,
+            "accuracy": p.accuracy,
+        })).collect::<Vec<_>>(),
+    }))
+}
+
+/// Which set meets the measurement best, and whether the measurement can tell.
+fn verdict(name: &str, entry: &CompareEntry, all: &[Compared<'_>], out: &mut Out) -> Result<(), Failure> {
+    let rms = |c: &Compared<'_>| Statistics::of(c.pairs.iter().filter_map(|p| p.difference)).map(|s| s.rms);
+    let mut ranked: Vec<(&str, f64)> = all.iter().filter_map(|c| Some((c.name.as_str(), rms(c)?))).collect();
+    ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let [first, second, ..] = ranked[..] else {
+        return Ok(());
+    };
+    // The accuracy counts as the difference does: a share is a hundred points.
+    let accuracy = Statistics::of(all[0].pairs.iter().filter_map(|p| {
+        let value = p.accuracy?;
+        match entry.quantity {
+            _ if entry.difference == gearloss_framework::study::Difference::Percent => {
+                p.measured.filter(|m| *m != 0.0).map(|m| 100.0 * value / m)
+            }
+            Quantity::Efficiency => Some(100.0 * value),
+            _ => Some(value),
+        }
+    }));
+    let unit = entry.quantity.unit(entry.difference);
+    let words = format!(
+        "{name}: `{}` meets the measurement best, {:.3} {unit} rms; next `{}`, {:.3}",
+        first.0, first.1, second.0, second.1
+    );
+    match accuracy {
+        Some(a) if second.1 - first.1 < a.rms => out.line(format!(
+            "{words}; indistinguishable: the measurement is accurate to {:.3} {unit}",
+            a.rms
+        ))?,
+        _ => out.line(words)?,
+    }
+    out.line("")?;
+    Ok(())
+}
+
+fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compared<'_>]) -> Result<(), Failure> {
+    let what = entry.quantity.name();
+    let unit = entry.quantity.unit(entry.difference);
+    let parity = |c: &Compared<'_>| Line {
+        name: c.name.clone(),
+        points: c.pairs.iter().map(|p| Some((p.measured?, p.model?))).collect(),
+        stroke: Stroke::Dots,
+    };
+    let mut dots: Vec<Line> = all.iter().map(parity).collect();
+    let both = || {
+        dots.iter()
+            .flat_map(|l| l.points.iter().flatten())
+            .flat_map(|p| [p.0, p.1])
+    };
+    let (low, high) = (
+        both().fold(f64::INFINITY, f64::min),
+        both().fold(f64::NEG_INFINITY, f64::max),
+    );
+    if low <= high {
+        dots.push(Line {
+            name: "equal".to_owned(),
+            points: vec![Some((low, low)), Some((high, high))],
+            stroke: Stroke::Line,
+        });
+    }
+    let title = format!("{name}: parity of {what}");
+    let svg = plot::lines(&title, &format!("measured {what}"), &format!("model {what}"), &dots);
+    picture(runner, &format!("{name}-parity"), svg)?;
+    let steps = |c: &Compared<'_>| {
+        let values: Vec<f64> = c.pairs.iter().filter_map(|p| p.difference).collect();
+        let (from, width, counts) = histogram(&values);
+        let mut points = Vec::new();
+        for (i, count) in counts.iter().enumerate() {
+            let (left, right) = (from + width * i as f64, from + width * (i as f64 + 1.0));
+            points.extend([Some((left, *count as f64)), Some((right, *count as f64))]);
+        }
+        Line {
+            name: c.name.clone(),
+            points,
+            stroke: Stroke::Line,
+        }
+    };
+    let lines: Vec<Line> = all.iter().map(steps).collect();
+    let title = format!("{name}: model minus measurement, number of points");
+    let svg = plot::lines(&title, &format!("difference of {what} in {unit}"), "points", &lines);
+    picture(runner, &format!("{name}-histogram"), svg)
+}
