@@ -247,3 +247,14 @@ pub enum KindArg {
     /// Input of `eval`.
     Eval,
 }
+
+impl AxisArg {
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Z => "z",
+        }
+    }
+}

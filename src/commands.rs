@@ -14,13 +14,14 @@ pub mod solve;
 mod study_files;
 
 use gearloss_framework::document::{Diagnostic, Sources, read_yaml};
-use gearloss_framework::gearbox::Findings;
+use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Registry;
 use gearloss_framework::resolve::Choice;
+use gearloss_framework::transmission::Transmission;
 
 use crate::args::ChoiceArgs;
-use crate::output::Failure;
+use crate::output::{Failure, Out};
 
 /// The language of everything that is linked into this program.
 fn language() -> Result<Language, Failure> {
@@ -60,4 +61,12 @@ fn choice(args: &ChoiceArgs) -> Result<Choice, Failure> {
         overrides,
         ..Choice::default()
     })
+}
+
+/// Prints what was noticed while building, to standard error.
+fn warn(gearbox: &Gearbox, transmission: &Transmission) -> Result<(), Failure> {
+    for warning in &transmission.warnings {
+        Out::error().line(format!("{}\n", gearbox.sources.render(warning)))?;
+    }
+    Ok(())
 }

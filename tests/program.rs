@@ -281,7 +281,10 @@ fn run_writes_csv_and_json_and_prints_tables() {
         "-o",
         folder.to_str().unwrap(),
     ]);
-    assert!(text.contains("efficiency of joint minus iso in points"), "{text}");
+    assert!(
+        text.contains("efficiency of joint minus iso in efficiency points"),
+        "{text}"
+    );
     let maps: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(folder.join("maps.json")).unwrap()).unwrap();
     assert_eq!(maps["format"], "gearloss-result/1");

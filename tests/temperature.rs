@@ -39,7 +39,7 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
-const POINTS: &str = "name,speed [rpm],torque [Nm],volume [ml],measured_loss [W],measured_temperature [degC]
+const POINTS: &str = "name,speed [rpm],torque [Nm],volume [ml],measured_loss [W],measured_oil_temperature [degC]
 fast,3000,-16,130,60,47
 slow,1000,-16,60,,
 ";
@@ -54,8 +54,11 @@ fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
     assert_eq!(fast["bound"]["volume"], "130 ml", "{text}");
     let losses: f64 = fast["losses_w"].as_array().unwrap().iter().map(number).sum();
     assert!((losses / number(&fast["loss_w"]) - 1.0).abs() < 1e-12);
+    let gap = 100.0 * (number(&fast["loss_w"]) / 60.0 - 1.0);
     assert!(
-        text.contains("loss minus measurement in %: mean 0.1") && text.contains("1 points"),
+        text.contains(&format!(
+            "loss minus measurement in %: mean {gap:.2}, worst {gap:.2}, 1 points"
+        )),
         "{text}"
     );
     let picture = std::fs::read_to_string(folder.join("results/tests-own.svg")).unwrap();
@@ -88,6 +91,7 @@ fn a_faulty_file_of_points_is_refused_with_line_and_column() {
             "no point stands below the header",
         ),
         (POINTS.replace("60,,", "-3,,"), "housing.oil.volume"),
+        (POINTS.replace("130,60,", "130,-60,"), "line 2: a loss of -60 W"),
     ] {
         let (_, printed) = run("faulty", study, &[("points.csv", &text)]);
         assert!(printed.contains(said) && printed.contains("mend:"), "{said}\n{printed}");

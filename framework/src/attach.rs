@@ -7,6 +7,8 @@ mod clearance;
 mod member;
 mod support;
 
+use std::cell::Cell;
+
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
@@ -111,6 +113,8 @@ pub struct State<'a> {
     pub surface: f64,
     /// Loads of the supports.
     pub loads: &'a [SupportLoad],
+    /// How many loss models were asked.
+    pub asked: &'a Cell<usize>,
 }
 
 impl<'a> State<'a> {

@@ -38,7 +38,11 @@ pub fn check_all(language: &Language) -> Vec<String> {
                     // The example of `table` names a file; a plane over the first quantity stands for it.
                     if let Some(q) = (mechanism.quantities)().first() {
                         let unit = crate::document::Unit::of_doc(q.doc).map_or("-", |u| u.symbol);
-                        let csv = format!("{} [{unit}],answer\n{},0.01\n{},0.02\n", q.name, q.least, q.greatest);
+                        let answer = crate::document::Unit::of_doc(mechanism.answer).map_or("-", |u| u.symbol);
+                        let csv = format!(
+                            "{} [{unit}],answer [{answer}]\n{},0.01\n{},0.02\n",
+                            q.name, q.least, q.greatest
+                        );
                         files.put("table.csv", &csv);
                     }
                     for fault in (mechanism.conform)(language.registry(), &files, entry, &model, &part) {

@@ -108,6 +108,7 @@ impl Transmission {
         s.cells.fill(Extent::EMPTY);
         s.idle_drags.fill(0.0);
         s.passes = 0;
+        s.asked.set(0);
         s.loads.fill(SupportLoad::default());
         let standing = s.speeds.iter().all(|w| *w == 0.0);
 
@@ -119,6 +120,7 @@ impl Transmission {
                 oils: &s.oils,
                 surface: s.surface,
                 loads: &s.loads,
+                asked: &s.asked,
             };
             let losses = s.component_losses.iter_mut().zip(&mut s.relative);
             s.braking.clear();
@@ -167,9 +169,11 @@ impl Transmission {
             idle_drags,
             relative,
             braking,
+            asked,
             work,
             ..
         } = s;
+        let asked = &*asked;
         let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
         let (idle_drags, relative) = (&*idle_drags, &*relative);
         let cells = Cell::from_mut(cells.as_mut_slice()).as_slice_of_cells();
@@ -196,6 +200,7 @@ impl Transmission {
                 oils,
                 surface,
                 loads,
+                asked,
             };
             if self.uneven {
                 for (which, loads) in uneven_loads.iter_mut().enumerate() {
@@ -262,6 +267,7 @@ impl Transmission {
             oils: &s.oils,
             surface: s.surface,
             loads: &s.loads,
+            asked: &s.asked,
         };
         for ((component, loss), speed) in self.components.iter().zip(&mut s.component_losses).zip(&s.relative) {
             if component.loaded && !component.off && *speed == 0.0 {
@@ -273,6 +279,7 @@ impl Transmission {
 
     /// Loss of one drag model.
     fn drag(&self, index: usize, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+        state.asked.set(state.asked.get() + 1);
         let drag = &self.drags[index];
         let seat = &drag.seat;
         let oil = &state.oils[drag.oil as usize];
@@ -310,6 +317,7 @@ impl Transmission {
     ) -> Result<Loss, Undefined> {
         let mesh = &self.meshes[index];
         let one = |factor: f64, notes: Notes<'_>| {
+            state.asked.set(state.asked.get() + 1);
             let at = self.mesh_at(index, factor * tangential, drives, state, notes);
             sound(mesh.model.loss(&at))
         };
@@ -443,6 +451,7 @@ fn noting(quiet: bool, cells: &[Cell<Extent>], base: NoteBase) -> Notes<'_> {
 /// Loss of one copy of a component. Where the shaft has thrust that nothing takes, the load of its bearings is unknown and
 /// so is their loss, unless it was switched off.
 pub(crate) fn component_loss(component: &Component, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+    state.asked.set(state.asked.get() + 1);
     let answer = component.placed.loss(state, notes);
     let untaken = component.support.map_or(0.0, |n| state.loads[n as usize].untaken);
     match &answer {

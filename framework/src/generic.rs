@@ -81,7 +81,7 @@ impl<M: Mechanism> Scalar<M> {
 /// Where a point lies in a table: the first limit of every model that reads one.
 pub const PLACE: Limit = Limit::new(
     0,
-    "place along the farthest axis",
+    "place along the axis that is left farthest, 0 and 1 its ends",
     "-",
     0.0,
     1.0,
@@ -269,6 +269,11 @@ impl<M: Mechanism> Lookup<M> {
         }
         let tables = Table::several_from_csv(&text, reading, axes).map_err(fault)?;
         for (table, column) in tables.iter().zip(&columns[axes..]) {
+            if table.unit().is_none() && unit != "-" {
+                return Err(cx
+                    .error(format!("{file}: line 1: `{column}` has no unit"))
+                    .mend(format!("convert it where needed and write `{column} [{unit}]`")));
+            }
             if let Some(written) = table.unit().filter(|written| *written != unit) {
                 return Err(cx
                     .error(format!("{file}: line 1: `{column}` is in {written}, not in {unit}"))
@@ -292,6 +297,22 @@ impl<M: Mechanism> Lookup<M> {
                 return Err(cx
                     .error(format!("{file}: `{}` is not known here", quantity.name))
                     .mend(format!("state {needed}")));
+            }
+        }
+        for (place, (point, first)) in tables[0].points().into_iter().enumerate() {
+            let sum = first + tables[1..].iter().map(|t| t.points()[place].1).sum::<f64>();
+            if sum < 0.0 {
+                let at: Vec<String> = point
+                    .iter()
+                    .zip(&columns)
+                    .map(|(x, name)| format!("{name} = {x}"))
+                    .collect();
+                return Err(cx
+                    .error(format!(
+                        "{file}: at {} the answer is {sum}, which is negative",
+                        at.join(", ")
+                    ))
+                    .mend("correct it: losses and coefficients are not negative"));
             }
         }
         Ok(Self { tables, axes })

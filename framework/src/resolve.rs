@@ -208,6 +208,19 @@ fn give_models(
             .unwrap_or_default();
         let path = |slot: &str| format!("thermal.{HEAT}.{slot}");
         let mut slots = Map::new();
+        if let Some((name, s)) = set {
+            let kept: Vec<&str> = ways
+                .keys()
+                .filter(|slot| own.contains_key(*slot))
+                .map(String::as_str)
+                .collect();
+            if s.models.contains_key(HEAT) && !kept.is_empty() {
+                unreached.push(format!(
+                    "thermal.{HEAT}: {} keep their own model under `{name}`",
+                    kept.join(", ")
+                ));
+            }
+        }
         for (slot, model) in ways.iter().filter(|(slot, _)| !own.contains_key(*slot)) {
             slots.insert(slot.clone(), model.clone());
             came.insert(path(slot), from.clone());

@@ -166,8 +166,8 @@ pub struct OperatingPointsEntry {
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// CSV file beside the study, one row for each point: `name`, `torque [Nm]`, `speed [rpm]`, the columns of `bind`, and what
-    /// was measured: `measured_loss [W]` and `measured_temperature [degC]` of the oil, each with an error such as
-    /// `measured_loss_error [W]`. Cells of measured columns may be empty.
+    /// was measured: `measured_loss [W]`, `measured_oil_temperature [degC]`, `measured_surface_temperature [degC]`, each with an
+    /// error such as `measured_loss_error [W]` or `measured_surface_temperature_error [K]`. Cells of measured columns may be empty.
     pub file: String,
     /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit stands
     /// in the header: `volume [ml]`.
@@ -197,7 +197,8 @@ pub struct ThermalLimitEntry {
     /// What is looked for: the torque at each speed, or the speed at each torque.
     #[serde(default)]
     pub find: Find,
-    /// Torques: the range in which the limit is looked for, from its first to its last; or those at which the speed is.
+    /// Torques: the range in which the limit is looked for, from the value nearest to zero to the farthest; or those at which
+    /// the speed is.
     pub torque: TorqueAxis,
     /// Speeds: those at which the torque is looked for; or the range in which the limit is.
     pub speed: SpeedAxis,
@@ -436,6 +437,24 @@ impl Quantity {
             (Difference::Points, Self::LossTorque) => "nm",
             (Difference::Points, Self::Temperature) => "k",
         }
+    }
+
+    /// The quantity and the unit of a difference in words.
+    pub fn words(self, difference: Difference) -> (&'static str, &'static str) {
+        let what = match self {
+            Self::Efficiency => "efficiency",
+            Self::Loss => "loss",
+            Self::LossTorque => "loss torque",
+            Self::Temperature => "oil temperature",
+        };
+        let unit = match (difference, self) {
+            (Difference::Percent, _) => "%",
+            (Difference::Points, Self::Efficiency) => "efficiency points",
+            (Difference::Points, Self::Loss) => "W",
+            (Difference::Points, Self::LossTorque) => "Nm",
+            (Difference::Points, Self::Temperature) => "K",
+        };
+        (what, unit)
     }
 
     /// The other value minus the base, in that unit; absent where the base is zero and a percentage is asked for.

@@ -2,13 +2,14 @@
 
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::loss::Step;
+use gearloss_framework::loss::{Step, Trace};
 use gearloss_framework::resolve::{Came, Resolved, lookup};
 use gearloss_framework::transmission::{PartInfo, Transmission};
 use serde_json::Value;
 
 use super::point::prepare;
 use super::solve::{RPM, heading, of_balance};
+use super::warn;
 use super::{choice, language};
 use crate::args::ExplainArgs;
 use crate::output::{End, Failure, Out, significant};
@@ -18,16 +19,30 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
     let gearbox = Gearbox::read(&language, &args.gearbox)?;
     let resolved = gearbox.resolve(&language, &choice(&args.choice)?)?;
     let transmission = gearbox.build(&language, &resolved)?;
-    let chosen = parts_of(&transmission, &args.component)?;
+    warn(&gearbox, &transmission)?;
+    let ways = ways_of(&transmission, &args.component);
+    let chosen = match parts_of(&transmission, &args.component) {
+        Err(_) if !ways.is_empty() => Vec::new(),
+        chosen => chosen?,
+    };
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
     let point = prepared.point();
     let (oil, balance) = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
     let solution = transmission.evaluate(&prepared.case, &point, &vec![oil; transmission.nodes()], &mut scratch);
-    out.text(&heading(&transmission, &solution, &prepared, oil))?;
+    out.text(&heading(
+        &transmission,
+        &solution,
+        &prepared,
+        &format!("oil {} degC", significant(oil)),
+    ))?;
     if let Some(balance) = &balance {
-        out.text(&of_balance(&transmission, balance))?;
+        out.text(&of_balance(&transmission, balance, true))?;
         out.line("")?;
+    }
+    for way in ways {
+        let surface = balance.as_ref().and_then(|b| b.surface).unwrap_or(oil);
+        explain_way(&transmission, &gearbox, &resolved, way, (oil, surface), out)?;
     }
     for part in chosen {
         let info = &transmission.parts()[part];
@@ -38,23 +53,7 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
             significant(loss.speed * RPM),
             significant(info.count)
         ))?;
-        let mut last = usize::MAX;
-        for step in trace.into_steps() {
-            if step.instance() != last {
-                last = step.instance();
-                let instance = &transmission.instances()[last];
-                out.line(format!("  {} ({})", instance.path, instance.entry.name))?;
-            }
-            match step {
-                Step::Value {
-                    symbol, unit, value, ..
-                } => {
-                    let unit = if unit == "-" { "" } else { unit };
-                    out.line(format!("    {symbol} = {} {unit}", significant(value)).trim_end())?;
-                }
-                Step::Branch { taken, .. } => out.line(format!("    branch: {taken}"))?,
-            }
-        }
+        steps(&transmission, trace, out)?;
         match loss.result {
             Ok(_) => {
                 for term in transmission.instances()[info.notes.instance].entry.terms {
@@ -81,6 +80,73 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
         out.line("")?;
     }
     Ok(End::Fine)
+}
+
+/// The steps of a model, with the place of each model that took them.
+fn steps(transmission: &Transmission, trace: Trace, out: &mut Out) -> Result<(), Failure> {
+    let mut last = usize::MAX;
+    for step in trace.into_steps() {
+        if step.instance() != last {
+            last = step.instance();
+            let instance = &transmission.instances()[last];
+            out.line(format!("  {} ({})", instance.path, instance.entry.name))?;
+        }
+        match step {
+            Step::Value {
+                symbol, unit, value, ..
+            } => {
+                let unit = if unit == "-" { "" } else { unit };
+                out.line(format!("    {symbol} = {} {unit}", significant(value)).trim_end())?;
+            }
+            Step::Branch { taken, .. } => out.line(format!("    branch: {taken}"))?,
+        }
+    }
+    Ok(())
+}
+
+/// Ways of heat by path, by name, or all below `thermal`.
+fn ways_of(transmission: &Transmission, name: &str) -> Vec<usize> {
+    let fits =
+        |path: &str| path == name || path.starts_with(&format!("{name}.")) || path.split('.').nth(2) == Some(name);
+    let ways = transmission.housing().ways().iter().enumerate();
+    ways.filter(|(_, way)| fits(&way.path)).map(|(i, _)| i).collect()
+}
+
+fn explain_way(
+    transmission: &Transmission,
+    gearbox: &Gearbox,
+    resolved: &Resolved,
+    way: usize,
+    (oil, surface): (f64, f64),
+    out: &mut Out,
+) -> Result<(), Failure> {
+    let path = &transmission.housing().ways()[way].path;
+    if let Some(instance) = transmission.instances().iter().find(|i| i.path == *path) {
+        let entry = &instance.entry;
+        out.line(format!(
+            "{path}: {} `{}`\n  {}\n  source: {}",
+            entry.mechanism, entry.name, entry.meaning, entry.source
+        ))?;
+    }
+    out.line(format!(
+        "oil {} degC, surface {} degC",
+        significant(oil),
+        significant(surface)
+    ))?;
+    let (heat, trace) = transmission.explain_way(way, oil, surface);
+    steps(transmission, trace, out)?;
+    match heat {
+        Ok(heat) => out.line(format!("  heat: {} W", significant(heat)))?,
+        Err(undefined) => out.line(format!("  {undefined}"))?,
+    }
+    out.line("  inputs (SI, temperatures in degC):")?;
+    for place in [path.as_str(), "housing.outside"] {
+        if let Some(entry) = lookup(&resolved.value, place) {
+            inputs(place, entry, gearbox, resolved, out)?;
+        }
+    }
+    out.line("")?;
+    Ok(())
 }
 
 /// Path of the component that a part belongs to; a drag belongs to its slot.

@@ -6,6 +6,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use gearloss_framework::document::{Unit, parse_quantity};
+use gearloss_framework::mechanism::Mechanism;
+use gearloss_framework::mechanism::planetary_drag::PlanetaryDrag;
+use gearloss_framework::table::{Reading, Table as Csv};
 
 use self::openfoam::{Mean, history};
 use crate::args::{AxisArg, ImportArgs, ImportFrom};
@@ -45,14 +48,20 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     let mut means = Vec::new();
     for run in &list.runs {
         let folder = beside.join(&run.folder);
-        let mean = history(&folder)
-            .and_then(|samples| Mean::over(&samples, *axis as usize, window))
-            .map_err(|fault| {
-                Failure::input(
-                    format!("{}, line {}: {}: {fault}", runs.display(), run.line, folder.display()),
-                    "name the folder under `postProcessing` that holds the output of the function object",
-                )
-            })?;
+        let told = |fault: String, mend: &str| {
+            Failure::input(
+                format!("{}, line {}: {}: {fault}", runs.display(), run.line, folder.display()),
+                mend,
+            )
+        };
+        let samples = history(&folder).map_err(|fault| {
+            told(
+                fault,
+                "name the folder under `postProcessing` that holds the output of the function object",
+            )
+        })?;
+        let mean = Mean::over(&samples, *axis as usize, window)
+            .map_err(|fault| told(fault, "choose --from and --to inside the times of the run"))?;
         means.push(mean.times(*factor));
     }
     // Drag acts against the motion: all moments have one sign, which is that of the drag.
@@ -60,21 +69,29 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     if let Some((run, mean)) = list.runs.iter().zip(&means).find(|(_, m)| m.total() * sign <= 0.0) {
         return Err(Failure::input(
             format!(
-                "{}, line {}: the mean moment about {axis:?} is {} Nm, of another sign than that of the first run",
+                "{}, line {}: the mean moment about {} is {} Nm, of another sign than that of the first run",
                 runs.display(),
                 run.line,
+                axis.name(),
                 significant(mean.total())
             ),
             "check --axis, the sense of rotation and --from",
         ));
     }
     let table = list.table(&means, sign, *axis, window);
+    readable(&table, list.axes.len()).map_err(|fault| {
+        Failure::input(
+            format!("{}: the runs make no table: {fault}", runs.display()),
+            "give one run for each point of a full grid, its axes named as quantities with their units",
+        )
+    })?;
     write_new(output, &table)?;
-    let mut printed = Table::new(&["folder", "samples", "pressure Nm", "viscous Nm", "spread Nm"]);
+    let mut printed = Table::new(&["folder", "samples", "until s", "pressure Nm", "viscous Nm", "spread Nm"]);
     for (run, mean) in list.runs.iter().zip(&means) {
         printed.row(vec![
             run.folder.clone(),
             mean.samples.to_string(),
+            significant(mean.until),
             significant(sign * mean.pressure),
             significant(sign * mean.viscous),
             significant(mean.spread),
@@ -83,6 +100,30 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     out.text(&printed.render())?;
     out.line(format!("wrote {}", output.display()))?;
     Ok(End::Fine)
+}
+
+/// What is written must be what a drag model reads: full grid, known axes, their units.
+fn readable(table: &str, axes: usize) -> Result<(), String> {
+    let read = Csv::several_from_csv(table, &Reading::default(), axes)?;
+    for axis in read.iter().flat_map(Csv::axes) {
+        let Some(quantity) = PlanetaryDrag::QUANTITIES.iter().find(|q| q.name == axis.name) else {
+            let names: Vec<&str> = PlanetaryDrag::QUANTITIES.iter().map(|q| q.name).collect();
+            return Err(format!(
+                "`{}` is no quantity; there are: {}",
+                axis.name,
+                names.join(", ")
+            ));
+        };
+        if quantity.unit().symbol != axis.unit {
+            return Err(format!(
+                "`{}` is in {}, not in {}",
+                axis.name,
+                axis.unit,
+                quantity.unit().symbol
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
@@ -162,7 +203,8 @@ impl Runs {
     /// The table, its points in the order of rising axes.
     fn table(&self, means: &[Mean], sign: f64, axis: AxisArg, window: [f64; 2]) -> String {
         let mut text = format!(
-            "# Means of OpenFOAM moments about {axis:?} from {} s{}.\n",
+            "# Means of OpenFOAM moments about {} from {} s{}.\n",
+            axis.name(),
             window[0],
             if window[1].is_finite() {
                 format!(" to {} s", window[1])

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::check::grade;
 use super::point::{Prepared, prepare};
-use super::{choice, language};
+use super::{choice, language, warn};
 use crate::args::{Format, SolveArgs};
 use crate::output::{End, Failure, Out, Table, number, significant};
 
@@ -22,6 +22,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let gearbox = Gearbox::read(&language, &args.gearbox)?;
     let resolved = gearbox.resolve(&language, &choice(&args.choice)?)?;
     let transmission = gearbox.build(&language, &resolved)?;
+    warn(&gearbox, &transmission)?;
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
     let point = prepared.point();
@@ -39,7 +40,10 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     match args.format {
         Format::Json => {
             let mut value = as_json(&transmission, &solution, &prepared);
-            value["oil_temperature_degc"] = json!(oil);
+            // Without a balance there is no temperature of the oil; the losses belong to another one.
+            let found = balance.as_ref().is_none_or(|b| b.oil().is_some());
+            value["oil_temperature_degc"] = json!(found.then_some(oil));
+            value["evaluated_at_degc"] = json!(oil);
             value["thermal"] = json!(balance.as_ref().map(|b| json_of_balance(&transmission, b)));
             value["notes"] = json!(seen);
             value["evidence"] = json!(known);
@@ -47,9 +51,13 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
         }
         Format::Table => {
-            out.text(&as_table(&transmission, &solution, &prepared, oil))?;
+            let at = match &balance {
+                Some(b) if b.oil().is_none() => format!("no balance, losses at {} degC", significant(oil)),
+                _ => format!("oil {} degC", significant(oil)),
+            };
+            out.text(&as_table(&transmission, &solution, &prepared, &at))?;
             if let Some(balance) = &balance {
-                out.text(&of_balance(&transmission, balance))?;
+                out.text(&of_balance(&transmission, balance, true))?;
             }
             out.text(&outside(&seen))?;
             for line in &resolved.unreached {
@@ -87,15 +95,14 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
 }
 
 /// The point in words and the state of the transmission.
-pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, oil: f64) -> String {
+pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, at: &str) -> String {
     let mut text = String::new();
     if !transmission.title().is_empty() {
         text.push_str(&format!("{}\n", transmission.title()));
     }
     text.push_str(&format!(
-        "gear {}, oil {} degC, {} flow\n\n",
+        "gear {}, {at}, {} flow\n\n",
         prepared.gear,
-        significant(oil),
         if matches!(prepared.flow, gearloss_framework::evaluate::PowerFlow::Real) {
             "real"
         } else {
@@ -117,8 +124,8 @@ pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &
     text
 }
 
-fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, oil: f64) -> String {
-    let mut text = heading(transmission, solution, prepared, oil);
+fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, at: &str) -> String {
+    let mut text = heading(transmission, solution, prepared, at);
     if !transmission.supports().is_empty() {
         let mut loads = Table::new(&["support", "radial N", "axial N", "tilting Nm"]);
         for (i, path) in transmission.supports().iter().enumerate() {
@@ -129,6 +136,14 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
                 format!("{:.1}", load.axial),
                 format!("{:.3}", load.tilting),
             ]);
+            if let Some(load) = solution.most_loaded(i) {
+                loads.row(vec![
+                    format!("{path}, most loaded planet"),
+                    format!("{:.1}", load.radial),
+                    format!("{:.1}", load.axial),
+                    format!("{:.3}", load.tilting),
+                ]);
+            }
         }
         text.push_str(&loads.render());
         text.push('\n');
@@ -192,8 +207,8 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
     text
 }
 
-/// What became of the balance, in lines.
-pub fn of_balance(transmission: &Transmission, balance: &Equilibrium) -> String {
+/// What became of the balance, in lines; `above` where losses were printed before.
+pub fn of_balance(transmission: &Transmission, balance: &Equilibrium, above: bool) -> String {
     let housing = transmission.housing();
     let mut text = format!("balance: {}", balance.outcome.name());
     if let (Some(oil), Some(surface)) = (balance.oil(), balance.surface) {
@@ -202,7 +217,11 @@ pub fn of_balance(transmission: &Transmission, balance: &Equilibrium) -> String 
             significant(housing.ambient)
         ));
     }
-    text.push_str(&format!(", {} evaluations\n", balance.evaluations()));
+    text.push_str(&format!(
+        ", {} evaluations, looked for every {} K\n",
+        balance.evaluations(),
+        significant(balance.spacing)
+    ));
     for (way, watts) in housing.ways().iter().zip(&balance.ways) {
         text.push_str(&format!("  {} takes {watts:.3} W\n", way.path));
     }
@@ -231,21 +250,30 @@ pub fn of_balance(transmission: &Transmission, balance: &Equilibrium) -> String 
                 all.join(", ")
             ));
         }
-        Outcome::NoneBelowMaximum => text.push_str(&format!(
-            "  losses are greater than the heat up to {} degC, at which the losses above are shown; looked for every {} K\n",
-            significant(housing.maximum),
-            significant(balance.spacing)
-        )),
-        Outcome::Undefined => {
-            if let Some((temperature, why)) = &balance.undefined {
-                text.push_str(&format!(
-                    "  at {temperature:.2} degC {}; the losses above are those at {} degC\n",
-                    because(transmission, why),
-                    significant(housing.maximum)
-                ));
-            }
+        Outcome::NoneBelowMaximum => {
+            text.push_str(&format!(
+                "  losses are greater than the heat up to {} degC",
+                significant(housing.maximum)
+            ));
+            text.push_str(if above {
+                ", at which the losses above are shown\n"
+            } else {
+                "\n"
+            });
         }
-        Outcome::Converged | Outcome::AtDiscontinuity => {}
+        Outcome::Undefined if above => {
+            text.push_str(&format!(
+                "  the losses above are those at {} degC\n",
+                significant(housing.maximum)
+            ));
+        }
+        Outcome::Converged | Outcome::AtDiscontinuity | Outcome::Undefined => {}
+    }
+    if let Some((temperature, why)) = &balance.undefined {
+        text.push_str(&format!(
+            "  no value at {temperature:.2} degC: {}\n",
+            because(transmission, why)
+        ));
     }
     text
 }
@@ -306,12 +334,16 @@ pub fn outside(notes: &[Note]) -> String {
     for note in notes.iter().filter(|n| n.outside > 0) {
         if let Some((least, greatest, origin)) = note.range {
             text.push_str(&format!(
-                "outside: {}: {} {} to {} {} is outside of {} to {} at {} of {} points ({origin})\n",
+                "outside: {}: {} {} to {}{} is outside of {} to {} at {} of {} points ({origin})\n",
                 note.path,
                 note.name,
                 significant(note.least),
                 significant(note.greatest),
-                note.unit,
+                if note.unit == "-" {
+                    String::new()
+                } else {
+                    format!(" {}", note.unit)
+                },
                 significant(least),
                 significant(greatest),
                 note.outside,
@@ -344,7 +376,13 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
         .enumerate()
         .map(|(i, path)| {
             let load = solution.load(i);
-            json!({ "support": path, "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting })
+            let most = solution
+                .most_loaded(i)
+                .map(|load| json!({ "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting }));
+            json!({
+                "support": path, "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting,
+                "most_loaded_planet": most,
+            })
         })
         .collect();
     let parts: Vec<Value> = solution

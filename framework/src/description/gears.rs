@@ -167,7 +167,8 @@ pub struct PlanetarySetEntry {
     /// Shafts that are the planet bodies; each stands for all of its equal copies.
     #[schemars(length(min = 1))]
     pub planets: Vec<String>,
-    /// Shaft whose speed the drag model refers to and that feels its moment, such as the input; absent, the carrier.
+    /// Shaft whose speed the drag model refers to and that feels its moment, such as the input; absent, the carrier. A table
+    /// over that speed holds for the ratio to the carrier at which it was made.
     pub reference: Option<String>,
     /// Size of the gearbox in its family, for drag tables with that axis. [mm]
     #[schemars(range(min = 1.0, max = 10000.0))]

@@ -1,5 +1,7 @@
 //! Space for one evaluation, and what was seen over many.
 
+use std::cell::Cell;
+
 use crate::attach::Oil;
 use crate::flow::{Balance, Status, Work};
 use crate::loads::SupportLoad;
@@ -42,14 +44,16 @@ pub struct Scratch {
     pub(super) balance: Balance,
     pub(super) status: Status,
     pub(super) passes: usize,
+    /// Loss models asked for the point.
+    pub(super) asked: Cell<usize>,
     /// What was seen of every limit and observed quantity since the scratch was made, one count for each point.
     pub totals: Vec<Extent>,
 }
 
 impl Scratch {
-    /// Passes over the loss models of the point that was evaluated last.
-    pub fn passes(&self) -> usize {
-        self.passes
+    /// Calls of loss models for the point that was evaluated last.
+    pub fn calls(&self) -> usize {
+        self.asked.get()
     }
 
     /// Where models of heat dissipation note what they saw; it counts over all points.
@@ -99,6 +103,7 @@ impl Scratch {
             },
             status: Status::Standstill,
             passes: 0,
+            asked: Cell::new(0),
             totals: vec![Extent::EMPTY; transmission.cells],
         }
     }

@@ -195,7 +195,17 @@ impl Solution<'_> {
         self.scratch.work.ports[self.transmission.ports[port].member]
     }
 
-    /// Load of a support by number.
+    /// Load of a support by number on the most loaded planet of its set; absent where planets share equally.
+    pub fn most_loaded(&self, support: usize) -> Option<SupportLoad> {
+        let of = self
+            .transmission
+            .components
+            .iter()
+            .find(|c| c.support == Some(support as u16))?;
+        of.sharing.and(self.scratch.uneven_loads[0].get(support).copied())
+    }
+
+    /// Load of a support by number; the mean over the planets where it sits on one.
     pub fn load(&self, support: usize) -> SupportLoad {
         self.scratch.loads[support]
     }
@@ -213,6 +223,7 @@ impl Solution<'_> {
             oils: &s.oils,
             surface: s.surface,
             loads: &s.loads,
+            asked: &s.asked,
         };
         self.transmission
             .mesh_at(mesh, s.tangential[mesh], s.work.drives[mesh], &state, Notes::MUTED)
@@ -246,6 +257,7 @@ impl Solution<'_> {
             oils: &s.oils,
             surface: s.surface,
             loads: &s.loads,
+            asked: &s.asked,
         };
         let info = &t.parts[part];
         let notes = Notes::new(&[], info.notes).traced(&trace);

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::balance::{Outcome, Root, Step, balance};
 use super::housing::SumpOil;
 use crate::evaluate::{Point, Scratch};
-use crate::loss::Undefined;
+use crate::loss::{Trace, Undefined};
 use crate::transmission::{Case, Transmission};
 
 /// Why losses or heat have no value at a temperature.
@@ -36,10 +36,25 @@ pub struct Equilibrium {
     pub scanned: usize,
     /// Distance of neighbouring temperatures of the scan: two balances that lie closer may both be missed. \[K\]
     pub spacing: f64,
-    /// Passes over the loss models on the way.
-    pub passes: usize,
+    /// Calls of loss models on the way.
+    pub calls: usize,
     /// Where losses or heat had no value, and why.
     pub undefined: Option<(f64, Unbalanced)>,
+}
+
+impl Transmission {
+    /// Heat flow of a way, by number, at temperatures of oil and surface in degC, with every step written down. \[W\]
+    pub fn explain_way(&self, way: usize, oil: f64, surface: f64) -> (Result<f64, Undefined>, Trace) {
+        let (rho, heat_capacity) = self.sump_heat(oil);
+        let oil = SumpOil {
+            temperature: oil,
+            rho,
+            heat_capacity,
+        };
+        let trace = Trace::default();
+        let heat = self.housing().explain(way, &oil, surface, &trace);
+        (heat, trace)
+    }
 }
 
 impl Equilibrium {
@@ -66,10 +81,10 @@ impl Transmission {
                 heat_capacity,
             }
         };
-        let mut passes = 0;
+        let mut calls = 0;
         let found = balance([housing.coldest(), housing.maximum], |t| {
             let loss = self.probe(case, point, &[t], scratch)?;
-            passes += scratch.passes();
+            calls += scratch.calls();
             let flow = housing.flow(&sump(t)).map_err(|(way, e)| Unbalanced::Way(way, e))?;
             Ok(Step {
                 temperature: t,
@@ -96,7 +111,7 @@ impl Transmission {
             history: found.history,
             scanned: found.scanned,
             spacing: found.spacing,
-            passes,
+            calls,
             undefined: found.undefined,
         }
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::balance::{Balance, Step, single};
 use crate::description::{GearboxEntry, HeatInto, OutsideEntry, Thermal, ThermalMode};
 use crate::document::Diagnostic;
-use crate::loss::{Extent, Notes, Undefined};
+use crate::loss::{Extent, Notes, Trace, Undefined};
 use crate::mechanism::heat_dissipation::{HeatDissipation, HeatDissipationAt, HousingPart, WarmSide};
 use crate::registry::{Build, Slot};
 
@@ -81,7 +81,7 @@ impl Housing {
         }
         let sum = |into: HeatInto| {
             let sources = thermal.sources.iter().filter(|(_, s)| s.into == into);
-            sources.map(|(_, s)| s.heat).sum()
+            sources.fold(0.0, |sum, (_, s)| sum + s.heat)
         };
         let housing = Self {
             part,
@@ -189,14 +189,15 @@ impl Housing {
             return Ok(oil.temperature);
         }
         // What comes through the wall and from sources falls with the temperature of the surface, what leaves it rises.
-        let hottest = oil.temperature + self.oil_to_surface * self.into_surface;
-        let low = self.coldest().min(oil.temperature);
-        if hottest <= low {
+        // The surface lies between the oil and the sinks of its ways, warmer by no more than what sources can push through.
+        let sinks = || self.ways.iter().filter(|w| w.side == WarmSide::Surface).map(|w| w.sink);
+        let low = sinks().fold(oil.temperature, f64::min);
+        let high = sinks().fold(oil.temperature, f64::max) + self.oil_to_surface * self.into_surface;
+        if high <= low {
             return Ok(low);
         }
-        let found: Balance<(usize, Undefined)> = single([low, hottest], |t| {
+        let found: Balance<(usize, Undefined)> = single([low, high], |t| {
             let (heat, scale) = self.sum(WarmSide::Surface, oil, t)?;
-            // A flow into the surface from a sink that is warmer counts as one that comes in.
             let through = (oil.temperature - t) / self.oil_to_surface;
             Ok(Step {
                 temperature: t,
@@ -208,9 +209,23 @@ impl Housing {
         match (found.taken(), found.undefined) {
             (Some(root), _) => Ok(root.temperature),
             (None, Some((_, reason))) => Err(reason),
-            // Only ways from the oil: the surface is as warm as what comes in makes it.
-            (None, None) => Ok(hottest),
+            (None, None) => Err((
+                0,
+                Undefined {
+                    what: "temperature of the surface between oil and sinks; oil [degC]",
+                    value: oil.temperature,
+                },
+            )),
         }
+    }
+
+    /// Heat flow of one way with every step written down. \[W\]
+    ///
+    /// # Errors
+    /// Where the model has no value.
+    pub(crate) fn explain(&self, way: usize, oil: &SumpOil, surface: f64, trace: &Trace) -> Result<f64, Undefined> {
+        let way = &self.ways[way];
+        self.flow_of(way, oil, surface, Notes::new(&[], way.model.notes).traced(trace))
     }
 
     /// Heat flow of every way at a temperature of the oil, with its notes. \[W\]
@@ -247,5 +262,86 @@ fn part(outside: Option<&OutsideEntry>) -> HousingPart {
         wall_conductivity: outside.wall_conductivity,
         emissivity: outside.emissivity,
         air_speed: outside.air_speed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::registry::{Entry, Files, MechanismEntry, Registry};
+
+    /// A housing with ways of constant conductance from the surface: conductance in W/K, sink in degC.
+    fn housing(ways: &[(f64, f64)], resistance: f64, source: f64) -> Housing {
+        // A registry needs a model beside the generic ones.
+        let own = Entry {
+            name: "stand_in",
+            ..crate::generic::entries::<HeatDissipation>()[0]
+        };
+        let mechanism = MechanismEntry::of::<HeatDissipation>(crate::origin!());
+        let registry = Registry::of([mechanism], [own], [], []).unwrap();
+        let files = Files::default();
+        let mut build = Build::new(&registry, &files);
+        let part = Arc::new(part(None));
+        let way = |(i, (conductance, sink)): (usize, &(f64, f64))| {
+            let law = serde_json::json!({ "type": "formula", "formula": format!("{conductance}") });
+            Way {
+                path: format!("way {i}"),
+                model: build.slot_at::<HeatDissipation>("way", &part, &law).unwrap(),
+                side: WarmSide::Surface,
+                sink: *sink,
+            }
+        };
+        let ways = ways.iter().enumerate().map(way).collect();
+        Housing {
+            part,
+            ways,
+            ambient: 20.0,
+            maximum: 150.0,
+            oil_to_surface: resistance,
+            into_oil: 0.0,
+            into_surface: source,
+        }
+    }
+
+    fn flow(housing: &Housing, temperature: f64) -> HeatFlow {
+        let oil = SumpOil {
+            temperature,
+            rho: 850.0,
+            heat_capacity: 2000.0,
+        };
+        housing.flow(&oil).unwrap()
+    }
+
+    #[test]
+    fn a_resistance_and_a_conductance_in_a_row_whichever_side_is_warmer() {
+        for (oil, sink) in [(80.0, 20.0), (55.0, 100.0), (20.0, 20.0)] {
+            let heat = flow(&housing(&[(4.0, sink)], 0.5, 0.0), oil);
+            let expected = (oil - sink) / (0.5 + 1.0 / 4.0);
+            assert!(
+                (heat.from_oil - expected).abs() < 1e-9 * expected.abs().max(1.0),
+                "{oil} {sink} {}",
+                heat.from_oil
+            );
+            assert!((heat.surface - (oil - 0.5 * expected)).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn two_sinks_and_a_source_meet_at_the_surface() {
+        for oil in [10.0, 50.0, 90.0] {
+            let heat = flow(&housing(&[(4.0, 20.0), (2.0, 70.0)], 0.2, 30.0), oil);
+            // Balance of the surface: (oil - t)/R + source = sum of G (t - sink).
+            let surface = (oil / 0.2 + 30.0 + 4.0 * 20.0 + 2.0 * 70.0) / (1.0 / 0.2 + 4.0 + 2.0);
+            assert!(
+                (heat.surface - surface).abs() < 1e-9,
+                "{oil}: {} against {surface}",
+                heat.surface
+            );
+            assert!((heat.from_oil - (oil - surface) / 0.2).abs() < 1e-8);
+        }
+        // Without a way from the surface a source goes through the resistance into the oil.
+        let closed = flow(&housing(&[], 0.2, 30.0), 50.0);
+        assert!((closed.surface - 56.0).abs() < 1e-9 && (closed.from_oil + 30.0).abs() < 1e-9);
     }
 }

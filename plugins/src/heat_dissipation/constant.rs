@@ -84,8 +84,22 @@ register!(HeatDissipation, "constant", Params,
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::heat_dissipation::HousingPart;
+
+    use super::*;
+
     #[test]
     fn e1_alpha_times_area_times_difference() {
-        assert!((24.7_f64 * 0.05 * 60.0 / 74.1000 - 1.0).abs() < 1e-9);
+        let part = HousingPart::default();
+        let at = HeatDissipationAt::usual(&part, Notes::MUTED);
+        let way = Constant {
+            alpha: 24.7,
+            area: 0.05,
+            side: WarmSide::Surface,
+            sink: None,
+        };
+        assert!((way.conductance(&at).unwrap() * 60.0 / 74.1000 - 1.0).abs() < 1e-9);
     }
 }

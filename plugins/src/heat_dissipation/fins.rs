@@ -35,7 +35,8 @@ pub struct Params {
     /// Thickness of the fins. [mm]
     #[schemars(range(min = 0.1, max = 1e3))]
     pub fin_thickness: f64,
-    /// Heat transfer coefficient; absent, convection of the textbooks without radiation. [W/(m2 K)]
+    /// Heat transfer coefficient; absent, convection of the textbooks over the height and length of the housing, without
+    /// radiation. [W/(m2 K)]
     #[schemars(range(min = 0.1, max = 1e5))]
     pub alpha: Option<f64>,
 }
@@ -100,7 +101,39 @@ register!(HeatDissipation, "fins", Params,
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+    use gearloss_framework::loss::Notes;
+
     use super::*;
+
+    /// Oil of 80 degC, air of 20 degC, 830 kg/m3 and 2100 J/(kg K), by hand.
+    #[test]
+    fn the_conductance_is_put_together_in_si() {
+        let part = HousingPart {
+            wall_thickness: 0.008,
+            wall_conductivity: 150.0,
+            emissivity: 0.9,
+            ..HousingPart::default()
+        };
+        let at = HeatDissipationAt {
+            surface_temperature: 80.0,
+            ..HeatDissipationAt::usual(&part, Notes::MUTED)
+        };
+        let way = Ready {
+            params: Params {
+                base_area: 0.01,
+                fin_area: 0.08,
+                fin_length: 0.020,
+                fin_thickness: 0.003,
+                alpha: Some(20.0),
+            },
+            part,
+            height: 1.0,
+            length: 1.0,
+        };
+        let conductance = way.conductance(&at).unwrap();
+        assert!((conductance / 1.77844 - 1.0).abs() < 1e-5, "{conductance}");
+    }
 
     #[test]
     fn e5_a_short_fin_is_nearly_perfect() {

@@ -25,6 +25,8 @@ pub struct Mean {
     pub spread: f64,
     /// Number of samples.
     pub samples: usize,
+    /// Time of the last sample. \[s\]
+    pub until: f64,
 }
 
 impl Mean {
@@ -53,6 +55,7 @@ impl Mean {
             viscous,
             spread: variance.sqrt(),
             samples: inside.len(),
+            until: inside[inside.len() - 1].time,
         })
     }
 

@@ -1,5 +1,6 @@
 //! How the temperature of one point is found: losses and heat over temperature, and every step.
 
+use gearloss_framework::analysis::notes;
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::report::plot::{self, Line, Stroke};
@@ -7,7 +8,7 @@ use gearloss_framework::study::{BalanceEntry, WriteAlso};
 use gearloss_framework::thermal::Step;
 use serde_json::{Value, json};
 
-use super::super::solve::{json_of_balance, of_balance};
+use super::super::solve::{json_of_balance, of_balance, outside};
 use super::thermal_limit::needs_balance;
 use super::write::{cell, head, picture, write};
 use super::{Runner, gear_of};
@@ -45,16 +46,25 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
             flow: points.flow,
             tolerance: Tolerance::default(),
         };
-        let found = t.equilibrium(&case, &point, &mut t.scratch(&case));
+        let mut scratch = t.scratch(&case);
+        let found = t.equilibrium(&case, &point, &mut scratch);
+        if let Some(oil) = found.oil() {
+            // What is noted belongs to the temperature that was found.
+            t.evaluate(&case, &point, &vec![oil; t.nodes()], &mut scratch);
+        }
+        let seen = notes(t, &scratch.totals);
         out.line(format!("{name}: models {}", b.name))?;
-        out.line(of_balance(t, &found))?;
+        out.text(&of_balance(t, &found, false))?;
+        out.line(outside(&seen))?;
         for (i, step) in found.history.iter().enumerate() {
             let of = if i < found.scanned { "scan" } else { "solution" };
             let mut row = vec![b.name.clone(), (i + 1).to_string(), of.to_owned()];
             row.extend([step.temperature, step.loss, step.heat, step.residual()].map(|x| cell(Some(x))));
             rows.push(row);
         }
-        results.push(json!({ "model_set": b.name, "gear": points.gear, "balance": json_of_balance(t, &found) }));
+        results.push(
+            json!({ "model_set": b.name, "gear": points.gear, "balance": json_of_balance(t, &found), "notes": seen }),
+        );
         if entry.write.contains(&WriteAlso::Svg) {
             pictures(runner, &format!("{name}-{}", b.name), &found.history, found.scanned)?;
         }

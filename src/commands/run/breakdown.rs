@@ -17,7 +17,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
     let torques = axis(runner, &format!("{path}.torque"), entry.torque.values())?;
     let speeds = axis(runner, &format!("{path}.speed"), entry.speed.values())?;
     let built = runner.built(gearbox, &entry.model_sets)?;
-    let unit = if entry.unit == As::Watts { "w" } else { "percent" };
+    let (unit, label) = if entry.unit == As::Watts {
+        ("w", "W")
+    } else {
+        ("percent", "%")
+    };
     let header: Vec<String> = [
         "model_set",
         "gear",
@@ -52,7 +56,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
         let shown = spread(speeds.len());
         for (t, torque) in torques.iter().enumerate() {
             out.line(format!(
-                "{name}: loss in {unit}, gear {gear}, {torque} Nm, models {}",
+                "{name}: loss in {label}, gear {gear}, {torque} Nm, models {}",
                 b.name
             ))?;
             let mut titles = vec!["share".to_owned()];

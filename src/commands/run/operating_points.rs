@@ -1,14 +1,15 @@
 //! Losses of a list of operating points from a file, as stacked bars, with room for what was measured.
 
-use gearloss_framework::analysis::PointResult;
+use gearloss_framework::analysis::{PointResult, notes};
 use gearloss_framework::document::{Diagnostic, Unit};
+use gearloss_framework::loss::Extent;
 use gearloss_framework::report::plot::{self, Bar};
 use gearloss_framework::study::{By, OperatingPointsEntry, WriteAlso};
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::transmission::PartInfo;
 use serde_json::{Value, json};
 
-use super::super::solve::RPM;
+use super::super::solve::{RPM, outside};
 use super::breakdown::{name_of, names, stack};
 use super::map::tidy;
 use super::write::{cell, head, picture, write};
@@ -22,16 +23,18 @@ struct Row {
     speed: f64,
     /// Bound values with their units, in the order of the entry.
     bound: Vec<String>,
-    /// Loss in W, its error, temperature in degC, its error.
-    measured: [Option<f64>; 4],
+    /// Loss in W, its error, temperature of the oil in degC, its error, temperature of the surface in degC, its error.
+    measured: [Option<f64>; 6],
 }
 
 /// Measured columns with their units.
-const MEASURED: [(&str, &str); 4] = [
+const MEASURED: [(&str, &str); 6] = [
     ("measured_loss", "W"),
     ("measured_loss_error", "W"),
-    ("measured_temperature", "degC"),
-    ("measured_temperature_error", "K"),
+    ("measured_oil_temperature", "degC"),
+    ("measured_oil_temperature_error", "K"),
+    ("measured_surface_temperature", "degC"),
+    ("measured_surface_temperature_error", "K"),
 ];
 
 pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &mut Out) -> Result<(), Failure> {
@@ -88,16 +91,28 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
     shares.retain(|share| !off(share));
     header.extend(shares.iter().map(|s| format!("{s}_w")));
     let (mut table, mut results) = (Vec::new(), Vec::new());
+    let merged = |total: &mut Vec<Extent>, more: &[Extent]| {
+        if total.is_empty() {
+            total.extend_from_slice(more);
+        } else {
+            for (a, b) in total.iter_mut().zip(more) {
+                *a = a.merge(*b);
+            }
+        }
+    };
     for set in 0..built.first().map_or(0, Vec::len) {
         let mut solved: Vec<(&Row, PointResult, Option<Vec<f64>>)> = Vec::new();
         let (mut set_name, mut gear) = (String::new(), String::new());
+        let mut seen: Vec<Extent> = Vec::new();
         for row in &rows {
             let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
             let b = &built[place][set];
             set_name.clone_from(&b.name);
             gear_of(entry.gear.as_deref(), &b.transmission).clone_into(&mut gear);
             let points = runner.points(&b.transmission, &gear, vec![row.torque], vec![row.speed]);
-            let Some(point) = runner.solve(b, &points)?.points.pop() else {
+            let mut result = runner.solve(b, &points)?;
+            merged(&mut seen, &result.seen);
+            let Some(point) = result.points.pop() else {
                 continue;
             };
             let stack = stack(b, &point, entry.by, &shares);
@@ -121,10 +136,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
             table.push(cells);
         }
         show(name, &set_name, entry, &shares, &solved, out)?;
+        // The transmissions of one set differ in bound values only, so their notes stand in the same order.
+        let seen = notes(&built[0][set].transmission, &seen);
+        out.line(outside(&seen))?;
         results.push(json!({
             "model_set": set_name,
             "gear": gear,
             "shares": shares,
+            "notes": seen,
             "points": solved.iter().map(|(row, p, stack)| json!({
                 "name": row.name,
                 "bound": entry.bind.ids().zip(&row.bound).map(|(k, v)| (k.to_owned(), json!(v))).collect::<serde_json::Map<_, _>>(),
@@ -156,7 +175,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
 
 fn bar(row: &Row, point: &PointResult, stack: Option<&[f64]>) -> Bar {
     let degrees = |t: Option<f64>| t.map_or_else(String::new, |t| format!("{t:.0} °C"));
-    let [loss, error, temperature, _] = row.measured;
+    let [loss, error, oil, _, surface, _] = row.measured;
+    let temperature = oil.or(surface);
     let mut label = format!("{}\n{:.0} rpm\n{} Nm", row.name, row.speed * RPM, row.torque);
     for value in &row.bound {
         label.push_str(&format!("\n{value}"));
@@ -186,7 +206,7 @@ fn show(
     head.extend(["loss W", "efficiency %"].map(str::to_owned));
     let measured = solved.iter().any(|(row, ..)| row.measured.iter().any(Option::is_some));
     if measured {
-        head.extend(["measured W", "measured degC"].map(str::to_owned));
+        head.extend(["measured W", "measured oil degC", "measured surface degC"].map(str::to_owned));
     }
     let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
     for (row, point, stack) in solved {
@@ -204,6 +224,7 @@ fn show(
         if measured {
             cells.push(number(row.measured[0], 2));
             cells.push(number(row.measured[2], 1));
+            cells.push(number(row.measured[4], 1));
         }
         table.row(cells);
     }
@@ -212,10 +233,12 @@ fn show(
         solved.iter().filter_map(|(row, point, _)| f(row, point)).collect()
     };
     let loss = gaps(&|row, point| Some(100.0 * (point.loss? / row.measured[0]? - 1.0)));
-    let kelvins = gaps(&|row, point| Some(point.oil? - row.measured[2]?));
+    let oil = gaps(&|row, point| Some(point.oil? - row.measured[2]?));
+    let surface = gaps(&|row, point| Some(point.surface? - row.measured[4]?));
     for (gaps, what) in [
         (loss, "loss minus measurement in %"),
-        (kelvins, "temperature minus measurement in K"),
+        (oil, "oil temperature minus measurement in K"),
+        (surface, "surface temperature minus measurement in K"),
     ] {
         if let Some(count) = Some(gaps.len()).filter(|n| *n > 0) {
             let mean = gaps.iter().sum::<f64>() / count as f64;
@@ -225,7 +248,6 @@ fn show(
             out.line(format!("{what}: mean {mean:.2}, worst {worst:.2}, {count} points"))?;
         }
     }
-    out.line("")?;
     Ok(())
 }
 
@@ -293,10 +315,24 @@ fn read(runner: &Runner<'_>, path: &str, entry: &OperatingPointsEntry) -> Result
             })
         };
         let needed = |name: &str| number(place(name).unwrap_or(0));
-        let mut measured = [None; 4];
+        let mut measured = [None; 6];
         for (value, (name, _)) in measured.iter_mut().zip(MEASURED) {
             if let Some(column) = place(name).filter(|c| !record[*c].is_empty()) {
                 *value = Some(number(column)?);
+            }
+        }
+        for (value, error) in [(0, 1), (2, 3), (4, 5)] {
+            let wrong = match (measured[value], measured[error]) {
+                (None, Some(_)) => Some(format!("`{}` without its value", MEASURED[error].0)),
+                (_, Some(error)) if error < 0.0 => Some(format!("an error of {error}")),
+                (Some(loss), _) if value == 0 && loss <= 0.0 => Some(format!("a loss of {loss} W")),
+                _ => None,
+            };
+            if let Some(wrong) = wrong {
+                return Err(fault(
+                    format!("line {line}: {wrong}"),
+                    "correct the cell, or leave it empty",
+                ));
             }
         }
         let mut bound = Vec::new();

@@ -1,5 +1,6 @@
 //! The torque, or the speed, at which the balance reaches a given temperature.
 
+use gearloss_framework::analysis::{Note, notes};
 use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::Point;
@@ -9,7 +10,7 @@ use gearloss_framework::study::{Find, ThermalLimitEntry, WriteAlso};
 use gearloss_framework::thermal::Limit;
 use serde_json::{Value, json};
 
-use super::super::solve::RPM;
+use super::super::solve::{RPM, outside};
 use super::map::tidy;
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, axis, gear_of};
@@ -46,6 +47,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
         .mend("write `{ from: ..., to: ..., step: ... }`");
         return Err(runner.study.findings(vec![error]).into());
     }
+    if range
+        .iter()
+        .any(|x| x * range[0] < 0.0 || x * range[range.len() - 1] < 0.0)
+    {
+        let error = Diagnostic::error(format!("{path}.{key}"), "the range goes through zero")
+            .mend("look on one side of zero at a time");
+        return Err(runner.study.findings(vec![error]).into());
+    }
     let built = runner.built(gearbox, &entry.model_sets)?;
     let header = [
         "model_set",
@@ -66,7 +75,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
     for b in &built {
         needs_balance(runner, &path, b)?;
         let gear = gear_of(entry.gear.as_deref(), &b.transmission);
-        let found = search(runner, entry, b, gear, &torques, &speeds)?;
+        let (found, seen) = search(runner, entry, b, gear, &torques, &speeds)?;
         for f in &found {
             let mut row = vec![b.name.clone(), gear.to_owned(), cell(Some(f.temperature))];
             row.push(cell(f.torque));
@@ -76,6 +85,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
             rows.push(row);
         }
         show(name, entry, b, &found, out)?;
+        out.line(outside(&seen))?;
         for temperature in &entry.temperature {
             let own = found.iter().filter(|f| f.temperature == *temperature);
             let name = if built.len() > 1 {
@@ -109,6 +119,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
             "gear": gear,
             "find": entry.find,
             "limits": found.iter().map(json_of).collect::<Vec<_>>(),
+            "notes": seen,
         }));
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
@@ -135,6 +146,15 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
 
 /// A limit needs ways on which heat leaves; a fixed temperature has none.
 pub fn needs_balance(runner: &Runner<'_>, path: &str, built: &Built<'_>) -> Result<(), Failure> {
+    if runner.study.entry.conditions.oil_temperature.is_some() {
+        let error = Diagnostic::error(
+            "conditions.oil_temperature",
+            "the study fixes the temperature, so there is no balance",
+        )
+        .note(format!("`{path}` asks for one"))
+        .mend("leave it out, or give this analysis a study of its own");
+        return Err(runner.study.findings(vec![error]).into());
+    }
     if built.transmission.thermal_mode == ThermalMode::Balance {
         return Ok(());
     }
@@ -150,7 +170,7 @@ fn search(
     gear: &str,
     torques: &[f64],
     speeds: &[f64],
-) -> Result<Vec<Found>, Failure> {
+) -> Result<(Vec<Found>, Vec<Note>), Failure> {
     let t = &built.transmission;
     let points = runner.points(t, gear, Vec::new(), Vec::new());
     let case = points
@@ -167,7 +187,18 @@ fn search(
         Find::Torque => (torques, speeds),
         Find::Speed => (speeds, torques),
     };
-    let range = [range[0], range[range.len() - 1]];
+    // From the value nearest to zero outwards, whichever way the axis runs.
+    let nearest = range
+        .iter()
+        .copied()
+        .min_by(|a, b| a.abs().total_cmp(&b.abs()))
+        .unwrap_or(0.0);
+    let farthest = range
+        .iter()
+        .copied()
+        .max_by(|a, b| a.abs().total_cmp(&b.abs()))
+        .unwrap_or(0.0);
+    let range = [nearest, farthest];
     let mut all = Vec::new();
     for temperature in &entry.temperature {
         for value in fixed {
@@ -216,7 +247,7 @@ fn search(
             all.push(found);
         }
     }
-    Ok(all)
+    Ok((all, notes(t, &scratch.totals)))
 }
 
 fn json_of(f: &Found) -> Value {

@@ -43,6 +43,7 @@ pub fn run(
     let quantity = |p: &PointResult| of(p, entry.quantity);
     let unit = entry.quantity.unit(entry.difference);
     let what = entry.quantity.name();
+    let (words, label) = entry.quantity.words(entry.difference);
     let header: Vec<String> = [
         "model_set",
         "base",
@@ -82,7 +83,7 @@ pub fn run(
             ]);
         }
         out.line(format!(
-            "{name}: {what} of {} minus {} in {unit}, gear {}",
+            "{name}: {words} of {} minus {} in {label}, gear {}",
             b.name, base, grid.gear
         ))?;
         let shown = spread(speeds.len());
@@ -151,11 +152,11 @@ pub fn run(
     value["comparisons"] = Value::Array(results);
     write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
     if entry.write.contains(&WriteAlso::Svg) {
-        let label = |x: f64| format!("{}", tidy(x));
-        let columns: Vec<String> = speeds.iter().map(|w| label(w * RPM)).collect();
-        let lines: Vec<String> = torques.iter().map(|t| label(*t)).collect();
+        let mark = |x: f64| format!("{}", tidy(x));
+        let columns: Vec<String> = speeds.iter().map(|w| mark(w * RPM)).collect();
+        let lines: Vec<String> = torques.iter().map(|t| mark(*t)).collect();
         for (b, differences) in built.iter().skip(1).zip(&gaps) {
-            let title = format!("{name}: {what} of {} minus {base} in {unit}", b.name);
+            let title = format!("{name}: {words} of {} minus {base} in {label}", b.name);
             let svg = plot::map(&title, ("speed rpm", &columns), ("torque Nm", &lines), differences);
             picture(runner, &format!("{name}-{}", b.name), svg)?;
         }

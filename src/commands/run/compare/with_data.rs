@@ -1,14 +1,15 @@
 //! Models against measured points: the model minus the measurement.
 
-use gearloss_framework::analysis::{OilTemperature, PointResult, Statistics, bands, histogram};
+use gearloss_framework::analysis::{Note, OilTemperature, PointResult, Statistics, bands, histogram, notes};
 use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::Extent;
 use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
 use gearloss_framework::report::plot::{self, Line, Stroke};
 use gearloss_framework::study::{CompareEntry, Quantity, WriteAlso};
 use serde_json::{Value, json};
 
-use super::super::super::solve::RPM;
+use super::super::super::solve::{RPM, outside};
 use super::super::map::tidy;
 use super::super::write::{cell, head, picture, write};
 use super::super::{Built, Runner, bound_value, gear_of};
@@ -35,6 +36,7 @@ struct Compared<'a> {
     built: Vec<Built<'a>>,
     name: String,
     pairs: Vec<Pair>,
+    notes: Vec<Note>,
 }
 
 pub fn run(
@@ -216,6 +218,7 @@ fn compared<'a>(
         Quantity::Temperature => "oil_temperature_accuracy",
     };
     let mut pairs = Vec::new();
+    let mut seen: Vec<Extent> = Vec::new();
     for (i, row) in measured.rows.iter().enumerate() {
         let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
         let b = &built[place];
@@ -228,12 +231,19 @@ fn compared<'a>(
         if let (Some(oil), ThermalMode::Fixed) = (value("oil_temperature"), t.thermal_mode) {
             points.oil = OilTemperature::Fixed(oil);
         }
-        let Some(point) = runner.solve(b, &points)?.points.pop() else {
-            continue;
-        };
+        let mut result = runner.solve(b, &points)?;
+        if seen.is_empty() {
+            seen.clone_from(&result.seen);
+        } else {
+            for (total, more) in seen.iter_mut().zip(&result.seen) {
+                *total = total.merge(*more);
+            }
+        }
+        let Some(point) = result.points.pop() else { continue };
         pairs.push(pair(entry, measured, (i, row), &point, value(accuracy)));
     }
     Ok(Compared {
+        notes: notes(&built[0].transmission, &seen),
         built,
         name: set.clone(),
         pairs,
@@ -273,11 +283,8 @@ fn show(name: &str, entry: &CompareEntry, c: &Compared<'_>, out: &mut Out) -> Re
     let differences = || c.pairs.iter().filter_map(|p| p.difference);
     let of_all = Statistics::of(differences());
     let of_loss = Statistics::of(c.pairs.iter().filter_map(|p| p.of_loss));
-    out.line(format!(
-        "{name}: {} minus measurement, {} in {unit}",
-        c.name,
-        entry.quantity.name()
-    ))?;
+    let (words, label) = entry.quantity.words(entry.difference);
+    out.line(format!("{name}: {} minus measurement, {words} in {label}", c.name))?;
     let figures = |s: &Statistics| {
         [s.least, s.greatest, s.mean, s.rms]
             .map(|x| number(Some(x), 3))
@@ -310,7 +317,7 @@ fn show(name: &str, entry: &CompareEntry, c: &Compared<'_>, out: &mut Out) -> Re
         }
     }
     out.text(&table.render())?;
-    out.line("")?;
+    out.line(outside(&c.notes))?;
     Ok(json!({
         "model_set": c.name,
         "quantity": entry.quantity,
@@ -318,6 +325,7 @@ fn show(name: &str, entry: &CompareEntry, c: &Compared<'_>, out: &mut Out) -> Re
         "difference": of_all,
         "loss_percent_of_loss": of_loss,
         "bands": groups,
+        "notes": c.notes,
         "points": c.pairs.iter().map(|p| json!({
             "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "oil_temperature_degc": p.oil,
             "measured": p.measured, "model": p.model, "difference": p.difference, "loss_percent_of_loss": p.of_loss,
@@ -345,7 +353,7 @@ fn verdict(name: &str, entry: &CompareEntry, all: &[Compared<'_>], out: &mut Out
             _ => Some(value),
         }
     }));
-    let unit = entry.quantity.unit(entry.difference);
+    let (_, unit) = entry.quantity.words(entry.difference);
     let words = format!(
         "{name}: `{}` meets the measurement best, {:.3} {unit} rms; next `{}`, {:.3}",
         first.0, first.1, second.0, second.1
@@ -362,8 +370,7 @@ fn verdict(name: &str, entry: &CompareEntry, all: &[Compared<'_>], out: &mut Out
 }
 
 fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compared<'_>]) -> Result<(), Failure> {
-    let what = entry.quantity.name();
-    let unit = entry.quantity.unit(entry.difference);
+    let (what, unit) = entry.quantity.words(entry.difference);
     let parity = |c: &Compared<'_>| Line {
         name: c.name.clone(),
         points: c.pairs.iter().map(|p| Some((p.measured?, p.model?))).collect(),
