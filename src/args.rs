@@ -202,6 +202,9 @@ pub struct RunArgs {
     /// Folder for the results; absent, `results` beside the study.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Template of the report, in place of the built-in one.
+    #[arg(long, value_name = "FILE")]
+    pub template: Option<PathBuf>,
 }
 
 /// Arguments of `models`.

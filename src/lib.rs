@@ -12,6 +12,7 @@
 mod args;
 mod commands;
 mod output;
+mod report;
 
 use std::process::ExitCode;
 

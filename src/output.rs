@@ -45,6 +45,8 @@ pub struct Out {
     to: Box<dyn Write>,
     terminal: bool,
     closed: bool,
+    /// What was printed since the copy was begun.
+    copy: Option<String>,
 }
 
 impl Out {
@@ -54,6 +56,7 @@ impl Out {
             to: Box::new(io::stdout().lock()),
             terminal: io::stdout().is_terminal(),
             closed: false,
+            copy: None,
         }
     }
 
@@ -63,6 +66,7 @@ impl Out {
             to: Box::new(io::stderr().lock()),
             terminal: io::stderr().is_terminal(),
             closed: false,
+            copy: None,
         }
     }
 
@@ -71,8 +75,21 @@ impl Out {
         self.terminal
     }
 
+    /// Keeps a copy of what is printed from here on.
+    pub fn begin_copy(&mut self) {
+        self.copy = Some(String::new());
+    }
+
+    /// The copy, which ends here.
+    pub fn end_copy(&mut self) -> String {
+        self.copy.take().unwrap_or_default()
+    }
+
     /// Prints a text as it is.
     pub fn text(&mut self, text: &str) -> io::Result<()> {
+        if let Some(copy) = &mut self.copy {
+            copy.push_str(text);
+        }
         if self.closed {
             return Ok(());
         }

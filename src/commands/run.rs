@@ -7,9 +7,11 @@ mod component_compare;
 mod contact_path;
 mod map;
 mod operating_points;
+mod report;
 mod thermal_limit;
 mod write;
 
+use std::cell::RefCell;
 use std::path::PathBuf;
 
 use gearloss_framework::analysis::{GridResult, OilTemperature, Points, run_grid};
@@ -25,6 +27,7 @@ use super::language;
 use super::study_files::Study;
 use crate::args::RunArgs;
 use crate::output::{End, Failure, Out};
+use crate::report::Report;
 
 /// One gearbox under one set of models.
 pub(super) struct Built<'a> {
@@ -40,6 +43,7 @@ pub(super) struct Runner<'a> {
     study: &'a Study,
     folder: PathBuf,
     progress: bool,
+    report: RefCell<Report>,
 }
 
 impl Runner<'_> {
@@ -119,6 +123,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
         study: &study,
         folder,
         progress: out.is_terminal(),
+        report: RefCell::default(),
     };
     if let Some(title) = &study.entry.title {
         out.line(title)?;
@@ -126,6 +131,8 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     }
     let mut failed = 0;
     for (name, analysis) in study.entry.analyses.iter() {
+        runner.report.borrow_mut().begin(name, about(analysis));
+        out.begin_copy();
         let done = match analysis {
             Analysis::Map(entry) => map::run(&runner, name, entry, out),
             Analysis::Compare(entry) => compare::run(&runner, name, entry, out),
@@ -136,17 +143,21 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::ThermalLimit(entry) => thermal_limit::run(&runner, name, entry, out),
             Analysis::Balance(entry) => balance::run(&runner, name, entry, out),
         };
+        let printed = out.end_copy();
+        runner.report.borrow_mut().text(&printed);
         match done {
             Ok(()) => {}
             // What was computed before and what comes after is kept.
             Err(Failure::Input(text)) => {
                 failed += 1;
                 out.line(format!("{name}: failed"))?;
+                runner.report.borrow_mut().text(&format!("failed\n{text}"));
                 Out::error().text(&text)?;
             }
         }
     }
-    out.line(format!("results in {}", runner.folder.display()))?;
+    report::write(&runner, args.template.as_deref())?;
+    out.line(format!("results in {}, report in report.html", runner.folder.display()))?;
     if failed == 0 {
         Ok(End::Fine)
     } else {
@@ -177,4 +188,20 @@ fn gear_of<'a>(named: Option<&'a str>, transmission: &'a Transmission) -> &'a st
 /// A bound value as it goes into the document: a text with its unit, or a bare number.
 fn bound_value(text: &str) -> Value {
     text.parse::<f64>().map_or_else(|_| Value::from(text), Value::from)
+}
+
+/// What an analysis is, as a sentence.
+fn about(analysis: &Analysis) -> &'static str {
+    match analysis {
+        Analysis::Map(_) => "Losses and efficiency over a grid.",
+        Analysis::Compare(_) => "Differences between sets of models and products, or between them and a measurement.",
+        Analysis::Breakdown(_) => "Where the losses arise.",
+        Analysis::ComponentCompare(_) => "Several models of one component.",
+        Analysis::ContactPath(_) => {
+            "Speeds, load, pressure, friction, film and loss along the path of contact of one mesh."
+        }
+        Analysis::OperatingPoints(_) => "Losses of a list of operating points.",
+        Analysis::ThermalLimit(_) => "How far a torque or a speed can go before the oil reaches a temperature.",
+        Analysis::Balance(_) => "How the temperature of one point is found.",
+    }
 }

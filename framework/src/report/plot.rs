@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Colours that stay apart for every kind of colour vision (Okabe and Ito 2008).
-const COLOURS: [RGBColor; 8] = [
+pub(super) const COLOURS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(230, 159, 0),
     RGBColor(0, 158, 115),
@@ -36,7 +36,7 @@ const TEXT: i32 = 15;
 pub type PlotFault = String;
 
 /// One bar of a stack.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Bar {
     /// Below the bar.
     pub label: String,
@@ -51,7 +51,7 @@ pub struct Bar {
 }
 
 /// One line.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Line {
     /// Name in the legend.
     pub name: String,
@@ -107,6 +107,14 @@ fn shade(share: f64) -> RGBColor {
     RGBColor(mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
 }
 
+/// A colour from blue over white to orange, zero to one.
+fn two_sided(share: f64) -> RGBColor {
+    let side = if share < 0.5 { COLOURS[4] } else { COLOURS[1] };
+    let weight = (2.0 * share.clamp(0.0, 1.0) - 1.0).abs();
+    let mix = |end: u8| (255.0 + weight * (f64::from(end) - 255.0)).round() as u8;
+    RGBColor(mix(side.0), mix(side.1), mix(side.2))
+}
+
 /// A number with as many digits as a reader wants.
 fn short(x: f64) -> String {
     let digits = match x.abs() {
@@ -154,7 +162,7 @@ fn legend(root: &DrawingArea<SVGBackend<'_>, Shift>, names: &[String], solid: bo
 ///
 /// # Errors
 /// If drawing fails.
-pub fn bars(title: &str, height: &str, names: &[String], bars: &[Bar]) -> Result<String, PlotFault> {
+pub(super) fn bars(title: &str, height: &str, names: &[String], bars: &[Bar]) -> Result<String, PlotFault> {
     drawn(title, |root| {
         let measured = bars.iter().any(|b| b.measured.is_some());
         let tallest = bars
@@ -234,11 +242,12 @@ pub fn bars(title: &str, height: &str, names: &[String], bars: &[Bar]) -> Result
 ///
 /// # Errors
 /// If drawing fails.
-pub fn map(
+pub(super) fn map(
     title: &str,
     (x_name, xs): (&str, &[String]),
     (y_name, ys): (&str, &[String]),
     values: &[Option<f64>],
+    diverging: bool,
 ) -> Result<String, PlotFault> {
     drawn(title, |root| {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -246,6 +255,12 @@ pub fn map(
             low = low.min(*value);
             high = high.max(*value);
         }
+        if diverging && low <= high {
+            // Zero in the middle, so that both sides have the same weight.
+            high = low.abs().max(high.abs());
+            low = -high;
+        }
+        let shade = |share: f64| if diverging { two_sided(share) } else { shade(share) };
         let share = |value: f64| if high > low { (value - low) / (high - low) } else { 0.5 };
         let (left, top, width, height) = (90, 50, 740, 430);
         let (columns, rows) = (xs.len().max(1) as i32, ys.len().max(1) as i32);
@@ -265,7 +280,7 @@ pub fn map(
                 root.draw(&Rectangle::new(cell, shade(share(*value)).filled()))
                     .map_err(fault)?;
                 if numbered {
-                    let ink = if share(*value) > 0.6 { BLACK } else { WHITE };
+                    let ink = if diverging || share(*value) > 0.6 { BLACK } else { WHITE };
                     let at = (i32::midpoint(cell[0].0, cell[1].0), i32::midpoint(cell[0].1, cell[1].1));
                     root.draw(&Text::new(short(*value), at, style(&ink, size, middle)))
                         .map_err(fault)?;
@@ -318,7 +333,7 @@ pub fn map(
 ///
 /// # Errors
 /// If drawing fails.
-pub fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> Result<String, PlotFault> {
+pub(super) fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> Result<String, PlotFault> {
     drawn(title, |root| {
         let points = || lines.iter().flat_map(|l| l.points.iter().flatten());
         let (x, y) = (range(points().map(|p| p.0)), range(points().map(|p| p.1)));
@@ -393,6 +408,7 @@ mod tests {
             ("speed rpm", &words(&["1000", "2000"])),
             ("volume ml", &words(&["60", "90"])),
             &[Some(1.5), None, Some(3.0), Some(4.0)],
+            false,
         )
         .unwrap();
         for word in ["speed rpm", "volume ml", "1.50", "2000", "60"] {
@@ -409,6 +425,6 @@ mod tests {
     #[test]
     fn nothing_to_draw_is_no_fault() {
         assert!(bars("a", "b", &[], &[]).is_ok() && lines("a", "b", "c", &[]).is_ok());
-        assert!(map("a", ("b", &[]), ("c", &[]), &[]).is_ok());
+        assert!(map("a", ("b", &[]), ("c", &[]), &[], true).is_ok());
     }
 }

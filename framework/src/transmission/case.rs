@@ -136,6 +136,15 @@ impl Transmission {
         })
     }
 
+    /// Speeds of all members for the speeds at the case's speed ports. \[rad/s\]
+    pub fn speeds(&self, case: &Case, given: &[f64]) -> Vec<f64> {
+        let mut prescribed = given.to_vec();
+        prescribed.resize(case.speed_ports.len() + case.ruled_speeds, 0.0);
+        let mut speeds = vec![0.0; case.flow.columns()];
+        case.motion.speeds(&prescribed, &mut speeds);
+        speeds
+    }
+
     /// Number of torques that a point of a gear state must give.
     pub fn torques_needed(&self, state: usize) -> usize {
         let state = &self.states[state];

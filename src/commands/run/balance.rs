@@ -3,7 +3,8 @@
 use gearloss_framework::analysis::notes;
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::report::plot::{self, Line, Stroke};
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::study::{BalanceEntry, WriteAlso};
 use gearloss_framework::thermal::Step;
 use serde_json::{Value, json};
@@ -65,9 +66,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
         results.push(
             json!({ "model_set": b.name, "gear": points.gear, "balance": json_of_balance(t, &found), "notes": seen }),
         );
-        if entry.write.contains(&WriteAlso::Svg) {
-            pictures(runner, &format!("{name}-{}", b.name), &found.history, found.scanned)?;
-        }
+        let write = entry.write.contains(&WriteAlso::Svg);
+        pictures(
+            runner,
+            &format!("{name}-{}", b.name),
+            &found.history,
+            found.scanned,
+            write,
+        )?;
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["balances"] = Value::Array(results);
@@ -75,7 +81,13 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
 }
 
 /// Losses and heat over temperature; temperature and residual over the steps behind the scan.
-fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize) -> Result<(), Failure> {
+fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize, write: bool) -> Result<(), Failure> {
+    let figure = |title: String, x: &str, y: &str, lines: Vec<Line>| Figure::Lines {
+        title,
+        x: x.to_owned(),
+        y: y.to_owned(),
+        lines,
+    };
     let mut sorted: Vec<&Step> = history.iter().collect();
     sorted.sort_by(|a, b| a.temperature.total_cmp(&b.temperature));
     let line = |name: &str, y: fn(&Step) -> f64| Line {
@@ -88,7 +100,8 @@ fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize) -
     picture(
         runner,
         name,
-        plot::lines(&title, "oil temperature in degC", "W", &curves),
+        figure(title, "oil temperature in degC", "W", curves.to_vec()),
+        write,
     )?;
     let steps = &history[scanned..];
     let line = |name: &str, y: &dyn Fn(&Step) -> Option<f64>| Line {
@@ -105,7 +118,8 @@ fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize) -
     picture(
         runner,
         &format!("{name}-steps"),
-        plot::lines(&title, "step", "degC", &temperature),
+        figure(title, "step", "degC", temperature.to_vec()),
+        write,
     )?;
     // A residual of zero has no logarithm; it ends the line.
     let residual = [line("residual", &|s| {
@@ -113,6 +127,6 @@ fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize) -
         (share > 0.0 && share.is_finite()).then(|| share.log10())
     })];
     let title = format!("{name}: residual over the steps behind the scan");
-    let svg = plot::lines(&title, "step", "log10 of the residual over the loss", &residual);
-    picture(runner, &format!("{name}-residual"), svg)
+    let figure = figure(title, "step", "log10 of the residual over the loss", residual.to_vec());
+    picture(runner, &format!("{name}-residual"), figure, write)
 }

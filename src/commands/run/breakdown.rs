@@ -1,13 +1,15 @@
 //! Losses by mechanism, component or sum over speed.
 
 use gearloss_framework::analysis::{PointResult, SUMS};
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::Bar;
 use gearloss_framework::study::{As, BreakdownEntry, By};
 use gearloss_framework::transmission::PartInfo;
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
 use super::map::{spread, tidy};
-use super::write::{cell, head, write};
+use super::write::{cell, head, picture, write};
 use super::{Built, Runner, axis};
 use crate::output::{Failure, Out, Table, number};
 
@@ -55,6 +57,21 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
         }
         let shown = spread(speeds.len());
         for (t, torque) in torques.iter().enumerate() {
+            let bars = speeds.iter().enumerate().map(|(i, speed)| Bar {
+                label: format!("{:.0}", speed * RPM),
+                shares: stacks[t * speeds.len() + i].clone().unwrap_or_default(),
+                ..Bar::default()
+            });
+            let figure = Figure::Bars {
+                title: format!(
+                    "{name}: loss in {label} over speed in rpm, gear {gear}, {torque} Nm, models {}",
+                    b.name
+                ),
+                height: format!("loss in {label}"),
+                names: names.clone(),
+                bars: bars.collect(),
+            };
+            picture(runner, name, figure, false)?;
             out.line(format!(
                 "{name}: loss in {label}, gear {gear}, {torque} Nm, models {}",
                 b.name

@@ -5,6 +5,8 @@ use gearloss_framework::evaluate::{PartLoss, Point};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Term;
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::ComponentCompareEntry;
 use gearloss_framework::transmission::Transmission;
@@ -12,7 +14,7 @@ use serde_json::{Value, json};
 
 use super::super::solve::RPM;
 use super::map::{spread, tidy};
-use super::write::{cell, head, write};
+use super::write::{cell, head, picture, write};
 use super::{Built, Runner, axis};
 use crate::output::{Failure, Out, Table, number};
 
@@ -74,6 +76,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
     }
     let rows = rows(&models, &measured);
     show(name, entry, &models, &torques, &speeds, out)?;
+    figures(runner, name, entry, &models, &measured, (&torques, &speeds))?;
     let deviations = deviations(&models, &points, &measured);
     for (model, mean, rms, count) in &deviations {
         out.line(format!(
@@ -321,6 +324,48 @@ fn show(
         }
         out.text(&table.render())?;
         out.line("")?;
+    }
+    Ok(())
+}
+
+/// Loss over speed, one picture for each torque; measured points beside the models.
+fn figures(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &ComponentCompareEntry,
+    models: &[Model<'_>],
+    measured: &[Measured],
+    (torques, speeds): (&[f64], &[f64]),
+) -> Result<(), Failure> {
+    for (t, torque) in torques.iter().enumerate() {
+        let line = |model: &Model<'_>| Line {
+            name: model.built.name.clone(),
+            points: (0..speeds.len())
+                .map(|i| Some((speeds[i] * RPM, watts(&model.answers[t * speeds.len() + i])?)))
+                .collect(),
+            stroke: Stroke::Marked,
+        };
+        let mut lines: Vec<Line> = models.iter().map(line).collect();
+        let near = |m: &&Measured| (m.torque - torque).abs() <= 0.02 * torque.abs().max(1e-9);
+        let points: Vec<_> = measured
+            .iter()
+            .filter(near)
+            .map(|m| Some((m.speed * RPM, m.watts)))
+            .collect();
+        if !points.is_empty() {
+            lines.push(Line {
+                name: "measured".to_owned(),
+                points,
+                stroke: Stroke::Dots,
+            });
+        }
+        let figure = Figure::Lines {
+            title: format!("{name}: loss of {}, {torque} Nm", entry.component),
+            x: "speed in rpm".to_owned(),
+            y: "loss in W".to_owned(),
+            lines,
+        };
+        picture(runner, name, figure, false)?;
     }
     Ok(())
 }

@@ -10,6 +10,8 @@ use gearloss_framework::mechanism::gear_mesh::MeshPart;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
 use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
 use gearloss_framework::registry::{Build, ModelRef, Slot};
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::study::ContactPathEntry;
 use gearloss_plugins::contact::{self, Film};
 use gearloss_plugins::path::Path;
@@ -17,7 +19,7 @@ use serde_json::{Value, json};
 
 use super::super::solve::RPM;
 use super::map::{spread, tidy};
-use super::write::{cell, head, write};
+use super::write::{cell, head, picture, write};
 use super::{Built, Runner};
 use crate::output::{Failure, Out, Table, number};
 
@@ -120,6 +122,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut 
             rows.push(row);
         }
         show(name, entry, b, &found, out)?;
+        figures(runner, name, entry, b, &found)?;
         results.push(json!({
             "model_set": b.name,
             "mesh": entry.mesh,
@@ -235,6 +238,46 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
         gear: given.gear.clone(),
         temperature: oil,
     })
+}
+
+/// One picture for each quantity along the path.
+fn figures(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &ContactPathEntry,
+    built: &Built<'_>,
+    found: &Paths,
+) -> Result<(), Failure> {
+    type Along = (&'static str, fn(&Place) -> Option<f64>);
+    let quantities: [Along; 5] = [
+        ("share of the load", |p| Some(p.share)),
+        ("Hertz pressure in GPa", |p| Some(p.pressure)),
+        ("sliding speed in m/s", |p| Some(p.sliding)),
+        ("coefficient of friction", |p| p.mu),
+        ("sliding loss in W", |p| p.loss),
+    ];
+    for (y, quantity) in quantities {
+        if found.places.iter().all(|p| quantity(p).is_none()) {
+            continue;
+        }
+        let line = Line {
+            name: built.name.clone(),
+            points: found
+                .places
+                .iter()
+                .map(|p| Some((p.from_pitch, quantity(p)?)))
+                .collect(),
+            stroke: Stroke::Line,
+        };
+        let figure = Figure::Lines {
+            title: format!("{name}: {y} along the path of contact of {}", entry.mesh),
+            x: "distance from the pitch point in mm".to_owned(),
+            y: y.to_owned(),
+            lines: vec![line],
+        };
+        picture(runner, name, figure, false)?;
+    }
+    Ok(())
 }
 
 fn show(name: &str, entry: &ContactPathEntry, built: &Built<'_>, found: &Paths, out: &mut Out) -> Result<(), Failure> {

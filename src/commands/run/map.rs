@@ -105,10 +105,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
     let mut value = head(runner, name, &maps.iter().map(|m| &m.built).collect::<Vec<_>>());
     value["maps"] = Value::Array(results);
     write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
-    if entry.write.contains(&WriteAlso::Svg) {
-        pictures(runner, name, &maps)?;
-    }
-    Ok(())
+    pictures(runner, name, &maps, entry.write.contains(&WriteAlso::Svg))
 }
 
 /// A map under one set with one combination of bound values.

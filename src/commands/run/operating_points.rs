@@ -3,7 +3,8 @@
 use gearloss_framework::analysis::{PointResult, notes};
 use gearloss_framework::document::{Diagnostic, Unit};
 use gearloss_framework::loss::Extent;
-use gearloss_framework::report::plot::{self, Bar};
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::Bar;
 use gearloss_framework::study::{By, OperatingPointsEntry, WriteAlso};
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::transmission::PartInfo;
@@ -153,18 +154,22 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
                 "measured": MEASURED.iter().zip(row.measured).map(|((k, _), v)| ((*k).to_owned(), json!(v))).collect::<serde_json::Map<_, _>>(),
             })).collect::<Vec<_>>(),
         }));
-        if entry.write.contains(&WriteAlso::Svg) {
-            let bars: Vec<Bar> = solved
-                .iter()
-                .map(|(row, p, stack)| bar(row, p, stack.as_deref()))
-                .collect();
-            let title = format!("{name}: losses, models {set_name}, oil temperature above each bar");
-            picture(
-                runner,
-                &format!("{name}-{set_name}"),
-                plot::bars(&title, "loss in W", &shares, &bars),
-            )?;
-        }
+        let bars: Vec<Bar> = solved
+            .iter()
+            .map(|(row, p, stack)| bar(row, p, stack.as_deref()))
+            .collect();
+        let title = format!("{name}: losses, models {set_name}, oil temperature above each bar");
+        picture(
+            runner,
+            &format!("{name}-{set_name}"),
+            Figure::Bars {
+                title,
+                height: "loss in W".to_owned(),
+                names: shares.clone(),
+                bars,
+            },
+            entry.write.contains(&WriteAlso::Svg),
+        )?;
     }
     let all: Vec<&Built<'_>> = built.iter().flatten().collect();
     let mut value = head(runner, name, &all);

@@ -5,7 +5,8 @@ use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::report::plot::{self, Line, Stroke};
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::study::{Find, ThermalLimitEntry, WriteAlso};
 use gearloss_framework::thermal::Limit;
 use serde_json::{Value, json};
@@ -125,22 +126,28 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["thermal_limits"] = Value::Array(results);
     write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
-    if entry.write.contains(&WriteAlso::Svg) {
-        let conditions = &runner.study.entry.conditions;
-        let torque = format!("torque at {} in Nm", conditions.torque_at);
-        let speed = format!("speed at {} in rpm", conditions.speed_at);
-        let (x, y, title) = match entry.find {
-            Find::Torque => (&speed, &torque, "torque at which the oil reaches a temperature"),
-            Find::Speed => (&torque, &speed, "speed at which the oil reaches a temperature"),
-        };
-        picture(runner, name, plot::lines(&format!("{name}: {title}"), x, y, &limits))?;
-        let title = format!("{name}: power out at which the oil reaches a temperature");
-        picture(
-            runner,
-            &format!("{name}-power"),
-            plot::lines(&title, x, "power in W", &powers),
-        )?;
-    }
+    let conditions = &runner.study.entry.conditions;
+    let torque = format!("torque at {} in Nm", conditions.torque_at);
+    let speed = format!("speed at {} in rpm", conditions.speed_at);
+    let (x, y, title) = match entry.find {
+        Find::Torque => (&speed, &torque, "torque at which the oil reaches a temperature"),
+        Find::Speed => (&torque, &speed, "speed at which the oil reaches a temperature"),
+    };
+    let write = entry.write.contains(&WriteAlso::Svg);
+    let figure = |title: String, y: &str, lines: Vec<Line>| Figure::Lines {
+        title,
+        x: x.clone(),
+        y: y.to_owned(),
+        lines,
+    };
+    picture(runner, name, figure(format!("{name}: {title}"), y, limits), write)?;
+    let title = format!("{name}: power out at which the oil reaches a temperature");
+    picture(
+        runner,
+        &format!("{name}-power"),
+        figure(title, "power in W", powers),
+        write,
+    )?;
     Ok(())
 }
 

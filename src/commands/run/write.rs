@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::report::plot::PlotFault;
+use gearloss_framework::report::Figure;
 use gearloss_framework::study::Write;
 use serde_json::{Value, json};
 
@@ -77,8 +77,11 @@ pub fn write(
     Ok(files)
 }
 
-/// Writes a picture.
-pub fn picture(runner: &Runner<'_>, name: &str, svg: Result<String, PlotFault>) -> Result<(), Failure> {
+/// Puts a picture into the report, and writes it as a file where that is asked for.
+pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, write: bool) -> Result<(), Failure> {
+    let svg = write.then(|| figure.svg());
+    runner.report.borrow_mut().figure(figure);
+    let Some(svg) = svg else { return Ok(()) };
     // A product stands before its set with a slash.
     let path = runner.folder.join(format!("{}.svg", name.replace('/', "-")));
     let failed = |e: &dyn std::fmt::Display| {

@@ -2,7 +2,7 @@
 
 use gearloss_framework::analysis::{GridResult, PointResult};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::report::plot;
+use gearloss_framework::report::Figure;
 use gearloss_framework::study::{CompareEntry, WriteAlso};
 use serde_json::{Value, json};
 
@@ -151,15 +151,24 @@ pub fn run(
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["comparisons"] = Value::Array(results);
     write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
-    if entry.write.contains(&WriteAlso::Svg) {
-        let mark = |x: f64| format!("{}", tidy(x));
-        let columns: Vec<String> = speeds.iter().map(|w| mark(w * RPM)).collect();
-        let lines: Vec<String> = torques.iter().map(|t| mark(*t)).collect();
-        for (b, differences) in built.iter().skip(1).zip(&gaps) {
-            let title = format!("{name}: {words} of {} minus {base} in {label}", b.name);
-            let svg = plot::map(&title, ("speed rpm", &columns), ("torque Nm", &lines), differences);
-            picture(runner, &format!("{name}-{}", b.name), svg)?;
-        }
+    let mark = |x: f64| format!("{}", tidy(x));
+    let columns: Vec<String> = speeds.iter().map(|w| mark(w * RPM)).collect();
+    let lines: Vec<String> = torques.iter().map(|t| mark(*t)).collect();
+    for (b, differences) in built.iter().skip(1).zip(&gaps) {
+        let title = format!("{name}: {words} of {} minus {base} in {label}", b.name);
+        let figure = Figure::Map {
+            title,
+            x: ("speed rpm".to_owned(), columns.clone()),
+            y: ("torque Nm".to_owned(), lines.clone()),
+            values: differences.clone(),
+            diverging: true,
+        };
+        picture(
+            runner,
+            &format!("{name}-{}", b.name),
+            figure,
+            entry.write.contains(&WriteAlso::Svg),
+        )?;
     }
     Ok(())
 }

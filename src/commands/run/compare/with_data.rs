@@ -5,7 +5,8 @@ use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
-use gearloss_framework::report::plot::{self, Line, Stroke};
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::study::{CompareEntry, Quantity, WriteAlso};
 use serde_json::{Value, json};
 
@@ -110,10 +111,7 @@ pub fn run(
     value["data"] = json!({ "file": data.file, "points": measured.rows.len(), "notes": measured.notes });
     value["comparisons"] = Value::Array(results);
     write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
-    if entry.write.contains(&WriteAlso::Svg) {
-        pictures(runner, name, entry, &all)?;
-    }
-    Ok(())
+    pictures(runner, name, entry, &all)
 }
 
 fn read(runner: &Runner<'_>, path: &str, data: &MeasuredEntry, entry: &CompareEntry) -> Result<Measured, Failure> {
@@ -394,8 +392,14 @@ fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compar
         });
     }
     let title = format!("{name}: parity of {what}");
-    let svg = plot::lines(&title, &format!("measured {what}"), &format!("model {what}"), &dots);
-    picture(runner, &format!("{name}-parity"), svg)?;
+    let figure = Figure::Lines {
+        title,
+        x: format!("measured {what}"),
+        y: format!("model {what}"),
+        lines: dots,
+    };
+    let write = entry.write.contains(&WriteAlso::Svg);
+    picture(runner, &format!("{name}-parity"), figure, write)?;
     let steps = |c: &Compared<'_>| {
         let values: Vec<f64> = c.pairs.iter().filter_map(|p| p.difference).collect();
         let (from, width, counts) = histogram(&values);
@@ -412,6 +416,11 @@ fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compar
     };
     let lines: Vec<Line> = all.iter().map(steps).collect();
     let title = format!("{name}: model minus measurement, number of points");
-    let svg = plot::lines(&title, &format!("difference of {what} in {unit}"), "points", &lines);
-    picture(runner, &format!("{name}-histogram"), svg)
+    let figure = Figure::Lines {
+        title,
+        x: format!("difference of {what} in {unit}"),
+        y: "points".to_owned(),
+        lines,
+    };
+    picture(runner, &format!("{name}-histogram"), figure, write)
 }

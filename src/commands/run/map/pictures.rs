@@ -1,7 +1,7 @@
 //! Pictures of maps.
 
 use gearloss_framework::analysis::{OilTemperature, PointResult};
-use gearloss_framework::report::plot;
+use gearloss_framework::report::Figure;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
@@ -13,10 +13,11 @@ use crate::output::Failure;
 type Shown = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
 
 /// Pictures over speed and torque; over speed and the bound values where there is one torque and one path is bound.
-pub fn pictures(runner: &Runner<'_>, name: &str, maps: &[Map<'_>]) -> Result<(), Failure> {
+pub fn pictures(runner: &Runner<'_>, name: &str, maps: &[Map<'_>], write: bool) -> Result<(), Failure> {
     let mut quantities: Vec<Shown> = vec![
         ("efficiency", "efficiency in %", |p| p.efficiency.map(|e| 100.0 * e)),
         ("loss", "loss in W", |p| p.loss),
+        ("loss-torque", "loss torque in Nm", |p| p.loss_torque),
     ];
     if maps.iter().any(|m| m.points.oil == OilTemperature::Balance) {
         quantities.push(("temperature", "oil temperature in degC", |p| p.oil));
@@ -40,8 +41,14 @@ pub fn pictures(runner: &Runner<'_>, name: &str, maps: &[Map<'_>]) -> Result<(),
                 let bound: Vec<String> = of_set.iter().map(|m| word(&m.bound[0].1)).collect();
                 let all: Vec<Option<f64>> = of_set.iter().flat_map(|m| values(m)).collect();
                 let title = format!("{name}: {long}, models {set}, {} Nm", torques[0]);
-                let svg = plot::map(&title, ("speed rpm", &speeds), (&first.bound[0].0, &bound), &all);
-                picture(runner, &format!("{name}-{set}-{short}"), svg)?;
+                let figure = Figure::Map {
+                    title,
+                    x: ("speed rpm".to_owned(), speeds.clone()),
+                    y: (first.bound[0].0.clone(), bound),
+                    values: all,
+                    diverging: false,
+                };
+                picture(runner, &format!("{name}-{set}-{short}"), figure, write)?;
                 continue;
             }
             for (i, map) in of_set.iter().enumerate() {
@@ -51,8 +58,14 @@ pub fn pictures(runner: &Runner<'_>, name: &str, maps: &[Map<'_>]) -> Result<(),
                     String::new()
                 };
                 let title = format!("{name}: {long}, models {set}{}", map.words());
-                let svg = plot::map(&title, ("speed rpm", &speeds), ("torque Nm", &torques), &values(map));
-                picture(runner, &format!("{name}-{set}-{short}{number}"), svg)?;
+                let figure = Figure::Map {
+                    title,
+                    x: ("speed rpm".to_owned(), speeds.clone()),
+                    y: ("torque Nm".to_owned(), torques.clone()),
+                    values: values(map),
+                    diverging: false,
+                };
+                picture(runner, &format!("{name}-{set}-{short}{number}"), figure, write)?;
             }
         }
     }

@@ -1,0 +1,180 @@
+//! The report of a run.
+
+use std::path::Path;
+
+use gearloss_framework::description::AssumedEntry;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::transmission::Transmission;
+use serde_json::Value;
+
+use super::super::solve::RPM;
+use super::Runner;
+use crate::output::Failure;
+use crate::report::{Frame, GearboxPage, PageTable};
+
+/// Writes `report.html` beside the results.
+pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure> {
+    let template = match template {
+        Some(file) => Some(std::fs::read_to_string(file).map_err(|e| {
+            Failure::input(
+                format!("cannot read {}: {e}", file.display()),
+                "name a template with --template",
+            )
+        })?),
+        None => None,
+    };
+    for (name, gearbox) in &runner.study.gearboxes {
+        let page = page(runner, name, gearbox)?;
+        runner.report.borrow_mut().gearbox(page);
+    }
+    let frame = Frame {
+        title: runner.study.entry.title.clone().unwrap_or_else(|| "Study".to_owned()),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        packages: runner
+            .language
+            .registry()
+            .packages()
+            .into_iter()
+            .map(str::to_owned)
+            .collect(),
+        study: runner.study.text.clone(),
+    };
+    let html = runner.report.borrow().html(&frame, template.as_deref()).map_err(|e| {
+        Failure::input(
+            format!("the template of the report: {e}"),
+            "correct it, or leave --template out",
+        )
+    })?;
+    let file = runner.folder.join("report.html");
+    let failed = |e: std::io::Error| {
+        Failure::input(
+            format!("cannot write {}: {e}", file.display()),
+            "name another folder with -o",
+        )
+    };
+    std::fs::create_dir_all(&runner.folder).map_err(failed)?;
+    // First beside it, so that a reader never finds half a report.
+    let half = runner.folder.join("report.html.part");
+    std::fs::write(&half, html).map_err(failed)?;
+    std::fs::rename(&half, &file).map_err(failed)
+}
+
+/// What the results of a gearbox rest on, under its own models.
+fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPage, Failure> {
+    let resolved = gearbox.resolve(runner.language, &runner.study.choice(None))?;
+    let transmission = gearbox.build(runner.language, &resolved)?;
+    let text = |key: &str| {
+        resolved
+            .value
+            .get(key)
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let assumed: Vec<AssumedEntry> = resolved
+        .value
+        .get("assumed")
+        .and_then(|list| serde_json::from_value(list.clone()).ok())
+        .unwrap_or_default();
+    Ok(GearboxPage {
+        name: name.to_owned(),
+        title: text("title"),
+        source: text("source"),
+        tables: vec![gears(&transmission), meshes(&transmission), states(&transmission)],
+        assumed,
+        resolved: serde_saphyr::to_string(&resolved.value).unwrap_or_default(),
+    })
+}
+
+fn table(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> PageTable {
+    PageTable {
+        title: title.to_owned(),
+        head: head.iter().map(|h| (*h).to_owned()).collect(),
+        rows,
+    }
+}
+
+fn gears(t: &Transmission) -> PageTable {
+    let mm = |x: f64| format!("{:.3}", x * 1e3);
+    let rows = t
+        .gears()
+        .iter()
+        .map(|g| {
+            let [d, da, df] = g.diameters;
+            let kind = if g.ring { "ring" } else { "external" };
+            vec![
+                g.id.clone(),
+                t.members()[g.member].clone(),
+                g.z.to_string(),
+                kind.to_owned(),
+                mm(g.facewidth),
+                mm(d),
+                mm(da),
+                mm(df),
+            ]
+        })
+        .collect();
+    table(
+        "Gears",
+        &["gear", "on", "z", "kind", "b mm", "d mm", "d_a mm", "d_f mm"],
+        rows,
+    )
+}
+
+fn meshes(t: &Transmission) -> PageTable {
+    let rows = t
+        .meshes()
+        .map(|(path, part)| {
+            let p = &part.pair;
+            vec![
+                path.trim_start_matches("meshes.").to_owned(),
+                format!("{}/{}", p.z[0], p.z[1]),
+                format!("{:.3}", p.normal_module * 1e3),
+                format!("{:.2}", p.helix_angle.to_degrees()),
+                format!("{:.3}", p.working_angle.to_degrees()),
+                format!("{:.3}", p.centre_distance * 1e3),
+                format!("{:.4} / {:.4}", p.profile_shift[0], p.profile_shift[1]),
+                format!("{:.3}", p.contact_ratio),
+                format!("{:.3}", p.overlap_ratio),
+            ]
+        })
+        .collect();
+    table(
+        "Meshes",
+        &[
+            "mesh",
+            "z",
+            "m_n mm",
+            "beta deg",
+            "alpha_wt deg",
+            "a mm",
+            "x_1 / x_2",
+            "eps_alpha",
+            "eps_beta",
+        ],
+        rows,
+    )
+}
+
+/// Speed of every member in every gear state, for 1000 rpm at the first free port.
+fn states(t: &Transmission) -> PageTable {
+    let mut head = vec!["gear state", "port"];
+    head.extend(t.members().iter().map(String::as_str));
+    let mut rows = Vec::new();
+    for (i, state) in t.states().iter().enumerate() {
+        let Some(port) = state.speed_ports.first().filter(|_| state.speed_ports.len() == 1) else {
+            continue;
+        };
+        let names: Vec<&str> = t.ports().iter().map(|p| p.name.as_str()).collect();
+        let speed_at = names[*port];
+        let torques: Vec<&str> = names.iter().copied().take(t.torques_needed(i)).collect();
+        let Ok(case) = t.case(&state.name, &[speed_at], &torques) else {
+            continue;
+        };
+        let speeds = t.speeds(&case, &[1000.0 / RPM]);
+        let mut row = vec![state.name.clone(), speed_at.to_owned()];
+        row.extend((0..t.members().len()).map(|m| format!("{:.2}", speeds[m] * RPM)));
+        rows.push(row);
+    }
+    table("Speeds in rpm for 1000 rpm at the port", &head, rows)
+}

@@ -1,0 +1,118 @@
+//! The report of a study, also in a real browser where one is at hand.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn written(study: &str, name: &str, more: &[&str]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{name}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .arg("run")
+        .arg(common::file(study))
+        .args(["-o", folder.to_str().unwrap()])
+        .args(more)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    folder.join("report.html")
+}
+
+/// Every analysis of both examples with its pictures, its words, the gearbox and the study behind it; nothing from a network.
+#[test]
+fn the_report_holds_everything_and_needs_no_network() {
+    for (study, name, words) in [
+        (
+            "examples/two-speed-ev/study.yaml",
+            "two-speed",
+            [
+                "rig_fit",
+                "loss torque in Nm",
+                "alpha_wt",
+                "only the centre distances are printed",
+            ],
+        ),
+        (
+            "examples/planetary-reducer/study.yaml",
+            "planetary",
+            [
+                "twelve tests",
+                "oil temperature in degC",
+                "planet_ring",
+                "stand-in made by the model",
+            ],
+        ),
+    ] {
+        let page = std::fs::read_to_string(written(study, name, &[])).unwrap();
+        for word in words {
+            assert!(page.contains(word), "{name}: {word}");
+        }
+        // The plotting library names addresses in its text; nothing of the page loads one.
+        assert!(!page.contains("<script src") && !page.contains("<link"), "{name}");
+        assert!(page.contains("gearloss: study") && page.contains("Resolved description"));
+        let figures = page.matches("class=\"figure\"").count();
+        assert!(figures >= 10, "{name}: {figures} pictures");
+    }
+}
+
+#[test]
+fn a_template_of_the_user_makes_the_page() {
+    let template = Path::new(env!("CARGO_TARGET_TMPDIR")).join("own.html");
+    std::fs::write(&template, "{% for s in sections %}[{{ s.name }}]{% endfor %}").unwrap();
+    let page = written(
+        "examples/planetary-reducer/study.yaml",
+        "own",
+        &["--template", template.to_str().unwrap()],
+    );
+    assert_eq!(
+        std::fs::read_to_string(page).unwrap(),
+        "[tests][loaded][unloaded][limit][fastest][convergence]"
+    );
+}
+
+/// In a headless Chromium, with the network switched off: every picture is drawn and nothing complains on the console.
+#[test]
+fn a_browser_draws_every_picture_without_complaint() {
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let Some(browser) = names.iter().find(|n| Command::new(n).arg("--version").output().is_ok()) else {
+        // Past the capture of the test runner, so that everybody sees it.
+        let words = "SKIPPED: no browser is installed; on Debian `apt-get install chromium` brings one";
+        writeln!(std::io::stderr(), "{words}").unwrap();
+        return;
+    };
+    let page = written("examples/two-speed-ev/study.yaml", "browser", &[]);
+    let output = Command::new(browser)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--host-resolver-rules=MAP * ~NOTFOUND",
+            "--enable-logging=stderr",
+            "--virtual-time-budget=30000",
+            "--dump-dom",
+        ])
+        .arg(format!("file://{}", page.display()))
+        .output()
+        .unwrap();
+    let (dom, log) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
+    let source = std::fs::read_to_string(&page).unwrap();
+    let wanted = source.matches("class=\"figure\"").count();
+    // Plotly marks what it has drawn.
+    assert_eq!(
+        dom.matches("js-plotly-plot").count().min(wanted),
+        wanted,
+        "{} of {wanted} drawn",
+        dom.matches("js-plotly-plot").count()
+    );
+    let complaints: Vec<&str> = log
+        .lines()
+        .filter(|l| l.contains("CONSOLE") && !l.contains("INFO:CONSOLE:0"))
+        .collect();
+    assert!(complaints.is_empty(), "{complaints:?}");
+}
