@@ -59,6 +59,34 @@ fn the_report_holds_everything_and_needs_no_network() {
 }
 
 #[test]
+fn two_products_stand_side_by_side() {
+    let page = written("examples/two-products/study.yaml", "products", &[]);
+    let text = std::fs::read_to_string(&page).unwrap();
+    for word in [
+        "Gearbox ours",
+        "Gearbox theirs",
+        "loss of theirs&#x2f;joint minus ours&#x2f;joint",
+        "by another maker",
+    ] {
+        assert!(text.contains(word), "{word}");
+    }
+    let csv = std::fs::read_to_string(page.with_file_name("gain.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1 + 160);
+    let column = csv
+        .lines()
+        .next()
+        .unwrap()
+        .split(',')
+        .position(|h| h == "difference_w")
+        .unwrap();
+    let less = |line: &str| line.split(',').nth(column).unwrap().parse::<f64>().unwrap() < 0.0;
+    assert!(
+        csv.lines().skip(1).all(less),
+        "thinner oil and lighter bearings lose less at every point"
+    );
+}
+
+#[test]
 fn a_template_of_the_user_makes_the_page() {
     let template = Path::new(env!("CARGO_TARGET_TMPDIR")).join("own.html");
     std::fs::write(&template, "{% for s in sections %}[{{ s.name }}]{% endfor %}").unwrap();
