@@ -205,6 +205,12 @@ pub struct RunArgs {
     /// Template of the report, in place of the built-in one.
     #[arg(long, value_name = "FILE")]
     pub template: Option<PathBuf>,
+    /// Writes into a folder that holds other files.
+    #[arg(long)]
+    pub force: bool,
+    /// Makes it a finding to leave the stated range of a model at any point: `extrapolation`.
+    #[arg(long, value_name = "WHAT")]
+    pub deny: Vec<String>,
 }
 
 /// Arguments of `models`.

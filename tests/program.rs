@@ -388,3 +388,42 @@ fn moments_of_openfoam_become_a_table_and_a_power_law() {
     let failed = gearloss(&[&import[..8], &["nowhere.csv"]].concat());
     assert!(String::from_utf8(failed.stderr).unwrap().contains("line 4"));
 }
+
+#[test]
+fn results_are_replaced_openly_and_other_files_are_left_alone() {
+    let folder = scratch("replaced");
+    let study = "examples/two-products/study.yaml";
+    let place = folder.join("results");
+    let run = |more: &[&str]| gearloss(&[&["run", study, "-o", place.to_str().unwrap()], more].concat());
+    assert!(run(&[]).status.success());
+    let again = run(&[]);
+    assert!(
+        String::from_utf8(again.stdout)
+            .unwrap()
+            .contains("replacing the results")
+    );
+    assert!(
+        std::fs::read_dir(&place)
+            .unwrap()
+            .all(|f| !f.unwrap().path().to_str().unwrap().contains(".part"))
+    );
+    // A folder of somebody else.
+    std::fs::write(folder.join("thesis.txt"), "text").unwrap();
+    let other = gearloss(&["run", study, "-o", folder.to_str().unwrap()]);
+    assert_eq!(other.status.code(), Some(2));
+    assert!(String::from_utf8(other.stderr).unwrap().contains("--force"));
+    assert!(
+        gearloss(&["run", study, "-o", folder.to_str().unwrap(), "--force"])
+            .status
+            .success()
+    );
+    // Leaving a stated range is a finding where that is denied.
+    let denied = run(&["--deny", "extrapolation"]);
+    assert_eq!(denied.status.code(), Some(1));
+    assert!(
+        String::from_utf8(denied.stdout)
+            .unwrap()
+            .contains("stated ranges were left")
+    );
+    assert_eq!(run(&["--deny", "recalled"]).status.code(), Some(2));
+}

@@ -11,12 +11,13 @@ mod report;
 mod thermal_limit;
 mod write;
 
-use std::cell::RefCell;
-use std::path::PathBuf;
+use std::cell::{Cell, RefCell};
+use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::{GridResult, OilTemperature, Points, run_grid};
+use gearloss_framework::analysis::{GridResult, OilTemperature, Points, notes, run_grid};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
+use gearloss_framework::loss::Extent;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::study::Analysis;
 use gearloss_framework::transmission::Transmission;
@@ -44,6 +45,8 @@ pub(super) struct Runner<'a> {
     folder: PathBuf,
     progress: bool,
     report: RefCell<Report>,
+    /// Limits that were left at any point, counted over all analyses.
+    left: Cell<usize>,
 }
 
 impl Runner<'_> {
@@ -109,7 +112,15 @@ impl Runner<'_> {
         bar.set_message(built.name.clone());
         let result = run_grid(&built.transmission, points, &|n| bar.inc(n as u64));
         bar.finish_and_clear();
-        result.map_err(|list| built.gearbox.findings(list).into())
+        let result = result.map_err(|list| Failure::from(built.gearbox.findings(list)))?;
+        self.seen(&built.transmission, &result.seen);
+        Ok(result)
+    }
+
+    /// Counts the limits that were left.
+    fn seen(&self, transmission: &Transmission, seen: &[Extent]) {
+        let left = notes(transmission, seen).iter().filter(|n| n.outside > 0).count();
+        self.left.set(self.left.get() + left);
     }
 }
 
@@ -118,12 +129,20 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     let study = Study::read(&language, &args.study)?;
     study.check(&language)?;
     let folder = args.output.clone().unwrap_or_else(|| study.folder.join("results"));
+    if let Some(wrong) = args.deny.iter().find(|what| *what != "extrapolation") {
+        return Err(Failure::input(
+            format!("--deny {wrong}: a study can deny `extrapolation` only"),
+            "write --deny extrapolation, or `check --deny GRADE` for evidence",
+        ));
+    }
+    replaced(&folder, args.force, out)?;
     let runner = Runner {
         language: &language,
         study: &study,
         folder,
         progress: out.is_terminal(),
         report: RefCell::default(),
+        left: Cell::new(0),
     };
     if let Some(title) = &study.entry.title {
         out.line(title)?;
@@ -158,6 +177,13 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     }
     report::write(&runner, args.template.as_deref())?;
     out.line(format!("results in {}, report in report.html", runner.folder.display()))?;
+    if failed == 0 && !args.deny.is_empty() && runner.left.get() > 0 {
+        out.line(format!(
+            "denied: extrapolation; {} stated ranges were left",
+            runner.left.get()
+        ))?;
+        return Ok(End::Finding);
+    }
     if failed == 0 {
         Ok(End::Fine)
     } else {
@@ -204,4 +230,28 @@ fn about(analysis: &Analysis) -> &'static str {
         Analysis::ThermalLimit(_) => "How far a torque or a speed can go before the oil reaches a temperature.",
         Analysis::Balance(_) => "How the temperature of one point is found.",
     }
+}
+
+/// A folder that holds something else than earlier results is not written into unasked; earlier results are replaced, which
+/// is said.
+fn replaced(folder: &Path, force: bool, out: &mut Out) -> Result<(), Failure> {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return Ok(());
+    };
+    let files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    if files.is_empty() || force {
+        return Ok(());
+    }
+    let written = |file: &PathBuf| {
+        let kind = file.extension().and_then(|kind| kind.to_str());
+        matches!(kind, Some("csv" | "json" | "svg" | "html"))
+    };
+    if files.iter().all(written) {
+        out.line(format!("replacing the results in {}", folder.display()))?;
+        return Ok(());
+    }
+    Err(Failure::input(
+        format!("{} holds files, and no results of a study", folder.display()),
+        "name another folder with -o, or write into it with --force",
+    ))
 }

@@ -53,6 +53,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
             // What is noted belongs to the temperature that was found.
             t.evaluate(&case, &point, &vec![oil; t.nodes()], &mut scratch);
         }
+        runner.seen(t, &scratch.totals);
         let seen = notes(t, &scratch.totals);
         out.line(format!("{name}: models {}", b.name))?;
         out.text(&of_balance(t, &found, false))?;

@@ -207,7 +207,7 @@ fn answers(
     let given = runner.points(transmission, gear, Vec::new(), Vec::new());
     let case = given.case(transmission)?;
     let mut scratch = transmission.scratch(&case);
-    Ok(points
+    let answers = points
         .iter()
         .map(|(torque, speed)| {
             let torques = [*torque];
@@ -226,7 +226,9 @@ fn answers(
                 loss,
             }
         })
-        .collect())
+        .collect();
+    runner.seen(transmission, &scratch.totals);
+    Ok(answers)
 }
 
 /// Loss of all copies, where it has a value.

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use super::super::solve::RPM;
 use super::Runner;
+use super::write::whole;
 use crate::output::Failure;
 use crate::report::{Frame, GearboxPage, PageTable};
 
@@ -53,10 +54,7 @@ pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure
         )
     };
     std::fs::create_dir_all(&runner.folder).map_err(failed)?;
-    // First beside it, so that a reader never finds half a report.
-    let half = runner.folder.join("report.html.part");
-    std::fs::write(&half, html).map_err(failed)?;
-    std::fs::rename(&half, &file).map_err(failed)
+    whole(&file, html.as_bytes()).map_err(failed)
 }
 
 /// What the results of a gearbox rest on, under its own models.

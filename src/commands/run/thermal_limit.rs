@@ -254,6 +254,7 @@ fn search(
             all.push(found);
         }
     }
+    runner.seen(t, &scratch.totals);
     Ok((all, notes(t, &scratch.totals)))
 }
 

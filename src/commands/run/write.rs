@@ -37,6 +37,14 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
     })
 }
 
+/// Writes a file beside its place and moves it there, so that nobody finds half of it.
+pub fn whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    fs::write(&part, bytes)?;
+    fs::rename(&part, path)
+}
+
 /// Writes a table as CSV and a value as JSON, as asked; returns the files.
 pub fn write(
     runner: &Runner<'_>,
@@ -58,20 +66,21 @@ pub fn write(
         let path = runner
             .folder
             .join(format!("{name}.{}", if *format == Write::Csv { "csv" } else { "json" }));
-        match format {
+        let text = match format {
             Write::Csv => {
-                let mut writer = csv::Writer::from_path(&path).map_err(|e| failed(&path, &e))?;
+                let mut writer = csv::Writer::from_writer(Vec::new());
                 writer.write_record(header).map_err(|e| failed(&path, &e))?;
                 for row in rows {
                     writer.write_record(row).map_err(|e| failed(&path, &e))?;
                 }
-                writer.flush().map_err(|e| failed(&path, &e))?;
+                writer.into_inner().map_err(|e| failed(&path, &e))?
             }
             Write::Json => {
                 let text = serde_json::to_string_pretty(value).map_err(|e| failed(&path, &e))?;
-                fs::write(&path, text + "\n").map_err(|e| failed(&path, &e))?;
+                (text + "\n").into_bytes()
             }
-        }
+        };
+        whole(&path, &text).map_err(|e| failed(&path, &e))?;
         files.push(path);
     }
     Ok(files)
@@ -92,7 +101,7 @@ pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, write: bool) -> 
     };
     let svg = svg.map_err(|e| failed(&e))?;
     fs::create_dir_all(&runner.folder).map_err(|e| failed(&e))?;
-    fs::write(&path, svg).map_err(|e| failed(&e))
+    whole(&path, svg.as_bytes()).map_err(|e| failed(&e))
 }
 
 /// A cell: the number with all its digits, or nothing.
