@@ -250,3 +250,28 @@ fn what_a_comparison_lacks_is_told() {
         assert!(text.contains(said) && text.contains("mend:"), "{said}\n{text}");
     }
 }
+
+#[test]
+fn a_sweep_changes_one_value_and_is_the_map_at_each() {
+    let study = "grids: { g: { gear: first, torque: 10 Nm, speed: 8000 rpm, bind: { lubricants.sump.viscosity.kv100: [4 mm2/s, 8 mm2/s] } } }
+analyses:
+  oil: { type: sweep, gear: first, path: lubricants.sump.viscosity.kv100, values: [4 mm2/s, 8 mm2/s], torque: [0 Nm, 10 Nm], speed: 8000 rpm }
+  hot: { type: sweep, gear: first, path: thermal.oil, values: [60 degC, 100 degC], torque: 10 Nm, speed: 8000 rpm }
+  map: { type: map, grid: g }
+  none: { type: sweep, path: lubricants.sump.viscosity.kv900, values: [1], torque: 10 Nm, speed: 8000 rpm }
+";
+    let (folder, text) = run("sweep", study, "");
+    let sweep = json_of(&folder, "oil")["sweep"].clone();
+    let map = json_of(&folder, "map")["maps"].clone();
+    for i in 0..2 {
+        assert_eq!(sweep[i]["points"][1]["loss_w"], map[i]["points"][0]["loss_w"], "{text}");
+    }
+    let loss = |value: &Value| value["points"][0]["loss_w"].as_f64().unwrap();
+    assert!(loss(&sweep[0]) < loss(&sweep[1]), "thick oil loses more without load");
+    let hot = json_of(&folder, "hot")["sweep"].clone();
+    assert!(loss(&hot[0]) > loss(&hot[1]) && hot[0]["points"][0]["oil_temperature_degc"] == 60.0);
+    assert!(
+        folder.join("results/oil-loss.svg").is_file() && text.contains("kv900"),
+        "{text}"
+    );
+}

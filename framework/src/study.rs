@@ -138,6 +138,8 @@ pub enum Analysis {
     ThermalLimit(ThermalLimitEntry),
     /// How the temperature of one point is found: losses and heat over temperature, and every step.
     Balance(BalanceEntry),
+    /// Losses and efficiency over the values of one path.
+    Sweep(SweepEntry),
 }
 
 /// Losses and efficiency over a grid.
@@ -216,6 +218,33 @@ pub enum Find {
     Torque,
     /// The speed at each torque.
     Speed,
+}
+
+/// Losses and efficiency over the values of one path.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct SweepEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Resolved path whose value changes, such as `lubricants.sump.viscosity.kv100`, or `thermal.oil` for the temperature.
+    pub path: String,
+    /// Values, each as in a gearbox: `[4 mm2/s, 6 mm2/s]`.
+    #[schemars(length(min = 1))]
+    pub values: Vec<Value>,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Torques.
+    pub torque: TorqueAxis,
+    /// Speeds.
+    pub speed: SpeedAxis,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "all")]
+    pub write: Vec<WriteAlso>,
 }
 
 /// How the temperature of one point is found.

@@ -8,6 +8,7 @@ mod contact_path;
 mod map;
 mod operating_points;
 mod report;
+mod sweep;
 mod thermal_limit;
 mod write;
 
@@ -161,6 +162,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::OperatingPoints(entry) => operating_points::run(&runner, name, entry, out),
             Analysis::ThermalLimit(entry) => thermal_limit::run(&runner, name, entry, out),
             Analysis::Balance(entry) => balance::run(&runner, name, entry, out),
+            Analysis::Sweep(entry) => sweep::run(&runner, name, entry, out),
         };
         let printed = out.end_copy();
         runner.report.borrow_mut().text(&printed);
@@ -229,6 +231,7 @@ fn about(analysis: &Analysis) -> &'static str {
         Analysis::OperatingPoints(_) => "Losses of a list of operating points.",
         Analysis::ThermalLimit(_) => "How far a torque or a speed can go before the oil reaches a temperature.",
         Analysis::Balance(_) => "How the temperature of one point is found.",
+        Analysis::Sweep(_) => "Losses and efficiency over the values of one path.",
     }
 }
 

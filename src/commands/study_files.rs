@@ -148,6 +148,7 @@ impl Study {
                 Analysis::OperatingPoints(o) => (o.gearbox.as_ref(), None, o.model_sets.iter().collect()),
                 Analysis::ThermalLimit(l) => (l.gearbox.as_ref(), None, l.model_sets.iter().collect()),
                 Analysis::Balance(b) => (b.gearbox.as_ref(), None, b.model_sets.iter().collect()),
+                Analysis::Sweep(s) => (s.gearbox.as_ref(), None, s.model_sets.iter().collect()),
             };
             if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
                 found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));

@@ -128,7 +128,7 @@ fn set_names<'a>(maps: &'a [Map<'_>]) -> Vec<&'a str> {
 }
 
 /// A bound value as it was written.
-fn word(value: &Value) -> String {
+pub fn word(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 

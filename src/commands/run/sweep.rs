@@ -1,0 +1,202 @@
+//! Losses and efficiency over the values of one path.
+
+use gearloss_framework::analysis::{PointResult, notes};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::loss::Extent;
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::{Line, Stroke};
+use gearloss_framework::study::{SweepEntry, WriteAlso};
+use gearloss_framework::thermal::Outcome;
+use serde_json::{Value, json};
+
+use super::super::solve::{RPM, outside};
+use super::breakdown::{names, stack};
+use super::map::{tidy, word};
+use super::write::{cell, head, picture, write};
+use super::{Built, Runner, axis, gear_of};
+use crate::output::{Failure, Out, Table, number};
+
+/// A quantity in short, in words, and how to read it.
+type Shown = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
+
+/// All points under one set at one value.
+struct At<'a> {
+    value: usize,
+    built: Built<'a>,
+    points: Vec<PointResult>,
+    seen: Vec<Extent>,
+}
+
+pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let torques = axis(runner, &format!("{path}.torque"), entry.torque.values())?;
+    let speeds = axis(runner, &format!("{path}.speed"), entry.speed.values())?;
+    let words: Vec<String> = entry.values.iter().map(word).collect();
+    if entry.path == "thermal.oil" && runner.study.entry.conditions.oil_temperature.is_some() {
+        let error = Diagnostic::error(
+            format!("{path}.path"),
+            "the conditions fix the temperature, so it cannot change",
+        )
+        .mend("leave `conditions.oil_temperature` out");
+        return Err(runner.study.findings(vec![error]).into());
+    }
+    let mut all: Vec<At<'_>> = Vec::new();
+    for (value, change) in entry.values.iter().enumerate() {
+        let change = [(entry.path.clone(), change.clone())];
+        for built in runner.built_with(gearbox, &entry.model_sets, &change)? {
+            let gear = gear_of(entry.gear.as_deref(), &built.transmission);
+            let points = runner.points(&built.transmission, gear, torques.clone(), speeds.clone());
+            let solved = runner.solve(&built, &points)?;
+            all.push(At {
+                value,
+                built,
+                points: solved.points,
+                seen: solved.seen,
+            });
+        }
+    }
+    let mut shares: Vec<String> = Vec::new();
+    for share in all.iter().flat_map(|at| names(&at.built, entry.by)) {
+        if !shares.contains(&share) {
+            shares.push(share);
+        }
+    }
+    let mut header: Vec<String> = ["model_set", "gear", &entry.path].map(str::to_owned).to_vec();
+    header.extend(
+        [
+            "torque_nm",
+            "speed_rpm",
+            "oil_temperature_degc",
+            "balance",
+            "status",
+            "efficiency",
+            "loss_w",
+        ]
+        .map(str::to_owned),
+    );
+    header.extend(shares.iter().map(|s| format!("{s}_w")));
+    let (mut rows, mut results) = (Vec::new(), Vec::new());
+    for at in &all {
+        let gear = gear_of(entry.gear.as_deref(), &at.built.transmission);
+        let mut points = Vec::new();
+        for p in &at.points {
+            let stack = stack(&at.built, p, entry.by, &shares);
+            let mut row = vec![at.built.name.clone(), gear.to_owned(), words[at.value].clone()];
+            row.extend([cell(Some(p.torque)), cell(Some(tidy(p.speed * RPM))), cell(p.oil)]);
+            row.extend([
+                p.balance.map_or("", Outcome::name).to_owned(),
+                p.status.name().to_owned(),
+            ]);
+            row.extend([cell(p.efficiency), cell(p.loss)]);
+            row.extend((0..shares.len()).map(|i| cell(stack.as_ref().map(|s| s[i]))));
+            rows.push(row);
+            points.push(json!({
+                "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "oil_temperature_degc": p.oil, "balance": p.balance,
+                "status": p.status, "efficiency": p.efficiency, "loss_w": p.loss, "losses_w": stack,
+            }));
+        }
+        results.push(json!({
+            "model_set": at.built.name, "gear": gear, "path": entry.path, "value": entry.values[at.value],
+            "shares": shares, "points": points, "notes": notes(&at.built.transmission, &at.seen),
+        }));
+    }
+    show(name, entry, &words, &all, out)?;
+    let mut value = head(runner, name, &all.iter().map(|at| &at.built).collect::<Vec<_>>());
+    value["sweep"] = Value::Array(results);
+    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
+    pictures(runner, name, entry, &words, &all)
+}
+
+/// Names of the sets in their order.
+fn sets<'a>(all: &'a [At<'_>]) -> Vec<&'a str> {
+    let first = all.iter().take_while(|at| at.value == 0);
+    first.map(|at| at.built.name.as_str()).collect()
+}
+
+fn show(name: &str, entry: &SweepEntry, words: &[String], all: &[At<'_>], out: &mut Out) -> Result<(), Failure> {
+    for set in sets(all) {
+        let own: Vec<&At<'_>> = all.iter().filter(|at| at.built.name == set).collect();
+        out.line(format!("{name}: loss in W over {}, models {set}", entry.path))?;
+        let mut titles = vec!["torque Nm".to_owned(), "speed rpm".to_owned()];
+        titles.extend(words.iter().cloned());
+        let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+        for (i, point) in own[0].points.iter().enumerate() {
+            let mut row = vec![format!("{}", point.torque), format!("{:.0}", point.speed * RPM)];
+            row.extend(own.iter().map(|at| number(at.points[i].loss, 2)));
+            table.row(row);
+        }
+        out.text(&table.render())?;
+        // The transmissions differ in one value, so their notes stand in the same order.
+        let mut seen = own[0].seen.clone();
+        for at in &own[1..] {
+            for (total, more) in seen.iter_mut().zip(&at.seen) {
+                *total = total.merge(*more);
+            }
+        }
+        out.line(outside(&notes(&own[0].built.transmission, &seen)))?;
+    }
+    Ok(())
+}
+
+/// Loss and efficiency over the values, a line for each torque and speed. Values that are no numbers stand by their place.
+fn pictures(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &SweepEntry,
+    words: &[String],
+    all: &[At<'_>],
+) -> Result<(), Failure> {
+    let parsed: Option<Vec<f64>> = words.iter().map(|w| w.split(' ').next()?.parse().ok()).collect();
+    let unit = words
+        .first()
+        .and_then(|w| w.split_once(' '))
+        .map_or("", |(_, unit)| unit);
+    let (places, x) = match parsed {
+        Some(places) if unit.is_empty() => (places, entry.path.clone()),
+        Some(places) => (places, format!("{} in {unit}", entry.path)),
+        None => (
+            (1..=words.len()).map(|i| i as f64).collect(),
+            format!("{}: {}", entry.path, words.join(", ")),
+        ),
+    };
+    let quantities: [Shown; 2] = [
+        ("loss", "loss in W", |p| p.loss),
+        ("efficiency", "efficiency in %", |p| p.efficiency.map(|e| 100.0 * e)),
+    ];
+    for (short, y, quantity) in quantities {
+        let mut lines = Vec::new();
+        for set in sets(all) {
+            let own: Vec<&At<'_>> = all.iter().filter(|at| at.built.name == set).collect();
+            for (i, point) in own[0].points.iter().enumerate() {
+                let points: Vec<_> = own
+                    .iter()
+                    .map(|at| Some((places[at.value], quantity(&at.points[i])?)))
+                    .collect();
+                if points.iter().any(Option::is_some) {
+                    lines.push(Line {
+                        name: format!("{set}: {} Nm, {:.0} rpm", point.torque, point.speed * RPM),
+                        points,
+                        stroke: Stroke::Marked,
+                    });
+                }
+            }
+        }
+        if lines.is_empty() {
+            continue;
+        }
+        let figure = Figure::Lines {
+            title: format!("{name}: {y}"),
+            x: x.clone(),
+            y: y.to_owned(),
+            lines,
+        };
+        picture(
+            runner,
+            &format!("{name}-{short}"),
+            figure,
+            entry.write.contains(&WriteAlso::Svg),
+        )?;
+    }
+    Ok(())
+}
