@@ -1,13 +1,13 @@
 //! Losses by mechanism, component or sum over speed.
 
-use gearloss_framework::analysis::{PointResult, SUMS};
+use gearloss_framework::analysis::{PointResult, SUMS, notes};
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::Bar;
 use gearloss_framework::study::{As, BreakdownEntry, By};
 use gearloss_framework::transmission::PartInfo;
 use serde_json::{Value, json};
 
-use super::super::solve::RPM;
+use super::super::solve::{RPM, outside};
 use super::map::{spread, tidy};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, axis};
@@ -91,11 +91,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
             out.text(&table.render())?;
             out.line("")?;
         }
+        let seen = notes(&b.transmission, &solved.seen);
+        out.line(outside(&seen))?;
         results.push(json!({
             "model_set": b.name,
             "gear": gear,
             "unit": unit,
             "shares": names,
+            "notes": seen,
             "points": solved.points.iter().zip(&stacks).map(|(p, s)| json!({
                 "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "loss": s,
             })).collect::<Vec<_>>(),

@@ -1,12 +1,12 @@
 //! Difference between sets of models over a grid: the other set minus the base.
 
-use gearloss_framework::analysis::{GridResult, PointResult};
+use gearloss_framework::analysis::{GridResult, PointResult, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::report::Figure;
 use gearloss_framework::study::{CompareEntry, WriteAlso};
 use serde_json::{Value, json};
 
-use super::super::super::solve::RPM;
+use super::super::super::solve::{RPM, outside};
 use super::super::map::{spread, tidy};
 use super::super::write::{cell, head, picture, write};
 use super::super::{Runner, axis};
@@ -134,6 +134,8 @@ pub fn run(
                 json!({ "difference": gap, "torque_nm": other.points[i].torque, "speed_rpm": tidy(other.points[i].speed * RPM) })
             })
         };
+        let seen = notes(&b.transmission, &other.seen);
+        out.line(outside(&seen))?;
         results.push(json!({
             "model_set": b.name,
             "base": base,
@@ -142,6 +144,7 @@ pub fn run(
             "least": at(least),
             "greatest": at(greatest),
             "mean": mean,
+            "notes": seen,
             "points": differences.iter().zip(&other.points).map(|(gap, p)| json!({
                 "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "difference": gap,
             })).collect::<Vec<_>>(),
