@@ -382,7 +382,10 @@ fn a_faulty_table_is_refused_with_line_and_column() {
             TABLE.replace("[mm2/s]", "[m2/s]"),
             "line 1, column 2: `nu` is in m2/s, not in mm2/s",
         ),
-        (TABLE.replace("[Nm]", "[Nmm]"), "line 1: `moment` is in Nmm, not in Nm"),
+        (
+            TABLE.replace("[Nm]", "[Nmm]"),
+            "line 1, column 4: `moment` is in Nmm, not in Nm",
+        ),
         (
             TABLE.replace("0.050", "NaN"),
             "line 7, column 4 `moment [Nm]`: `NaN` is not a number",
@@ -403,7 +406,10 @@ fn a_faulty_table_is_refused_with_line_and_column() {
             TABLE.replace("0.050", "-0.050"),
             "at speed = 400, nu = 20, volume = 130 the answer is -0.05, which is negative",
         ),
-        (TABLE.replace("moment [Nm]", "moment"), "line 1: `moment` has no unit"),
+        (
+            TABLE.replace("moment [Nm]", "moment"),
+            "line 1, column 4: `moment` has no unit",
+        ),
     ] {
         let text = tabled(&language, &csv, ", outside: clamp", "").err().unwrap();
         assert!(

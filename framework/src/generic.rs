@@ -268,15 +268,16 @@ impl<M: Mechanism> Lookup<M> {
                 .mend("name each axis as a quantity; answers stand behind all axes"));
         }
         let tables = Table::several_from_csv(&text, reading, axes).map_err(fault)?;
-        for (table, column) in tables.iter().zip(&columns[axes..]) {
+        for (i, (table, column)) in tables.iter().zip(&columns[axes..]).enumerate() {
+            let at = format!("line 1, column {}", axes + i + 1);
             if table.unit().is_none() && unit != "-" {
                 return Err(cx
-                    .error(format!("{file}: line 1: `{column}` has no unit"))
+                    .error(format!("{file}: {at}: `{column}` has no unit"))
                     .mend(format!("convert it where needed and write `{column} [{unit}]`")));
             }
             if let Some(written) = table.unit().filter(|written| *written != unit) {
                 return Err(cx
-                    .error(format!("{file}: line 1: `{column}` is in {written}, not in {unit}"))
+                    .error(format!("{file}: {at}: `{column}` is in {written}, not in {unit}"))
                     .mend(format!("convert it and write `{column} [{unit}]`")));
             }
         }
@@ -299,8 +300,13 @@ impl<M: Mechanism> Lookup<M> {
                     .mend(format!("state {needed}")));
             }
         }
-        for (place, (point, first)) in tables[0].points().into_iter().enumerate() {
-            let sum = first + tables[1..].iter().map(|t| t.points()[place].1).sum::<f64>();
+        let mut sums = tables[0].points();
+        for table in &tables[1..] {
+            for (sum, (_, more)) in sums.iter_mut().zip(table.points()) {
+                sum.1 += more;
+            }
+        }
+        for (point, sum) in sums {
             if sum < 0.0 {
                 let at: Vec<String> = point
                     .iter()

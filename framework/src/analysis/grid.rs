@@ -132,6 +132,7 @@ pub fn run_grid(
         .par_chunks(CHUNK)
         .map(|chunk| {
             let mut scratch = transmission.scratch(&case);
+            let mut temperatures = vec![0.0; transmission.nodes()];
             let results = chunk
                 .iter()
                 .map(|(torque, speed)| {
@@ -143,7 +144,8 @@ pub fn run_grid(
                         tolerance: Tolerance::default(),
                     };
                     let (oil, balance) = points.oil.find(transmission, &case, &point, &mut scratch);
-                    let solution = transmission.evaluate(&case, &point, &vec![oil; transmission.nodes()], &mut scratch);
+                    temperatures.fill(oil);
+                    let solution = transmission.evaluate(&case, &point, &temperatures, &mut scratch);
                     let mut totals = [0.0; 6];
                     for (part, loss) in solution.parts() {
                         sums::add(&mut totals, transmission, part, &loss);
@@ -177,13 +179,7 @@ pub fn run_grid(
     let mut seen: Vec<Extent> = Vec::new();
     let mut results = Vec::with_capacity(all.len());
     for (points, totals) in solved {
-        if seen.is_empty() {
-            seen = totals;
-        } else {
-            for (a, b) in seen.iter_mut().zip(totals) {
-                *a = a.merge(b);
-            }
-        }
+        merge(&mut seen, &totals);
         results.extend(points);
     }
     let passes = results.iter().map(|p| p.passes).sum();
@@ -192,4 +188,15 @@ pub fn run_grid(
         seen,
         passes,
     })
+}
+
+/// Adds what was seen of limits and observed quantities to what was seen before; both in the order of one transmission.
+pub fn merge(total: &mut Vec<Extent>, more: &[Extent]) {
+    if total.is_empty() {
+        total.extend_from_slice(more);
+    } else {
+        for (a, b) in total.iter_mut().zip(more) {
+            *a = a.merge(*b);
+        }
+    }
 }

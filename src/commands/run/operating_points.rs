@@ -1,6 +1,6 @@
 //! Losses of a list of operating points from a file, as stacked bars, with room for what was measured.
 
-use gearloss_framework::analysis::{PointResult, notes};
+use gearloss_framework::analysis::{PointResult, merge, notes};
 use gearloss_framework::document::{Diagnostic, Unit};
 use gearloss_framework::loss::Extent;
 use gearloss_framework::report::Figure;
@@ -92,15 +92,6 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
     shares.retain(|share| !off(share));
     header.extend(shares.iter().map(|s| format!("{s}_w")));
     let (mut table, mut results) = (Vec::new(), Vec::new());
-    let merged = |total: &mut Vec<Extent>, more: &[Extent]| {
-        if total.is_empty() {
-            total.extend_from_slice(more);
-        } else {
-            for (a, b) in total.iter_mut().zip(more) {
-                *a = a.merge(*b);
-            }
-        }
-    };
     for set in 0..built.first().map_or(0, Vec::len) {
         let mut solved: Vec<(&Row, PointResult, Option<Vec<f64>>)> = Vec::new();
         let (mut set_name, mut gear) = (String::new(), String::new());
@@ -112,7 +103,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
             gear_of(entry.gear.as_deref(), &b.transmission).clone_into(&mut gear);
             let points = runner.points(&b.transmission, &gear, vec![row.torque], vec![row.speed]);
             let mut result = runner.solve(b, &points)?;
-            merged(&mut seen, &result.seen);
+            merge(&mut seen, &result.seen);
             let Some(point) = result.points.pop() else {
                 continue;
             };

@@ -1,6 +1,6 @@
 //! Losses and efficiency over the values of one path.
 
-use gearloss_framework::analysis::{PointResult, notes};
+use gearloss_framework::analysis::{PointResult, merge, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::report::Figure;
@@ -128,11 +128,9 @@ fn show(name: &str, entry: &SweepEntry, words: &[String], all: &[At<'_>], out: &
         }
         out.text(&table.render())?;
         // The transmissions differ in one value, so their notes stand in the same order.
-        let mut seen = own[0].seen.clone();
-        for at in &own[1..] {
-            for (total, more) in seen.iter_mut().zip(&at.seen) {
-                *total = total.merge(*more);
-            }
+        let mut seen = Vec::new();
+        for at in &own {
+            merge(&mut seen, &at.seen);
         }
         out.line(outside(&notes(&own[0].built.transmission, &seen)))?;
     }

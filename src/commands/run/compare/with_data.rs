@@ -1,6 +1,6 @@
 //! Models against measured points: the model minus the measurement.
 
-use gearloss_framework::analysis::{Note, OilTemperature, PointResult, Statistics, bands, histogram, notes};
+use gearloss_framework::analysis::{Note, OilTemperature, PointResult, Statistics, bands, histogram, merge, notes};
 use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Extent;
@@ -230,13 +230,7 @@ fn compared<'a>(
             points.oil = OilTemperature::Fixed(oil);
         }
         let mut result = runner.solve(b, &points)?;
-        if seen.is_empty() {
-            seen.clone_from(&result.seen);
-        } else {
-            for (total, more) in seen.iter_mut().zip(&result.seen) {
-                *total = total.merge(*more);
-            }
-        }
+        merge(&mut seen, &result.seen);
         let Some(point) = result.points.pop() else { continue };
         pairs.push(pair(entry, measured, (i, row), &point, value(accuracy)));
     }

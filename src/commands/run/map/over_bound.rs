@@ -1,6 +1,6 @@
 //! One table for a map over speed and the values of one bound path.
 
-use gearloss_framework::analysis::{OilTemperature, PointResult, notes};
+use gearloss_framework::analysis::{OilTemperature, PointResult, merge, notes};
 
 use super::super::super::solve::{RPM, outside};
 use super::{Map, set_names, spread, word};
@@ -35,11 +35,9 @@ pub fn over_bound(name: &str, maps: &[Map<'_>], out: &mut Out) -> Result<(), Fai
             out.text(&table.render())?;
         }
         // Notes of all maps together: the transmissions differ in the bound value only.
-        let mut all = of_set[0].solved.seen.clone();
-        for map in &of_set[1..] {
-            for (total, more) in all.iter_mut().zip(&map.solved.seen) {
-                *total = total.merge(*more);
-            }
+        let mut all = Vec::new();
+        for map in &of_set {
+            merge(&mut all, &map.solved.seen);
         }
         out.text(&outside(&notes(&of_set[0].built.transmission, &all)))?;
         out.line("")?;
