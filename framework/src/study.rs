@@ -1,16 +1,31 @@
 //! Studies: gearboxes, conditions, grids and analyses as data.
 
 mod axes;
+mod breakdown;
+mod compare;
+mod component;
+mod map;
+mod operating_points;
+mod sweep;
+mod temperature;
+mod write;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 pub use axes::{Span, SpeedAxis, SpeedSpan, TorqueAxis, TorqueSpan};
+pub use breakdown::{As, BreakdownEntry, By};
+pub use compare::{CompareEntry, Difference, Quantity};
+pub use component::{ComponentCompareEntry, ContactPathEntry};
+pub use map::MapEntry;
+pub use operating_points::OperatingPointsEntry;
+pub use sweep::SweepEntry;
+pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
+pub use write::Write;
 
 use crate::description::Ordered;
 use crate::evaluate::PowerFlow;
-use crate::measured::MeasuredEntry;
 
 /// A study.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -142,391 +157,46 @@ pub enum Analysis {
     Sweep(SweepEntry),
 }
 
-/// Losses and efficiency over a grid.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct MapEntry {
+/// The names that an analysis uses.
+#[derive(Debug, Clone)]
+pub struct Uses<'a> {
     /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
+    pub gearbox: Option<&'a String>,
     /// Grid.
-    pub grid: String,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// Formats to write; absent, CSV and JSON. Pictures show efficiency, loss and, with a balance, temperature.
-    #[serde(default = "data")]
-    pub write: Vec<WriteAlso>,
+    pub grid: Option<&'a String>,
+    /// Sets of models.
+    pub sets: Vec<&'a String>,
 }
 
-/// Losses of a list of operating points from a file.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct OperatingPointsEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
-    pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// CSV file beside the study, one row for each point: `name`, `torque [Nm]`, `speed [rpm]`, the columns of `bind`, and what
-    /// was measured: `measured_loss [W]`, `measured_oil_temperature [degC]`, `measured_surface_temperature [degC]`, each with an
-    /// error such as `measured_loss_error [W]` or `measured_surface_temperature_error [K]`. Cells of measured columns may be empty.
-    pub file: String,
-    /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit stands
-    /// in the header: `volume [ml]`.
-    #[serde(default)]
-    pub bind: Ordered<String>,
-    /// What the losses are summed by.
-    #[serde(default)]
-    pub by: By,
-    /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "all")]
-    pub write: Vec<WriteAlso>,
-}
-
-/// The torque, or the speed, at which the balance reaches a given temperature.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct ThermalLimitEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
-    pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// Temperatures of the oil that may be reached. [degC]
-    #[schemars(inner(range(min = 0.0, max = 250.0)), length(min = 1))]
-    pub temperature: Vec<f64>,
-    /// What is looked for: the torque at each speed, or the speed at each torque.
-    #[serde(default)]
-    pub find: Find,
-    /// Torques: the range in which the limit is looked for, from the value nearest to zero to the farthest; or those at which
-    /// the speed is.
-    pub torque: TorqueAxis,
-    /// Speeds: those at which the torque is looked for; or the range in which the limit is.
-    pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "all")]
-    pub write: Vec<WriteAlso>,
-}
-
-/// What a limit is looked for in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Find {
-    /// The torque at each speed.
-    #[default]
-    Torque,
-    /// The speed at each torque.
-    Speed,
-}
-
-/// Losses and efficiency over the values of one path.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct SweepEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
-    pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// Resolved path whose value changes, such as `lubricants.sump.viscosity.kv100`, or `thermal.oil` for the temperature.
-    pub path: String,
-    /// Values, each as in a gearbox: `[4 mm2/s, 6 mm2/s]`.
-    #[schemars(length(min = 1))]
-    pub values: Vec<Value>,
-    /// What the losses are summed by.
-    #[serde(default)]
-    pub by: By,
-    /// Torques.
-    pub torque: TorqueAxis,
-    /// Speeds.
-    pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "all")]
-    pub write: Vec<WriteAlso>,
-}
-
-/// How the temperature of one point is found.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct BalanceEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
-    pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// Torque. [Nm]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub torque: f64,
-    /// Speed. [rpm]
-    #[schemars(range(min = -1e6, max = 1e6))]
-    pub speed: f64,
-    /// Overrides for this analysis: resolved path to value.
-    #[serde(default)]
-    pub set: Ordered<Value>,
-    /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "all")]
-    pub write: Vec<WriteAlso>,
-}
-
-/// Difference between sets of models, and products, over a grid; or between them and what was measured.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct CompareEntry {
-    /// Gearbox of every set that names none; absent, the first.
-    pub gearbox: Option<String>,
-    /// Grid; not with `data`.
-    pub grid: Option<String>,
-    /// Set that the others are compared with; not with `data`. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    pub base: Option<String>,
-    /// Measured points that the sets are compared with.
-    pub data: Option<MeasuredEntry>,
-    /// Columns of the data that change a value of the gearbox: column to resolved path.
-    #[serde(default)]
-    pub bind: Ordered<String>,
-    /// Gear state of the data where no column says it; absent, the first.
-    pub gear: Option<String>,
-    /// Sets to compare; `PRODUCT/SET` takes another gearbox.
-    #[schemars(length(min = 1))]
-    pub against: Vec<String>,
-    /// What is compared.
-    #[serde(default)]
-    pub quantity: Quantity,
-    /// How the difference counts: the other set minus the base, or the model minus the measurement.
-    #[serde(default)]
-    pub difference: Difference,
-    /// Formats to write; absent, CSV and JSON. Pictures show the differences and, with data, parity.
-    #[serde(default = "data")]
-    pub write: Vec<WriteAlso>,
-}
-
-/// Losses by mechanism or component over speed.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct BreakdownEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
-    pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// What the losses are summed by.
-    #[serde(default)]
-    pub by: By,
-    /// Watts, or percent of the whole loss.
-    #[serde(default, rename = "as")]
-    pub unit: As,
-    /// Torques.
-    pub torque: TorqueAxis,
-    /// Speeds.
-    pub speed: SpeedAxis,
-    /// Formats to write; absent, both.
-    #[serde(default = "both")]
-    pub write: Vec<Write>,
-}
-
-/// Several models of one component over speed.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct ComponentCompareEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
-    pub gear: Option<String>,
-    /// Path of the component, such as `bearings.B1`, `meshes.M1` or `gears.G4.drag.churning`.
-    pub component: String,
-    /// Models by name, each as in a gearbox: `{ type: skf }`. The other components keep theirs.
-    pub models: Ordered<Value>,
-    /// Set of models for everything else; absent, the models of the gearbox.
-    pub model_set: Option<String>,
-    /// Overrides for this analysis: resolved path to value, such as `meshes.M2.drag.churning: none`.
-    #[serde(default)]
-    pub set: Ordered<Value>,
-    /// Torques.
-    pub torque: TorqueAxis,
-    /// Speeds.
-    pub speed: SpeedAxis,
-    /// CSV file with measured points: columns `torque [Nm]` and `speed [rpm]` of the study's ports, and `loss [W]`. Each is
-    /// compared with every model at that torque and speed.
-    pub measured: Option<String>,
-    /// Formats to write; absent, both.
-    #[serde(default = "both")]
-    pub write: Vec<Write>,
-}
-
-/// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct ContactPathEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
-    pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// Mesh, one of `meshes`.
-    pub mesh: String,
-    /// Torque. [Nm]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub torque: f64,
-    /// Speed. [rpm]
-    #[schemars(range(min = -1e6, max = 1e6))]
-    pub speed: f64,
-    /// Number of places. [-]
-    #[serde(default = "places")]
-    #[schemars(range(min = 3, max = 2001))]
-    pub places: u32,
-    /// Formats to write; absent, both.
-    #[serde(default = "both")]
-    pub write: Vec<Write>,
-}
-
-fn places() -> u32 {
-    101
-}
-
-fn both() -> Vec<Write> {
-    vec![Write::Csv, Write::Json]
-}
-
-fn data() -> Vec<WriteAlso> {
-    vec![WriteAlso::Csv, WriteAlso::Json]
-}
-
-fn all() -> Vec<WriteAlso> {
-    vec![WriteAlso::Csv, WriteAlso::Json, WriteAlso::Svg]
-}
-
-/// A format to write, pictures among them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum WriteAlso {
-    /// Comma-separated values.
-    Csv,
-    /// JSON.
-    Json,
-    /// Pictures, one file each.
-    Svg,
-}
-
-impl WriteAlso {
-    /// The formats of data among those asked for.
-    pub fn data(list: &[Self]) -> Vec<Write> {
-        let data = |format: &Self| match format {
-            Self::Csv => Some(Write::Csv),
-            Self::Json => Some(Write::Json),
-            Self::Svg => None,
-        };
-        list.iter().filter_map(data).collect()
+impl<'a> Uses<'a> {
+    fn new(gearbox: Option<&'a String>, sets: impl IntoIterator<Item = &'a String>) -> Self {
+        Self {
+            gearbox,
+            grid: None,
+            sets: sets.into_iter().collect(),
+        }
     }
 }
 
-/// A format to write.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Write {
-    /// Comma-separated values.
-    Csv,
-    /// JSON.
-    Json,
-}
-
-/// What is compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Quantity {
-    /// Efficiency.
-    #[default]
-    Efficiency,
-    /// Sum of all losses.
-    Loss,
-    /// Loss over the speed of the reference port.
-    LossTorque,
-    /// Temperature of the oil, where it is found by balance.
-    Temperature,
-}
-
-impl Quantity {
-    /// Name in results, with its unit.
-    pub fn name(self) -> &'static str {
+impl Analysis {
+    /// The names that it uses, to be looked up before anything is solved.
+    pub fn uses(&self) -> Uses<'_> {
         match self {
-            Self::Efficiency => "efficiency",
-            Self::Loss => "loss_w",
-            Self::LossTorque => "loss_torque_nm",
-            Self::Temperature => "oil_temperature_degc",
+            Self::Map(e) => Uses {
+                grid: Some(&e.grid),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+            },
+            Self::Compare(e) => Uses {
+                grid: e.grid.as_ref(),
+                ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against))
+            },
+            Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::ComponentCompare(e) => Uses::new(e.gearbox.as_ref(), &e.model_set),
+            Self::ContactPath(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::Sweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
         }
     }
-
-    /// Unit of a difference.
-    pub fn unit(self, difference: Difference) -> &'static str {
-        match (difference, self) {
-            (Difference::Percent, _) => "percent",
-            (Difference::Points, Self::Efficiency) => "points",
-            (Difference::Points, Self::Loss) => "w",
-            (Difference::Points, Self::LossTorque) => "nm",
-            (Difference::Points, Self::Temperature) => "k",
-        }
-    }
-
-    /// The quantity and the unit of a difference in words.
-    pub fn words(self, difference: Difference) -> (&'static str, &'static str) {
-        let what = match self {
-            Self::Efficiency => "efficiency",
-            Self::Loss => "loss",
-            Self::LossTorque => "loss torque",
-            Self::Temperature => "oil temperature",
-        };
-        let unit = match (difference, self) {
-            (Difference::Percent, _) => "%",
-            (Difference::Points, Self::Efficiency) => "efficiency points",
-            (Difference::Points, Self::Loss) => "W",
-            (Difference::Points, Self::LossTorque) => "Nm",
-            (Difference::Points, Self::Temperature) => "K",
-        };
-        (what, unit)
-    }
-
-    /// The other value minus the base, in that unit; absent where the base is zero and a percentage is asked for.
-    pub fn difference(self, difference: Difference, base: f64, other: f64) -> Option<f64> {
-        match (difference, self) {
-            (Difference::Percent, _) => (base != 0.0).then(|| 100.0 * (other - base) / base),
-            (Difference::Points, Self::Efficiency) => Some(100.0 * (other - base)),
-            (Difference::Points, _) => Some(other - base),
-        }
-    }
-}
-
-/// How a difference counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Difference {
-    /// Efficiency points (0.01), watts for a loss, kelvins for a temperature.
-    #[default]
-    Points,
-    /// Percent of the base.
-    Percent,
-}
-
-/// What losses are summed by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum By {
-    /// By mechanism.
-    #[default]
-    Mechanism,
-    /// By component.
-    Component,
-    /// By the usual sums: gears, bearings, seals, others; load-dependent and not.
-    Sum,
-}
-
-/// Unit of a breakdown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum As {
-    /// Watts.
-    #[default]
-    Watts,
-    /// Percent of the whole loss.
-    Percent,
 }

@@ -7,6 +7,7 @@ mod component_compare;
 mod contact_path;
 mod map;
 mod operating_points;
+mod parquet;
 mod report;
 mod sweep;
 mod thermal_limit;

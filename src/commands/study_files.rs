@@ -8,7 +8,7 @@ use gearloss_framework::document::{Diagnostic, Places, Sources, read_yaml};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, expand_set, sets_of};
-use gearloss_framework::study::{Analysis, StudyEntry};
+use gearloss_framework::study::{StudyEntry, Uses};
 use serde_json::{Map, Value};
 
 /// A study as read, with its gearboxes.
@@ -136,20 +136,7 @@ impl Study {
         let grids: Vec<&str> = self.entry.grids.ids().collect();
         for (name, analysis) in self.entry.analyses.iter() {
             let path = format!("analyses.{name}");
-            let (gearbox, grid, sets): (Option<&String>, Option<&String>, Vec<&String>) = match analysis {
-                Analysis::Map(map) => (map.gearbox.as_ref(), Some(&map.grid), map.model_sets.iter().collect()),
-                Analysis::Compare(compare) => {
-                    let sets = compare.base.iter().chain(&compare.against).collect();
-                    (compare.gearbox.as_ref(), compare.grid.as_ref(), sets)
-                }
-                Analysis::Breakdown(b) => (b.gearbox.as_ref(), None, b.model_sets.iter().collect()),
-                Analysis::ComponentCompare(c) => (c.gearbox.as_ref(), None, c.model_set.iter().collect()),
-                Analysis::ContactPath(c) => (c.gearbox.as_ref(), None, c.model_sets.iter().collect()),
-                Analysis::OperatingPoints(o) => (o.gearbox.as_ref(), None, o.model_sets.iter().collect()),
-                Analysis::ThermalLimit(l) => (l.gearbox.as_ref(), None, l.model_sets.iter().collect()),
-                Analysis::Balance(b) => (b.gearbox.as_ref(), None, b.model_sets.iter().collect()),
-                Analysis::Sweep(s) => (s.gearbox.as_ref(), None, s.model_sets.iter().collect()),
-            };
+            let Uses { gearbox, grid, sets } = analysis.uses();
             if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
                 found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));
             }

@@ -5,7 +5,7 @@ use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{BalanceEntry, WriteAlso};
+use gearloss_framework::study::{BalanceEntry, Write};
 use gearloss_framework::thermal::Step;
 use serde_json::{Value, json};
 
@@ -67,7 +67,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
         results.push(
             json!({ "model_set": b.name, "gear": points.gear, "balance": json_of_balance(t, &found), "notes": seen }),
         );
-        let write = entry.write.contains(&WriteAlso::Svg);
+        let write = &entry.write;
         pictures(
             runner,
             &format!("{name}-{}", b.name),
@@ -78,11 +78,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["balances"] = Value::Array(results);
-    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value).map(|_| ())
+    write(runner, name, &entry.write, &header, &rows, &value)
 }
 
 /// Losses and heat over temperature; temperature and residual over the steps behind the scan.
-fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize, write: bool) -> Result<(), Failure> {
+fn pictures(runner: &Runner<'_>, name: &str, history: &[Step], scanned: usize, write: &[Write]) -> Result<(), Failure> {
     let figure = |title: String, x: &str, y: &str, lines: Vec<Line>| Figure::Lines {
         title,
         x: x.to_owned(),

@@ -71,7 +71,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
                 names: names.clone(),
                 bars: bars.collect(),
             };
-            picture(runner, name, figure, false)?;
+            let file = format!("{name}-{}-{torque}Nm", b.name);
+            picture(runner, &file, figure, &entry.write)?;
             out.line(format!(
                 "{name}: loss in {label}, gear {gear}, {torque} Nm, models {}",
                 b.name

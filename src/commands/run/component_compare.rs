@@ -367,7 +367,7 @@ fn figures(
             y: "loss in W".to_owned(),
             lines,
         };
-        picture(runner, name, figure, false)?;
+        picture(runner, &format!("{name}-{torque}Nm"), figure, &entry.write)?;
     }
     Ok(())
 }

@@ -248,15 +248,15 @@ fn figures(
     built: &Built<'_>,
     found: &Paths,
 ) -> Result<(), Failure> {
-    type Along = (&'static str, fn(&Place) -> Option<f64>);
+    type Along = (&'static str, &'static str, fn(&Place) -> Option<f64>);
     let quantities: [Along; 5] = [
-        ("share of the load", |p| Some(p.share)),
-        ("Hertz pressure in GPa", |p| Some(p.pressure)),
-        ("sliding speed in m/s", |p| Some(p.sliding)),
-        ("coefficient of friction", |p| p.mu),
-        ("sliding loss in W", |p| p.loss),
+        ("share", "share of the load", |p| Some(p.share)),
+        ("pressure", "Hertz pressure in GPa", |p| Some(p.pressure)),
+        ("sliding", "sliding speed in m/s", |p| Some(p.sliding)),
+        ("friction", "coefficient of friction", |p| p.mu),
+        ("loss", "sliding loss in W", |p| p.loss),
     ];
-    for (y, quantity) in quantities {
+    for (short, y, quantity) in quantities {
         if found.places.iter().all(|p| quantity(p).is_none()) {
             continue;
         }
@@ -275,7 +275,8 @@ fn figures(
             y: y.to_owned(),
             lines: vec![line],
         };
-        picture(runner, name, figure, false)?;
+        let file = format!("{name}-{}-{short}", built.name);
+        picture(runner, &file, figure, &entry.write)?;
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ mod pictures;
 
 use gearloss_framework::analysis::{GridResult, OilTemperature, PointResult, Points, SUMS, evidence, notes};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::study::{MapEntry, WriteAlso};
+use gearloss_framework::study::MapEntry;
 use gearloss_framework::thermal::Outcome;
 use serde_json::{Value, json};
 
@@ -104,8 +104,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
     }
     let mut value = head(runner, name, &maps.iter().map(|m| &m.built).collect::<Vec<_>>());
     value["maps"] = Value::Array(results);
-    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
-    pictures(runner, name, &maps, entry.write.contains(&WriteAlso::Svg))
+    write(runner, name, &entry.write, &header, &rows, &value)?;
+    pictures(runner, name, &maps, &entry.write)
 }
 
 /// A map under one set with one combination of bound values.

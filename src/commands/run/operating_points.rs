@@ -5,7 +5,7 @@ use gearloss_framework::document::{Diagnostic, Unit};
 use gearloss_framework::loss::Extent;
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::Bar;
-use gearloss_framework::study::{By, OperatingPointsEntry, WriteAlso};
+use gearloss_framework::study::{By, OperatingPointsEntry};
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::transmission::PartInfo;
 use serde_json::{Value, json};
@@ -159,13 +159,13 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
                 names: shares.clone(),
                 bars,
             },
-            entry.write.contains(&WriteAlso::Svg),
+            &entry.write,
         )?;
     }
     let all: Vec<&Built<'_>> = built.iter().flatten().collect();
     let mut value = head(runner, name, &all);
     value["operating_points"] = Value::Array(results);
-    write(runner, name, &WriteAlso::data(&entry.write), &header, &table, &value)?;
+    write(runner, name, &entry.write, &header, &table, &value)?;
     Ok(())
 }
 

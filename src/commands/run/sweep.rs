@@ -5,7 +5,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{SweepEntry, WriteAlso};
+use gearloss_framework::study::SweepEntry;
 use gearloss_framework::thermal::Outcome;
 use serde_json::{Value, json};
 
@@ -104,7 +104,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
     show(name, entry, &words, &all, out)?;
     let mut value = head(runner, name, &all.iter().map(|at| &at.built).collect::<Vec<_>>());
     value["sweep"] = Value::Array(results);
-    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
+    write(runner, name, &entry.write, &header, &rows, &value)?;
     pictures(runner, name, entry, &words, &all)
 }
 
@@ -189,12 +189,7 @@ fn pictures(
             y: y.to_owned(),
             lines,
         };
-        picture(
-            runner,
-            &format!("{name}-{short}"),
-            figure,
-            entry.write.contains(&WriteAlso::Svg),
-        )?;
+        picture(runner, &format!("{name}-{short}"), figure, &entry.write)?;
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{Find, ThermalLimitEntry, WriteAlso};
+use gearloss_framework::study::{Find, ThermalLimitEntry};
 use gearloss_framework::thermal::Limit;
 use serde_json::{Value, json};
 
@@ -125,7 +125,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["thermal_limits"] = Value::Array(results);
-    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
+    write(runner, name, &entry.write, &header, &rows, &value)?;
     let conditions = &runner.study.entry.conditions;
     let torque = format!("torque at {} in Nm", conditions.torque_at);
     let speed = format!("speed at {} in rpm", conditions.speed_at);
@@ -133,7 +133,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
         Find::Torque => (&speed, &torque, "torque at which the oil reaches a temperature"),
         Find::Speed => (&torque, &speed, "speed at which the oil reaches a temperature"),
     };
-    let write = entry.write.contains(&WriteAlso::Svg);
+    let write = &entry.write;
     let figure = |title: String, y: &str, lines: Vec<Line>| Figure::Lines {
         title,
         x: x.clone(),

@@ -1,12 +1,13 @@
 //! Files of results.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use gearloss_framework::report::Figure;
 use gearloss_framework::study::Write;
 use serde_json::{Value, json};
 
+use super::parquet::parquet;
 use super::{Built, Runner};
 use crate::output::Failure;
 
@@ -45,7 +46,7 @@ pub fn whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     fs::rename(&part, path)
 }
 
-/// Writes a table as CSV and a value as JSON, as asked; returns the files.
+/// Writes a table as CSV and Parquet and a value as JSON, as asked.
 pub fn write(
     runner: &Runner<'_>,
     name: &str,
@@ -53,55 +54,54 @@ pub fn write(
     header: &[String],
     rows: &[Vec<String>],
     value: &Value,
-) -> Result<Vec<PathBuf>, Failure> {
-    let failed = |path: &Path, e: &dyn std::fmt::Display| {
-        Failure::input(
-            format!("cannot write {}: {e}", path.display()),
-            "name another folder with -o",
-        )
-    };
-    fs::create_dir_all(&runner.folder).map_err(|e| failed(&runner.folder, &e))?;
-    let mut files = Vec::new();
+) -> Result<(), Failure> {
     for format in formats {
-        let path = runner
-            .folder
-            .join(format!("{name}.{}", if *format == Write::Csv { "csv" } else { "json" }));
-        let text = match format {
-            Write::Csv => {
-                let mut writer = csv::Writer::from_writer(Vec::new());
-                writer.write_record(header).map_err(|e| failed(&path, &e))?;
-                for row in rows {
-                    writer.write_record(row).map_err(|e| failed(&path, &e))?;
-                }
-                writer.into_inner().map_err(|e| failed(&path, &e))?
-            }
+        let (kind, bytes) = match format {
+            Write::Csv => ("csv", csv(header, rows)),
+            Write::Parquet => ("parquet", parquet(header, rows)),
             Write::Json => {
-                let text = serde_json::to_string_pretty(value).map_err(|e| failed(&path, &e))?;
-                (text + "\n").into_bytes()
+                let text = serde_json::to_string_pretty(value).map_err(|e| e.to_string());
+                ("json", text.map(|text| (text + "\n").into_bytes()))
             }
+            Write::Svg => continue,
         };
-        whole(&path, &text).map_err(|e| failed(&path, &e))?;
-        files.push(path);
+        keep(runner, &format!("{name}.{kind}"), bytes)?;
     }
-    Ok(files)
+    Ok(())
 }
 
 /// Puts a picture into the report, and writes it as a file where that is asked for.
-pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, write: bool) -> Result<(), Failure> {
-    let svg = write.then(|| figure.svg());
+pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, formats: &[Write]) -> Result<(), Failure> {
+    if formats.contains(&Write::Svg) {
+        // A product stands before its set with a slash.
+        let file = format!("{}.svg", name.replace('/', "-"));
+        keep(runner, &file, figure.svg().map(String::into_bytes))?;
+    }
     runner.report.borrow_mut().figure(figure);
-    let Some(svg) = svg else { return Ok(()) };
-    // A product stands before its set with a slash.
-    let path = runner.folder.join(format!("{}.svg", name.replace('/', "-")));
-    let failed = |e: &dyn std::fmt::Display| {
+    Ok(())
+}
+
+/// Writes a file of results whole, or says why it could not.
+pub fn keep(runner: &Runner<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Result<(), Failure> {
+    let path = runner.folder.join(file);
+    let failed = |e: String| {
         Failure::input(
             format!("cannot write {}: {e}", path.display()),
             "name another folder with -o",
         )
     };
-    let svg = svg.map_err(|e| failed(&e))?;
-    fs::create_dir_all(&runner.folder).map_err(|e| failed(&e))?;
-    whole(&path, svg.as_bytes()).map_err(|e| failed(&e))
+    let bytes = bytes.map_err(failed)?;
+    fs::create_dir_all(&runner.folder).map_err(|e| failed(e.to_string()))?;
+    whole(&path, &bytes).map_err(|e| failed(e.to_string()))
+}
+
+fn csv(header: &[String], rows: &[Vec<String>]) -> Result<Vec<u8>, String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(header).map_err(|e| e.to_string())?;
+    for row in rows {
+        writer.write_record(row).map_err(|e| e.to_string())?;
+    }
+    writer.into_inner().map_err(|e| e.to_string())
 }
 
 /// A cell: the number with all its digits, or nothing.

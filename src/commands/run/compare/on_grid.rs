@@ -3,7 +3,7 @@
 use gearloss_framework::analysis::{GridResult, PointResult, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::report::Figure;
-use gearloss_framework::study::{CompareEntry, WriteAlso};
+use gearloss_framework::study::CompareEntry;
 use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, outside};
@@ -153,7 +153,7 @@ pub fn run(
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["comparisons"] = Value::Array(results);
-    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
+    write(runner, name, &entry.write, &header, &rows, &value)?;
     let mark = |x: f64| format!("{}", tidy(x));
     let columns: Vec<String> = speeds.iter().map(|w| mark(w * RPM)).collect();
     let lines: Vec<String> = torques.iter().map(|t| mark(*t)).collect();
@@ -166,12 +166,7 @@ pub fn run(
             values: differences.clone(),
             diverging: true,
         };
-        picture(
-            runner,
-            &format!("{name}-{}", b.name),
-            figure,
-            entry.write.contains(&WriteAlso::Svg),
-        )?;
+        picture(runner, &format!("{name}-{}", b.name), figure, &entry.write)?;
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use gearloss_framework::loss::Extent;
 use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{CompareEntry, Quantity, WriteAlso};
+use gearloss_framework::study::{CompareEntry, Quantity};
 use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, outside};
@@ -110,7 +110,7 @@ pub fn run(
     let mut value = head(runner, name, &built);
     value["data"] = json!({ "file": data.file, "points": measured.rows.len(), "notes": measured.notes });
     value["comparisons"] = Value::Array(results);
-    write(runner, name, &WriteAlso::data(&entry.write), &header, &rows, &value)?;
+    write(runner, name, &entry.write, &header, &rows, &value)?;
     pictures(runner, name, entry, &all)
 }
 
@@ -392,7 +392,7 @@ fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compar
         y: format!("model {what}"),
         lines: dots,
     };
-    let write = entry.write.contains(&WriteAlso::Svg);
+    let write = &entry.write;
     picture(runner, &format!("{name}-parity"), figure, write)?;
     let steps = |c: &Compared<'_>| {
         let values: Vec<f64> = c.pairs.iter().filter_map(|p| p.difference).collect();

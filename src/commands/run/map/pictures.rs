@@ -2,6 +2,7 @@
 
 use gearloss_framework::analysis::{OilTemperature, PointResult};
 use gearloss_framework::report::Figure;
+use gearloss_framework::study::Write;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
@@ -13,7 +14,7 @@ use crate::output::Failure;
 type Shown = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
 
 /// Pictures over speed and torque; over speed and the bound values where there is one torque and one path is bound.
-pub fn pictures(runner: &Runner<'_>, name: &str, maps: &[Map<'_>], write: bool) -> Result<(), Failure> {
+pub fn pictures(runner: &Runner<'_>, name: &str, maps: &[Map<'_>], write: &[Write]) -> Result<(), Failure> {
     let mut quantities: Vec<Shown> = vec![
         ("efficiency", "efficiency in %", |p| p.efficiency.map(|e| 100.0 * e)),
         ("loss", "loss in W", |p| p.loss),

@@ -1,0 +1,33 @@
+//! Losses of a list of operating points from a file.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{By, Write};
+use crate::description::Ordered;
+
+/// Losses of a list of operating points from a file.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct OperatingPointsEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// CSV file beside the study, one row for each point: `name`, `torque [Nm]`, `speed [rpm]`, the columns of `bind`, and what
+    /// was measured: `measured_loss [W]`, `measured_oil_temperature [degC]`, `measured_surface_temperature [degC]`, each with an
+    /// error such as `measured_loss_error [W]` or `measured_surface_temperature_error [K]`. Cells of measured columns may be empty.
+    pub file: String,
+    /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit stands
+    /// in the header: `volume [ml]`.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}

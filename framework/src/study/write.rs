@@ -1,0 +1,30 @@
+//! Formats of results.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A format to write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Write {
+    /// Comma-separated values.
+    Csv,
+    /// JSON.
+    Json,
+    /// Parquet, with the columns of the CSV.
+    Parquet,
+    /// Pictures, one file each.
+    Svg,
+}
+
+impl Write {
+    /// CSV and JSON.
+    pub(super) fn data() -> Vec<Self> {
+        vec![Self::Csv, Self::Json]
+    }
+
+    /// CSV, JSON and pictures.
+    pub(super) fn all() -> Vec<Self> {
+        vec![Self::Csv, Self::Json, Self::Svg]
+    }
+}
