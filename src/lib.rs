@@ -11,6 +11,7 @@
 
 mod args;
 mod commands;
+mod interrupt;
 mod output;
 mod report;
 
@@ -27,7 +28,7 @@ use output::{End, Failure, Out};
 
 /// Runs the program with the arguments of the process.
 ///
-/// Exit codes: 0 fine, 1 a finding, 2 wrong input, 3 a bug.
+/// Exit codes: 0 fine, 1 a finding, 2 wrong input, 3 a bug, 130 interrupted.
 pub fn main() -> ExitCode {
     let args = match Args::try_parse() {
         Ok(args) => args,
@@ -45,6 +46,10 @@ pub fn main() -> ExitCode {
         Ok(Err(Failure::Input(text))) => {
             let _ = Out::error().text(&text);
             ExitCode::from(2)
+        }
+        Ok(Err(Failure::Interrupted)) => {
+            let _ = Out::error().text("interrupted\n");
+            ExitCode::from(130)
         }
         Err(_) => {
             let _ = Out::error().text("This is a bug in gearloss. Please report the input and the lines above.\n");

@@ -19,6 +19,8 @@ pub enum End {
 pub enum Failure {
     /// Wrong input, with the text to print.
     Input(String),
+    /// Ctrl-C was pressed.
+    Interrupted,
 }
 
 impl Failure {

@@ -88,6 +88,11 @@ impl Report {
         });
     }
 
+    /// Takes back the section of an analysis that was not finished.
+    pub fn drop_last(&mut self) {
+        self.sections.pop();
+    }
+
     /// Adds a picture to the section.
     pub fn figure(&mut self, figure: Figure) {
         let id = self.sections.iter().map(|s| s.figures.len()).sum::<usize>();

@@ -67,7 +67,7 @@ fn the_loss_along_the_path_is_that_of_the_mesh() {
 #[test]
 fn models_of_one_component_stand_beside_measured_points() {
     let analyses = "  b1:\n    type: component_compare\n    component: bearings.B1\n    torque: [10 Nm]\n    speed: [5000 rpm, 10000 rpm]\n    \
-                    measured: measured.csv\n    models: { iso: { type: iso14179_2 }, double: { type: iso14179_2, f1: 0.0018 }, off: none }\n";
+                    measured: { file: measured.csv }\n    models: { iso: { type: iso14179_2 }, double: { type: iso14179_2, f1: 0.0018 }, off: none }\n";
     let first = run(
         "compare",
         analyses,
@@ -97,7 +97,7 @@ fn wrong_names_and_files_say_what_to_write() {
         "  a: { type: contact_path, mesh: M9, torque: 1 Nm, speed: 100 rpm }\n  \
            b: { type: component_compare, component: bearings.B9, models: { x: { type: skf } }, torque: 1 Nm, speed: 100 rpm }\n  \
            c: { type: component_compare, component: bearings.B1, models: { x: { type: skff } }, torque: 1 Nm, speed: 100 rpm }\n  \
-           d: { type: component_compare, component: bearings.B1, models: { x: { type: skf } }, torque: 1 Nm, speed: 100 rpm, measured: none.csv }\n  \
+           d: { type: component_compare, component: bearings.B1, models: { x: { type: skf } }, torque: 1 Nm, speed: 100 rpm, measured: { file: none.csv } }\n  \
            e: { type: component_compare, component: bearings.B1, models: {}, torque: 1 Nm, speed: 100 rpm }\n",
         &[],
     );

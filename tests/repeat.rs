@@ -4,7 +4,7 @@
 mod common;
 
 use common::{RPM, language, two_speed_with};
-use gearloss_framework::analysis::{OilTemperature, Points, run_grid};
+use gearloss_framework::analysis::{Field, OilTemperature, Points, run_grid};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 
@@ -40,16 +40,19 @@ fn one_thread_and_many_give_the_same_bits() {
     let t = two_speed_with(&language, Some("joint"), &[]);
     let points = Points {
         gear: "first".to_owned(),
-        torque_at: "input".to_owned(),
-        speed_at: "input".to_owned(),
-        torques: (0..31).map(|i| f64::from(i) - 10.0).collect(),
-        speeds: (0..23).map(|i| f64::from(i) * 1000.0 * RPM).collect(),
+        torque_at: vec!["input".to_owned()],
+        speed_at: vec!["input".to_owned()],
+        field: Field::Grid {
+            torques: (0..31).map(|i| f64::from(i) - 10.0).collect(),
+            speeds: (0..23).map(|i| f64::from(i) * 1000.0 * RPM).collect(),
+        },
         oil: OilTemperature::Fixed(100.0),
         flow: PowerFlow::Real,
+        terms: false,
     };
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| run_grid(&t, &points, &|_| {})).unwrap()
+        pool.install(|| run_grid(&t, &points, &|_| true)).unwrap().unwrap()
     };
     let (one, many) = (on(1), on(7));
     assert_eq!(one.passes, many.passes);

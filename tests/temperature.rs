@@ -39,15 +39,14 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
-const POINTS: &str = "name,speed [rpm],torque [Nm],volume [ml],measured_loss [W],measured_oil_temperature [degC]
+const POINTS: &str = "name,speed [rpm],torque [Nm],volume [ml],loss [W],oil_temperature [degC]
 fast,3000,-16,130,60,47
 slow,1000,-16,60,,
 ";
 
 #[test]
 fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
-    let study =
-        "analyses:\n  tests: { type: operating_points, file: points.csv, bind: { volume: housing.oil.volume } }\n";
+    let study = "analyses:\n  tests: { type: operating_points, data: { file: points.csv, faulty_rows: keep }, bind: { volume: housing.oil.volume } }\n";
     let (folder, text) = run("points", study, &[("points.csv", POINTS)]);
     let points = &json(&folder, "tests")["operating_points"][0];
     let fast = &points["points"][0];
@@ -69,29 +68,26 @@ fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
 
 #[test]
 fn a_faulty_file_of_points_is_refused_with_line_and_column() {
-    let study =
-        "analyses:\n  tests: { type: operating_points, file: points.csv, bind: { volume: housing.oil.volume } }\n";
+    let study = "analyses:\n  tests: { type: operating_points, data: { file: points.csv, faulty_rows: keep }, bind: { volume: housing.oil.volume } }\n";
     for (text, said) in [
         (
             POINTS.replace("1000,", "a,"),
-            "line 3, column 2 `speed [rpm]`: `a` is not a number",
+            "line 3, column 2 `speed`: `a` is not a number",
         ),
-        (
-            POINTS.replace("[rpm]", "[1/min]"),
-            "column 2 `speed [1/min]`: the unit is not [rpm]",
-        ),
+        (POINTS.replace("[rpm]", "[bar]"), "`bar` is no unit of angular speed"),
+        (POINTS.replace("[rpm]", ""), "column `speed` has no unit"),
         (
             POINTS.replace("volume [ml]", "volume [bottles]"),
-            "`bottles` is no unit",
+            "`bottles` of column `volume` is no unit",
         ),
-        (POINTS.replace("volume", "amount"), "nothing asks for this column"),
-        (POINTS.replace("speed", "slowness"), "nothing asks for this column"),
+        (POINTS.replace("volume", "amount"), "no column is called `volume`"),
+        (POINTS.replace("speed", "slowness"), "no column holds the speed"),
         (
             POINTS.lines().next().unwrap().to_owned(),
             "no point stands below the header",
         ),
         (POINTS.replace("60,,", "-3,,"), "housing.oil.volume"),
-        (POINTS.replace("130,60,", "130,-60,"), "line 2: a loss of -60 W"),
+        (POINTS.replace("3000,-16", "3000,"), "line 2, column 3 `torque`: empty"),
     ] {
         let (_, printed) = run("faulty", study, &[("points.csv", &text)]);
         assert!(printed.contains(said) && printed.contains("mend:"), "{said}\n{printed}");

@@ -6,7 +6,7 @@ mod statistics;
 mod sums;
 mod temperature;
 
-pub use grid::{GridResult, PointResult, Points, merge, run_grid};
+pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use notes::{Note, WeakPoint, evidence, notes};
 pub use statistics::{Statistics, bands, histogram};
 pub use sums::{SUMS, sum_of};

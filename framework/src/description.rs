@@ -19,7 +19,7 @@ pub use housing::{HeatInto, HousingEntry, LevelOver, OilEntry, OutsideEntry, Run
 pub use lubricant::LubricantEntry;
 pub use ordered::Ordered;
 pub use shafts::{LoadEntry, SectionEntry, ShaftEntry};
-pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, TorqueShare};
+pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, TorqueShare};
 
 /// A gearbox.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -73,6 +73,8 @@ pub struct GearboxEntry {
     /// Catalogues of this gearbox, as files: catalogue to file.
     #[serde(default)]
     pub catalogues: Ordered<String>,
+    /// Largest torque and speed that the gearbox is made for; axes of grids may count in shares of them.
+    pub rating: Option<RatingEntry>,
     /// What is assumed and why; shown in reports.
     #[serde(default)]
     pub assumed: Vec<AssumedEntry>,

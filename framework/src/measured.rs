@@ -18,8 +18,8 @@ pub struct MeasuredEntry {
     /// CSV file beside the study.
     pub file: String,
     /// Column of each quantity, where it is not named as the quantity: `torque: T_in`. Quantities: `torque` and `speed` at the
-    /// ports of the conditions, `torque_out`, `speed_out`, `efficiency`, `loss`, `loss_torque`, `oil_temperature`, `weight`, `gear`,
-    /// `name`, and accuracies such as `efficiency_accuracy`.
+    /// ports of the conditions, `torque_out`, `speed_out`, `efficiency`, `loss`, `loss_torque`, `oil_temperature`,
+    /// `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as `efficiency_accuracy`.
     #[serde(default)]
     pub columns: Ordered<String>,
     /// Unit of each quantity, where neither the header nor a row of units states it: `efficiency: "%"`.
@@ -45,6 +45,9 @@ pub enum FaultyRows {
     Refuse,
     /// The row is left out, and told.
     Skip,
+    /// A blank leaves out its quantity and no more; torque, speed and bound columns need a number all the same, and text is
+    /// refused.
+    Keep,
 }
 
 /// A quantity that a file may hold.
@@ -59,7 +62,7 @@ const fn known(name: &'static str, unit: &'static str) -> Known {
 }
 
 /// All quantities; SI after reading, shares as numbers of one.
-const KNOWN: [Known; 15] = [
+const KNOWN: [Known; 17] = [
     known("torque", "Nm"),
     known("speed", "rpm"),
     known("torque_out", "Nm"),
@@ -73,6 +76,8 @@ const KNOWN: [Known; 15] = [
     known("loss_accuracy", "W"),
     known("loss_torque_accuracy", "Nm"),
     known("oil_temperature_accuracy", "K"),
+    known("surface_temperature", "degC"),
+    known("surface_temperature_accuracy", "K"),
     known("gear", ""),
     known("name", ""),
 ];
@@ -86,8 +91,8 @@ pub struct Row {
     pub name: Option<String>,
     /// Gear state, where the file has them.
     pub gear: Option<String>,
-    /// Values by the places of [`Measured::quantities`].
-    pub values: Vec<f64>,
+    /// Values by the places of [`Measured::quantities`]; a gap where the cell is blank.
+    pub values: Vec<Option<f64>>,
     /// Bound values as written, with their units.
     pub bound: Vec<String>,
 }
@@ -104,10 +109,10 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// A quantity of a row; absent where the file does not hold it.
+    /// A quantity of a row; absent where the file or the row does not hold it.
     pub fn value(&self, row: &Row, quantity: &str) -> Option<f64> {
         let place = self.quantities.iter().position(|q| *q == quantity)?;
-        row.values.get(place).copied()
+        row.values.get(place).copied().flatten()
     }
 
     /// True where the file holds a quantity.
@@ -161,7 +166,7 @@ impl MeasuredEntry {
         };
         let mut left_out = Vec::new();
         for (line, cells) in &table.rows {
-            match row(*line, cells, &columns, &bound, table.decimal) {
+            match row(*line, cells, (&columns, &bound), table.decimal, self.faulty_rows) {
                 Ok(row) => measured.rows.push(row),
                 Err(reason) if self.faulty_rows == FaultyRows::Skip => left_out.push(reason),
                 Err(reason) => {
@@ -316,9 +321,9 @@ fn scale(known: &Known, unit: Option<&str>, header: &str) -> Result<(f64, f64), 
 fn row(
     line: u64,
     cells: &[String],
-    columns: &[Column],
-    bound: &[(Column, String)],
+    (columns, bound): (&[Column], &[(Column, String)]),
     decimal: Decimal,
+    faulty: FaultyRows,
 ) -> Result<Row, String> {
     let number = |column: &Column| {
         let cell = cells.get(column.place).map_or("", String::as_str);
@@ -335,7 +340,19 @@ fn row(
     for column in columns {
         let text = || cells.get(column.place).filter(|c| !c.is_empty()).cloned();
         match (column.unit, KNOWN[column.known].name) {
-            (Some((factor, offset)), _) => row.values.push(number(column)? * factor + offset),
+            (Some(_), name)
+                if faulty == FaultyRows::Keep && text().is_none() && !["torque", "speed"].contains(&name) =>
+            {
+                row.values.push(None);
+            }
+            (Some((factor, offset)), name) => {
+                let value = number(column)? * factor + offset;
+                if value < 0.0 && (name.ends_with("_accuracy") || name == "weight") {
+                    let at = format!("line {line}, column {} `{}`", column.place + 1, column.header);
+                    return Err(format!("{at}: {value} is below zero"));
+                }
+                row.values.push(Some(value));
+            }
             (None, "gear") => row.gear = text(),
             (None, _) => row.name = text(),
         }

@@ -14,15 +14,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-pub use axes::{Span, SpeedAxis, SpeedSpan, TorqueAxis, TorqueSpan};
-pub use breakdown::{As, BreakdownEntry, By};
+pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
+pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
 pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
 pub use map::MapEntry;
 pub use operating_points::OperatingPointsEntry;
 pub use sweep::SweepEntry;
 pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
-pub use write::Write;
+pub use write::{Export, Write};
 
 use crate::description::Ordered;
 use crate::evaluate::PowerFlow;
@@ -94,16 +94,38 @@ fn input() -> String {
 /// A grid of operating points: every torque at every speed.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct Grid {
-    /// Gear state.
-    pub gear: String,
-    /// Torques: one, a list, or from, to and step.
+    /// Gear state, or several.
+    pub gear: Gears,
+    /// Torques: one, a list, or from, to and step; or shares of the rating of the gearbox.
     pub torque: TorqueAxis,
-    /// Speeds: one, a list, or from, to and step.
+    /// Speeds: one, a list, or from, to and step; or shares of the rating of the gearbox.
     pub speed: SpeedAxis,
+    /// Largest torque over speed; points beyond it are left out.
+    pub envelope: Option<Envelope>,
     /// Values that change from point to point beside torque and speed: resolved path to values, such as
     /// `housing.oil.volume: [60 ml, 90 ml]`. Every combination is solved.
     #[serde(default)]
     pub bind: Ordered<Value>,
+}
+
+/// One gear state or several.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Gears {
+    /// One.
+    One(String),
+    /// Several, one after the other.
+    List(#[schemars(length(min = 1))] Vec<String>),
+}
+
+impl Gears {
+    /// The names.
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::List(names) => names,
+        }
+    }
 }
 
 impl Grid {
@@ -141,8 +163,12 @@ pub enum Analysis {
     Map(MapEntry),
     /// Difference between sets of models over a grid.
     Compare(CompareEntry),
-    /// Losses by mechanism or component over speed.
+    /// Where losses arise, over speed or torque.
     Breakdown(BreakdownEntry),
+    /// Losses without load: in every gear state, neutral included, also towed.
+    SpinLoss(SpinLossEntry),
+    /// Where losses arise, over the temperature of the oil.
+    TemperatureSweep(TemperatureSweepEntry),
     /// Several models of one component over speed.
     ComponentCompare(ComponentCompareEntry),
     /// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
@@ -183,7 +209,7 @@ impl Analysis {
     pub fn uses(&self) -> Uses<'_> {
         match self {
             Self::Map(e) => Uses {
-                grid: Some(&e.grid),
+                grid: e.grid.as_ref(),
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
             },
             Self::Compare(e) => Uses {
@@ -191,6 +217,8 @@ impl Analysis {
                 ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against))
             },
             Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::SpinLoss(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::TemperatureSweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
             Self::ComponentCompare(e) => Uses::new(e.gearbox.as_ref(), &e.model_set),
             Self::ContactPath(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
             Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),

@@ -20,7 +20,7 @@ pub use states::GearState;
 
 pub(crate) use planets::Sharing;
 
-use crate::description::ThermalMode;
+use crate::description::{RatingEntry, ThermalMode};
 use crate::document::Diagnostic;
 use crate::loads::ShaftLoads;
 use crate::loss::NoteBase;
@@ -145,6 +145,8 @@ pub struct Transmission {
     pub oil_temperature: f64,
     /// How the temperature is found, as described.
     pub thermal_mode: ThermalMode,
+    /// Largest torque and speed that it is made for. \[Nm and rad/s\]
+    pub rating: Option<RatingEntry>,
     pub(crate) housing: Housing,
 }
 
@@ -184,6 +186,18 @@ impl Transmission {
     /// Path, geometry and roughness of every mesh.
     pub fn meshes(&self) -> impl Iterator<Item = (&str, &MeshPart)> {
         self.meshes.iter().map(|m| (m.seat.path.as_str(), m.part.as_ref()))
+    }
+    /// Path of the first mesh that a gear is part of.
+    pub fn mesh_of_gear(&self, gear: &str) -> Option<&str> {
+        let index = self.gears.iter().position(|g| g.id == gear)?;
+        let mesh = self.meshes.iter().find(|m| m.seat.gears.contains(&index))?;
+        Some(&mesh.seat.path)
+    }
+    /// Name of the first member that feels the reaction of a placed component.
+    pub fn member_of_component(&self, component: usize) -> Option<&str> {
+        let [first, second] = self.components.get(component)?.between;
+        let member = first.or(second)?;
+        self.members.get(member as usize).map(String::as_str)
     }
     /// The ways on which heat leaves.
     pub fn housing(&self) -> &Housing {

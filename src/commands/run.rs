@@ -9,6 +9,9 @@ mod map;
 mod operating_points;
 mod parquet;
 mod report;
+mod rows;
+mod seen;
+mod shares;
 mod sweep;
 mod thermal_limit;
 mod write;
@@ -16,12 +19,13 @@ mod write;
 use std::cell::{Cell, RefCell};
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::{GridResult, OilTemperature, Points, notes, run_grid};
+use gearloss_framework::analysis::{Field, Given, GridResult, OilTemperature, Points, notes, run_grid};
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::study::Analysis;
+use gearloss_framework::study::{Analysis, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
@@ -29,6 +33,7 @@ use serde_json::Value;
 use super::language;
 use super::study_files::Study;
 use crate::args::RunArgs;
+use crate::interrupt;
 use crate::output::{End, Failure, Out};
 use crate::report::Report;
 
@@ -89,20 +94,29 @@ impl Runner<'_> {
 
     /// The points of axes under the study's conditions.
     fn points(&self, transmission: &Transmission, gear: &str, torques: Vec<f64>, speeds: Vec<f64>) -> Points {
+        self.field(transmission, gear, Field::Grid { torques, speeds })
+    }
+
+    /// The points of a list under the study's conditions.
+    fn listed(&self, transmission: &Transmission, gear: &str, list: Vec<Given>) -> Points {
+        self.field(transmission, gear, Field::List(list))
+    }
+
+    fn field(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
         let conditions = &self.study.entry.conditions;
         Points {
             gear: gear.to_owned(),
-            torque_at: conditions.torque_at.clone(),
-            speed_at: conditions.speed_at.clone(),
-            torques,
-            speeds,
+            torque_at: vec![conditions.torque_at.clone()],
+            speed_at: vec![conditions.speed_at.clone()],
+            field,
             oil: OilTemperature::of(transmission, conditions.oil_temperature),
             flow: conditions.power_flow,
+            terms: false,
         }
     }
 
     fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
-        let count = (points.torques.len() * points.speeds.len()) as u64;
+        let count = points.field.len() as u64;
         let bar = if self.progress {
             ProgressBar::new(count)
         } else {
@@ -112,11 +126,23 @@ impl Runner<'_> {
             bar.set_style(style);
         }
         bar.set_message(built.name.clone());
-        let result = run_grid(&built.transmission, points, &|n| bar.inc(n as u64));
+        let going = |n: usize| {
+            bar.inc(n as u64);
+            !interrupt::pressed()
+        };
+        let result = run_grid(&built.transmission, points, &going);
         bar.finish_and_clear();
         let result = result.map_err(|list| Failure::from(built.gearbox.findings(list)))?;
+        let result = result.ok_or(Failure::Interrupted)?;
         self.seen(&built.transmission, &result.seen);
         Ok(result)
+    }
+
+    /// A fault of the study at a path.
+    fn wrong(&self, path: &str, message: impl Into<String>, mend: &str) -> Failure {
+        self.study
+            .findings(vec![Diagnostic::error(path, message.into()).mend(mend)])
+            .into()
     }
 
     /// Counts the limits that were left.
@@ -150,7 +176,8 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
         out.line(title)?;
         out.line("")?;
     }
-    let mut failed = 0;
+    interrupt::listen();
+    let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
         runner.report.borrow_mut().begin(name, about(analysis));
         out.begin_copy();
@@ -164,6 +191,8 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::ThermalLimit(entry) => thermal_limit::run(&runner, name, entry, out),
             Analysis::Balance(entry) => balance::run(&runner, name, entry, out),
             Analysis::Sweep(entry) => sweep::run(&runner, name, entry, out),
+            Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
+            Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
         };
         let printed = out.end_copy();
         runner.report.borrow_mut().text(&printed);
@@ -176,10 +205,21 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
                 runner.report.borrow_mut().text(&format!("failed\n{text}"));
                 Out::error().text(&text)?;
             }
+            Err(Failure::Interrupted) => {
+                runner.report.borrow_mut().drop_last();
+                finished = Some(done_so_far);
+                break;
+            }
         }
+        done_so_far += 1;
     }
     report::write(&runner, args.template.as_deref())?;
     out.line(format!("results in {}, report in report.html", runner.folder.display()))?;
+    if let Some(finished) = finished {
+        let all = study.entry.analyses.len();
+        Out::error().line(format!("{finished} of {all} analyses are finished and kept"))?;
+        return Err(Failure::Interrupted);
+    }
     if failed == 0 && !args.deny.is_empty() && runner.left.get() > 0 {
         out.line(format!(
             "denied: extrapolation; {} stated ranges were left",
@@ -197,26 +237,32 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     }
 }
 
-/// Axis values, or the fault with its path.
+/// Values of an axis, or the fault with its path.
 fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Failure> {
     values.map_err(|reason| {
-        let error = gearloss_framework::document::Diagnostic::error(path, reason);
-        runner
-            .study
-            .findings(vec![error.mend("give a step that leads from one end to the other")])
-            .into()
+        let mend = if reason.contains("rating") {
+            "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis values of its own"
+        } else {
+            "give a step that leads from one end to the other"
+        };
+        runner.wrong(path, reason, mend)
     })
+}
+
+/// Torques of an axis for a gearbox.
+fn torques(runner: &Runner<'_>, path: &str, axis_of: &TorqueAxis, t: &Transmission) -> Result<Vec<f64>, Failure> {
+    axis(runner, path, axis_of.values(t.rating.map(|r| r.torque)))
+}
+
+/// Speeds of an axis for a gearbox.
+fn speeds(runner: &Runner<'_>, path: &str, axis_of: &SpeedAxis, t: &Transmission) -> Result<Vec<f64>, Failure> {
+    axis(runner, path, axis_of.values(t.rating.map(|r| r.speed)))
 }
 
 /// The gear state that an analysis names, or the first.
 fn gear_of<'a>(named: Option<&'a str>, transmission: &'a Transmission) -> &'a str {
     let first = transmission.states().first().map_or("", |s| s.name.as_str());
     named.unwrap_or(first)
-}
-
-/// A bound value as it goes into the document: a text with its unit, or a bare number.
-fn bound_value(text: &str) -> Value {
-    text.parse::<f64>().map_or_else(|_| Value::from(text), Value::from)
 }
 
 /// What an analysis is, as a sentence.
@@ -233,6 +279,8 @@ fn about(analysis: &Analysis) -> &'static str {
         Analysis::ThermalLimit(_) => "How far a torque or a speed can go before the oil reaches a temperature.",
         Analysis::Balance(_) => "How the temperature of one point is found.",
         Analysis::Sweep(_) => "Losses and efficiency over the values of one path.",
+        Analysis::SpinLoss(_) => "Losses without load.",
+        Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",
     }
 }
 
@@ -248,7 +296,10 @@ fn replaced(folder: &Path, force: bool, out: &mut Out) -> Result<(), Failure> {
     }
     let written = |file: &PathBuf| {
         let kind = file.extension().and_then(|kind| kind.to_str());
-        matches!(kind, Some("csv" | "json" | "svg" | "html"))
+        matches!(
+            kind,
+            Some("csv" | "json" | "svg" | "html" | "parquet" | "vtlm" | "m" | "mo")
+        )
     };
     if files.iter().all(written) {
         out.line(format!("replacing the results in {}", folder.display()))?;

@@ -1,4 +1,6 @@
-//! A grid of points: every torque at every speed.
+//! Many points: every torque at every speed of a grid, or a list.
+
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
@@ -6,7 +8,7 @@ use super::{OilTemperature, sums};
 use crate::document::Diagnostic;
 use crate::evaluate::{Point, PowerFlow};
 use crate::flow::{Status, Tolerance};
-use crate::loss::{Extent, Undefined};
+use crate::loss::{Extent, MOST_TERMS, Undefined};
 use crate::thermal::{Equilibrium, Outcome as ThermalOutcome};
 use crate::transmission::{Case, Transmission};
 
@@ -18,18 +20,74 @@ const CHUNK: usize = 64;
 pub struct Points {
     /// Gear state.
     pub gear: String,
-    /// Port with given torque.
-    pub torque_at: String,
-    /// Port with given speed.
-    pub speed_at: String,
-    /// Torques. \[Nm\]
-    pub torques: Vec<f64>,
-    /// Speeds. \[rad/s\]
-    pub speeds: Vec<f64>,
-    /// Temperature of the oil.
+    /// Ports with given torque: that of the points at the first, none at the others. Those that the gear state has no use for
+    /// are left out.
+    pub torque_at: Vec<String>,
+    /// Ports with given speed: that of the points at the first; the others stand still.
+    pub speed_at: Vec<String>,
+    /// Torques and speeds.
+    pub field: Field,
+    /// Temperature of the oil where the list gives none.
     pub oil: OilTemperature,
     /// Real or ideal flow.
     pub flow: PowerFlow,
+    /// Whether losses are kept term by term.
+    pub terms: bool,
+}
+
+/// Torque and speed of one point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Given {
+    /// Torque. \[Nm\]
+    pub torque: f64,
+    /// Speed. \[rad/s\]
+    pub speed: f64,
+    /// Temperature of the oil at this point; absent, that of all. \[degC\]
+    pub oil: Option<f64>,
+}
+
+/// Torques and speeds of many points.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Field {
+    /// Every torque at every speed; torques outside, speeds inside.
+    Grid {
+        /// Torques. \[Nm\]
+        torques: Vec<f64>,
+        /// Speeds. \[rad/s\]
+        speeds: Vec<f64>,
+    },
+    /// One after the other.
+    List(Vec<Given>),
+}
+
+impl Field {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Grid { torques, speeds } => torques.len() * speeds.len(),
+            Self::List(list) => list.len(),
+        }
+    }
+
+    /// True without points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A point by its number.
+    ///
+    /// # Panics
+    /// If there are not as many points: a bug of the caller.
+    pub fn at(&self, i: usize) -> Given {
+        match self {
+            Self::Grid { torques, speeds } => Given {
+                torque: torques[i / speeds.len()],
+                speed: speeds[i % speeds.len()],
+                oil: None,
+            },
+            Self::List(list) => list[i],
+        }
+    }
 }
 
 /// One solved point, as numbers.
@@ -61,6 +119,10 @@ pub struct PointResult {
     pub sums: [f64; 6],
     /// Losses of all parts, in the order of the parts. \[W\]
     pub parts: Vec<f64>,
+    /// The same by the terms of their models, where that was asked for. \[W\]
+    pub terms: Vec<[f64; MOST_TERMS]>,
+    /// True where a model left its stated range.
+    pub outside: bool,
     /// Why a loss has no value: number of the part and the reason.
     pub undefined: Option<(usize, Undefined)>,
     /// Passes over the loss models.
@@ -81,15 +143,16 @@ impl PointResult {
             output: None,
             sums: [0.0; 6],
             parts: vec![0.0; self.parts.len()],
+            terms: Vec::new(),
             ..self
         }
     }
 }
 
-/// A solved grid: torques outside, speeds inside.
+/// Solved points.
 #[derive(Debug, Clone)]
 pub struct GridResult {
-    /// The points.
+    /// The points, in the order of the field.
     pub points: Vec<PointResult>,
     /// What was seen of limits and observed quantities over all points.
     pub seen: Vec<Extent>,
@@ -104,56 +167,68 @@ impl Points {
     /// If the gear state or a port is unknown, or the prescription does not fit.
     pub fn case(&self, transmission: &Transmission) -> Result<Case, Vec<Diagnostic>> {
         let state = transmission.state(&self.gear).map_err(|e| vec![e])?;
-        let torques: &[&str] = if transmission.torques_needed(state) == 0 {
-            &[]
-        } else {
-            &[&self.torque_at]
-        };
-        transmission.case(&self.gear, &[&self.speed_at], torques)
+        let needed = transmission.torques_needed(state);
+        let torques: Vec<&str> = self.torque_at.iter().map(String::as_str).take(needed).collect();
+        let speeds: Vec<&str> = self.speed_at.iter().map(String::as_str).collect();
+        transmission.case(&self.gear, &speeds, &torques)
     }
 }
 
-/// Solves all points of a grid.
+/// Solves all points. `progress` hears how many more are solved; where it answers false the work is broken off, and there is
+/// no result.
 ///
 /// # Errors
 /// If the case does not fit.
 pub fn run_grid(
     transmission: &Transmission,
     points: &Points,
-    progress: &(dyn Fn(usize) + Sync),
-) -> Result<GridResult, Vec<Diagnostic>> {
+    progress: &(dyn Fn(usize) -> bool + Sync),
+) -> Result<Option<GridResult>, Vec<Diagnostic>> {
     let case = points.case(transmission)?;
-    let all: Vec<(f64, f64)> = points
-        .torques
-        .iter()
-        .flat_map(|t| points.speeds.iter().map(move |w| (*t, *w)))
-        .collect();
-    let solved: Vec<(Vec<PointResult>, Vec<Extent>)> = all
-        .par_chunks(CHUNK)
+    let count = points.field.len();
+    let going = AtomicBool::new(true);
+    let solved: Vec<(Vec<PointResult>, Vec<Extent>)> = (0..count.div_ceil(CHUNK))
+        .into_par_iter()
         .map(|chunk| {
+            if !going.load(Ordering::Relaxed) {
+                return (Vec::new(), Vec::new());
+            }
+            let chunk = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
             let mut scratch = transmission.scratch(&case);
             let mut temperatures = vec![0.0; transmission.nodes()];
+            let mut torques = vec![0.0; case.torque_ports.len()];
+            let mut speeds = vec![0.0; case.speed_ports.len()];
+            let solved = chunk.len();
             let results = chunk
-                .iter()
-                .map(|(torque, speed)| {
-                    let given = [*torque];
+                .map(|i| {
+                    let Given { torque, speed, oil } = points.field.at(i);
+                    for (value, first) in [(torque, torques.first_mut()), (speed, speeds.first_mut())] {
+                        if let Some(first) = first {
+                            *first = value;
+                        }
+                    }
                     let point = Point {
-                        speeds: &[*speed],
-                        torques: &given[..case.torque_ports.len()],
+                        speeds: &speeds,
+                        torques: &torques,
                         flow: points.flow,
                         tolerance: Tolerance::default(),
                     };
-                    let (oil, balance) = points.oil.find(transmission, &case, &point, &mut scratch);
+                    let wanted = oil.map_or(points.oil, OilTemperature::Fixed);
+                    let (oil, balance) = wanted.find(transmission, &case, &point, &mut scratch);
                     temperatures.fill(oil);
                     let solution = transmission.evaluate(&case, &point, &temperatures, &mut scratch);
                     let mut totals = [0.0; 6];
+                    let mut terms = Vec::new();
                     for (part, loss) in solution.parts() {
                         sums::add(&mut totals, transmission, part, &loss);
+                        if points.terms {
+                            terms.push(std::array::from_fn(|k| loss.term_watts(k)));
+                        }
                     }
                     let found = balance.as_ref().is_none_or(|b| b.oil().is_some());
                     let result = PointResult {
-                        torque: *torque,
-                        speed: *speed,
+                        torque,
+                        speed,
                         oil: Some(oil),
                         surface: balance.as_ref().and_then(|b| b.surface),
                         balance: balance.as_ref().map(|b| b.outcome),
@@ -166,28 +241,34 @@ pub fn run_grid(
                         output: solution.output_power(),
                         sums: totals,
                         parts: solution.watts().to_vec(),
+                        terms,
+                        outside: solution.extents().iter().any(|e| e.outside > 0),
                         undefined: solution.undefined_part(),
                         passes: solution.passes(),
                     };
                     if found { result } else { result.without_temperature() }
                 })
                 .collect();
-            progress(chunk.len());
+            if !progress(solved) {
+                going.store(false, Ordering::Relaxed);
+            }
             (results, scratch.totals)
         })
         .collect();
     let mut seen: Vec<Extent> = Vec::new();
-    let mut results = Vec::with_capacity(all.len());
+    let mut results = Vec::with_capacity(count);
     for (points, totals) in solved {
-        merge(&mut seen, &totals);
+        if !totals.is_empty() {
+            merge(&mut seen, &totals);
+        }
         results.extend(points);
     }
     let passes = results.iter().map(|p| p.passes).sum();
-    Ok(GridResult {
+    Ok((results.len() == count).then_some(GridResult {
         points: results,
         seen,
         passes,
-    })
+    }))
 }
 
 /// Adds what was seen of limits and observed quantities to what was seen before; both in the order of one transmission.

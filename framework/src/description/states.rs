@@ -72,3 +72,14 @@ pub struct ImportedLoads {
     /// Port whose torque the file's torque is.
     pub port: String,
 }
+
+/// What a gearbox is made for, at the ports where a study gives torque and speed.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+pub struct RatingEntry {
+    /// Largest torque. [Nm]
+    #[schemars(range(min = 1e-9, max = 1e9))]
+    pub torque: f64,
+    /// Largest speed. [rpm]
+    #[schemars(range(min = 1e-6, max = 1e6))]
+    pub speed: f64,
+}

@@ -439,7 +439,15 @@ impl<'a> Walker<'a> {
             .iter()
             .filter(|s| matches!(schema.follow(s), Shape::Text(_)))
             .find(fits);
-        if let Some(shape) = text_first.or_else(|| shapes.iter().find(fits)) {
+        // Of several records that one which knows most of the keys; the first of equals.
+        let known = |shape: &&'a Shape| match (schema.follow(shape), &node.content) {
+            (Shape::Record(fields), Content::Map(entries)) => {
+                let is_known = |name: &str| fields.iter().any(|(field, _)| field == name);
+                entries.iter().filter(|(key, _)| is_known(&key.name)).count()
+            }
+            _ => 0,
+        };
+        if let Some(shape) = text_first.or_else(|| shapes.iter().filter(fits).rev().max_by_key(known)) {
             self.value(node, shape)
         } else {
             let kinds: Vec<&str> = shapes

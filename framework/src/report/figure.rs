@@ -19,18 +19,9 @@ pub enum Figure {
         bars: Vec<Bar>,
     },
     /// A value over two coordinates.
-    Map {
-        /// Title.
-        title: String,
-        /// Name of the first coordinate and its values.
-        x: (String, Vec<String>),
-        /// Name of the second coordinate and its values.
-        y: (String, Vec<String>),
-        /// Values; the first coordinate runs first.
-        values: Vec<Option<f64>>,
-        /// Differences: zero in the middle of the colours.
-        diverging: bool,
-    },
+    Map(Map),
+    /// Values at scattered points.
+    Cloud(Cloud),
     /// Lines over one coordinate.
     Lines {
         /// Title.
@@ -44,11 +35,57 @@ pub enum Figure {
     },
 }
 
+/// A value over two coordinates, one cell for each pair.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Map {
+    /// Title.
+    pub title: String,
+    /// Name of the first coordinate and its values.
+    pub x: (String, Vec<String>),
+    /// Name of the second coordinate and its values.
+    pub y: (String, Vec<String>),
+    /// Values; the first coordinate runs first.
+    pub values: Vec<Option<f64>>,
+    /// Differences: zero in the middle of the colours.
+    pub diverging: bool,
+    /// Cells at which a model left its stated range; empty, none.
+    pub hatched: Vec<bool>,
+    /// Points that are marked, in the coordinates.
+    pub marks: Vec<(f64, f64)>,
+    /// Accuracy of an instrument: the lines at plus and minus this value bound what it cannot see.
+    pub unseen: Option<f64>,
+}
+
+/// Values at scattered points.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Cloud {
+    /// Title.
+    pub title: String,
+    /// Names of the two coordinates.
+    pub axes: (String, String),
+    /// Coordinates and value of each point.
+    pub points: Vec<(f64, f64, f64)>,
+    /// Differences: zero in the middle of the colours.
+    pub diverging: bool,
+}
+
+impl Map {
+    /// Coordinates as numbers; absent where they are words.
+    pub(super) fn numbers(&self) -> Option<(Vec<f64>, Vec<f64>)> {
+        let number = |label: &String| label.split(' ').next().and_then(|n| n.parse::<f64>().ok());
+        let all = |labels: &[String]| labels.iter().map(number).collect::<Option<Vec<f64>>>();
+        let (x, y) = (all(&self.x.1)?, all(&self.y.1)?);
+        (x.len() > 1 && y.len() > 1).then_some((x, y))
+    }
+}
+
 impl Figure {
     /// Title.
     pub fn title(&self) -> &str {
         match self {
-            Self::Bars { title, .. } | Self::Map { title, .. } | Self::Lines { title, .. } => title,
+            Self::Bars { title, .. } | Self::Lines { title, .. } => title,
+            Self::Map(map) => &map.title,
+            Self::Cloud(cloud) => &cloud.title,
         }
     }
 
@@ -64,13 +101,8 @@ impl Figure {
                 names,
                 bars,
             } => plot::bars(title, height, names, bars),
-            Self::Map {
-                title,
-                x,
-                y,
-                values,
-                diverging,
-            } => plot::map(title, (&x.0, &x.1), (&y.0, &y.1), values, *diverging),
+            Self::Map(map) => plot::map(map),
+            Self::Cloud(cloud) => plot::cloud(cloud),
             Self::Lines { title, x, y, lines } => plot::lines(title, x, y, lines),
         }
     }
@@ -81,13 +113,8 @@ impl Figure {
             Self::Bars {
                 height, names, bars, ..
             } => stack(height, names, bars),
-            Self::Map {
-                x,
-                y,
-                values,
-                diverging,
-                ..
-            } => contours(x, y, values, *diverging),
+            Self::Map(map) => contours(map),
+            Self::Cloud(cloud) => scattered(cloud),
             Self::Lines { x, y, lines, .. } => traces(x, y, lines),
         };
         layout["title"] = json!({ "text": self.title() });
@@ -137,38 +164,99 @@ fn stack(height: &str, names: &[String], bars: &[Bar]) -> (Vec<Value>, Value) {
     )
 }
 
-/// Contours with their values where both coordinates are numbers, else coloured cells.
-fn contours(
-    (x_name, xs): &(String, Vec<String>),
-    (y_name, ys): &(String, Vec<String>),
-    values: &[Option<f64>],
-    diverging: bool,
-) -> (Vec<Value>, Value) {
-    let number = |label: &String| label.split(' ').next().and_then(|n| n.parse::<f64>().ok());
-    let numbers = |labels: &[String]| labels.iter().map(number).collect::<Option<Vec<f64>>>();
-    let rows: Vec<&[Option<f64>]> = values.chunks(xs.len().max(1)).collect();
-    let (scale, middle) = if diverging {
+/// The most hatching marks of a picture.
+const MOST_HATCHED: usize = 1600;
+
+fn scale(diverging: bool) -> (&'static str, Value) {
+    if diverging {
         ("RdBu", json!(0.0))
     } else {
         ("Viridis", Value::Null)
+    }
+}
+
+/// Contours with their values where both coordinates are numbers, else coloured cells.
+fn contours(map: &Map) -> (Vec<Value>, Value) {
+    let ((x_name, xs), (y_name, ys)) = (&map.x, &map.y);
+    let rows: Vec<&[Option<f64>]> = map.values.chunks(xs.len().max(1)).collect();
+    let numbers = map.numbers();
+    let (x, y) = match &numbers {
+        Some((x, y)) => (json!(x), json!(y)),
+        None => (json!(xs), json!(ys)),
     };
-    let mut trace = match (numbers(xs), numbers(ys)) {
-        (Some(x), Some(y)) if x.len() > 1 && y.len() > 1 => json!({
-            "type": "contour", "x": x, "y": y,
+    let (colours, middle) = scale(map.diverging);
+    let mut trace = match numbers {
+        Some(_) => json!({
+            "type": "contour",
             "contours": { "coloring": "heatmap", "showlabels": true, "labelfont": { "size": 11 } },
         }),
-        _ => json!({ "type": "heatmap", "x": xs, "y": ys }),
+        None => json!({ "type": "heatmap" }),
     };
+    trace["x"] = x.clone();
+    trace["y"] = y.clone();
+    trace["z"] = json!(rows);
+    trace["colorscale"] = json!(colours);
+    trace["zmid"] = middle;
+    trace["name"] = json!("");
+    let mut data = vec![trace];
+    if let (Some(level), true) = (map.unseen.filter(|l| *l > 0.0), numbers.is_some()) {
+        data.push(json!({
+            "type": "contour", "x": x, "y": y, "z": rows, "showscale": false, "hoverinfo": "skip",
+            "name": format!("accuracy of the instrument, {level:.3}"), "showlegend": true,
+            "contours": { "coloring": "none", "start": -level, "end": level, "size": 2.0 * level },
+            "line": { "color": "black", "width": 2, "dash": "dash" },
+        }));
+    }
+    let hatched = map
+        .hatched
+        .iter()
+        .enumerate()
+        .filter(|(_, outside)| **outside)
+        .map(|(i, _)| i);
+    let places: Vec<usize> = hatched.collect();
+    if !places.is_empty() {
+        let every = places.len().div_ceil(MOST_HATCHED);
+        let at = |axis: &Value, i: usize| axis[i].clone();
+        let shown = || places.iter().step_by(every);
+        data.push(json!({
+            "type": "scatter", "mode": "markers", "name": "outside of a stated range", "hoverinfo": "skip",
+            "x": shown().map(|i| at(&x, i % xs.len())).collect::<Vec<_>>(),
+            "y": shown().map(|i| at(&y, i / xs.len())).collect::<Vec<_>>(),
+            "marker": { "symbol": "line-ne-open", "size": 9, "color": "rgba(0, 0, 0, 0.35)" },
+        }));
+    }
+    if !map.marks.is_empty() {
+        data.push(json!({
+            "type": "scatter", "mode": "markers", "name": "measured",
+            "x": map.marks.iter().map(|m| m.0).collect::<Vec<_>>(), "y": map.marks.iter().map(|m| m.1).collect::<Vec<_>>(),
+            "marker": { "symbol": "circle-open", "size": 7, "color": "black" },
+        }));
+    }
     // Values with a unit lose it on an axis of numbers; there its name takes it.
     let named = |name: &str, labels: &[String]| match labels.first().and_then(|l| l.split_once(' ')) {
-        Some((_, unit)) if trace["type"] == "contour" => format!("{name} in {unit}"),
+        Some((_, unit)) if numbers.is_some() => format!("{name} in {unit}"),
         _ => name.to_owned(),
     };
-    let (x_name, y_name) = (named(x_name, xs), named(y_name, ys));
-    trace["z"] = json!(rows);
-    trace["colorscale"] = json!(scale);
-    trace["zmid"] = middle;
-    (vec![trace], json!({ "xaxis": axis(&x_name), "yaxis": axis(&y_name) }))
+    let mut layout = json!({ "xaxis": axis(&named(x_name, xs)), "yaxis": axis(&named(y_name, ys)) });
+    layout["legend"] = json!({ "orientation": "h", "y": -0.18 });
+    (data, layout)
+}
+
+fn scattered(cloud: &Cloud) -> (Vec<Value>, Value) {
+    let (colours, middle) = scale(cloud.diverging);
+    let of = |f: fn(&(f64, f64, f64)) -> f64| cloud.points.iter().map(f).collect::<Vec<_>>();
+    let trace = json!({
+        "type": "scatter", "mode": "markers", "x": of(|p| p.0), "y": of(|p| p.1), "text": of(|p| p.2), "name": "",
+        "hovertemplate": "%{x}, %{y}: %{text:.4g}",
+        "marker": {
+            "size": 11, "color": of(|p| p.2), "colorscale": colours, "cmid": middle, "showscale": true,
+            "line": { "width": 1, "color": "#444" },
+        },
+    });
+    (
+        vec![trace],
+        json!({ "xaxis": axis(&cloud.axes.0), "yaxis": axis(&cloud.axes.1) }),
+    )
 }
 
 fn traces(x: &str, y: &str, lines: &[Line]) -> (Vec<Value>, Value) {
@@ -198,12 +286,17 @@ mod tests {
 
     #[test]
     fn a_map_of_numbers_has_contours_and_one_of_words_has_cells() {
-        let map = |ys: [&str; 2]| Figure::Map {
-            title: "Loss".to_owned(),
-            x: ("speed".to_owned(), vec!["1000".to_owned(), "2000".to_owned()]),
-            y: ("volume".to_owned(), ys.map(str::to_owned).to_vec()),
-            values: vec![Some(1.0), None, Some(3.0), Some(4.0)],
-            diverging: false,
+        let map = |ys: [&str; 2]| {
+            Figure::Map(Map {
+                title: "Loss".to_owned(),
+                x: ("speed".to_owned(), vec!["1000".to_owned(), "2000".to_owned()]),
+                y: ("volume".to_owned(), ys.map(str::to_owned).to_vec()),
+                values: vec![Some(1.0), None, Some(3.0), Some(4.0)],
+                hatched: vec![false, false, true, false],
+                marks: vec![(1500.0, 70.0)],
+                unseen: Some(0.5),
+                ..Map::default()
+            })
         };
         let told = map(["60 ml", "90 ml"]).plotly();
         assert_eq!(told["data"][0]["type"], "contour");
@@ -211,6 +304,12 @@ mod tests {
         assert_eq!(told["data"][0]["z"], json!([[1.0, null], [3.0, 4.0]]));
         assert_eq!(map(["low", "high"]).plotly()["data"][0]["type"], "heatmap");
         assert_eq!(told["layout"]["title"]["text"], "Loss");
+        assert_eq!(told["data"][1]["contours"]["end"], 0.5);
+        assert_eq!(
+            (&told["data"][2]["x"], &told["data"][2]["y"]),
+            (&json!([1000.0]), &json!([90.0]))
+        );
+        assert_eq!(told["data"][3]["name"], "measured");
     }
 
     #[test]

@@ -3,6 +3,8 @@
 // Places of pixels are small numbers.
 #![allow(clippy::cast_possible_wrap)]
 
+mod field;
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -34,6 +36,8 @@ const TEXT: i32 = 15;
 
 /// Why a picture could not be drawn.
 pub type PlotFault = String;
+
+pub(super) use field::{cloud, map};
 
 /// One bar of a stack.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -238,97 +242,6 @@ pub(super) fn bars(title: &str, height: &str, names: &[String], bars: &[Bar]) ->
     })
 }
 
-/// A map: one cell for each pair of values, coloured and numbered. Values run over x first; a gap stays white.
-///
-/// # Errors
-/// If drawing fails.
-pub(super) fn map(
-    title: &str,
-    (x_name, xs): (&str, &[String]),
-    (y_name, ys): (&str, &[String]),
-    values: &[Option<f64>],
-    diverging: bool,
-) -> Result<String, PlotFault> {
-    drawn(title, |root| {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for value in values.iter().flatten() {
-            low = low.min(*value);
-            high = high.max(*value);
-        }
-        if diverging && low <= high {
-            // Zero in the middle, so that both sides have the same weight.
-            high = low.abs().max(high.abs());
-            low = -high;
-        }
-        let shade = |share: f64| if diverging { two_sided(share) } else { shade(share) };
-        let share = |value: f64| if high > low { (value - low) / (high - low) } else { 0.5 };
-        let (left, top, width, height) = (90, 50, 740, 430);
-        let (columns, rows) = (xs.len().max(1) as i32, ys.len().max(1) as i32);
-        let x_at = |i: i32| left + width * i / columns;
-        let y_at = |j: i32| top + height - height * j / rows;
-        let size = (width / columns / 4).min(height / rows / 2).clamp(6, TEXT);
-        // Numbers in cells that are too small for them would be a blur.
-        let numbered = width / columns >= 34 && height / rows >= 14;
-        let style = |colour: &RGBColor, size: i32, pos: Pos| ("sans-serif", size).into_font().color(colour).pos(pos);
-        let middle = Pos::new(HPos::Center, VPos::Center);
-        for j in 0..rows {
-            for i in 0..columns {
-                let Some(Some(value)) = values.get((j * columns + i) as usize) else {
-                    continue;
-                };
-                let cell = [(x_at(i), y_at(j + 1)), (x_at(i + 1), y_at(j))];
-                root.draw(&Rectangle::new(cell, shade(share(*value)).filled()))
-                    .map_err(fault)?;
-                if numbered {
-                    let ink = if diverging || share(*value) > 0.6 { BLACK } else { WHITE };
-                    let at = (i32::midpoint(cell[0].0, cell[1].0), i32::midpoint(cell[0].1, cell[1].1));
-                    root.draw(&Text::new(short(*value), at, style(&ink, size, middle)))
-                        .map_err(fault)?;
-                }
-            }
-        }
-        let every = |count: usize| count.div_ceil(16).max(1);
-        for (i, x) in xs.iter().enumerate().step_by(every(xs.len())) {
-            let at = (i32::midpoint(x_at(i as i32), x_at(i as i32 + 1)), top + height + 6);
-            let below = style(&BLACK, TEXT - 2, Pos::new(HPos::Center, VPos::Top));
-            root.draw(&Text::new(x.clone(), at, below)).map_err(fault)?;
-        }
-        for (j, y) in ys.iter().enumerate().step_by(every(ys.len())) {
-            let at = (left - 6, i32::midpoint(y_at(j as i32), y_at(j as i32 + 1)));
-            let beside = style(&BLACK, TEXT - 2, Pos::new(HPos::Right, VPos::Center));
-            root.draw(&Text::new(y.clone(), at, beside)).map_err(fault)?;
-        }
-        let name = style(&BLACK, TEXT, Pos::new(HPos::Center, VPos::Top));
-        root.draw(&Text::new(
-            x_name.to_owned(),
-            (left + width / 2, top + height + 34),
-            name,
-        ))
-        .map_err(fault)?;
-        let name = style(&BLACK, TEXT, Pos::new(HPos::Left, VPos::Bottom));
-        root.draw(&Text::new(y_name.to_owned(), (20, top - 4), name))
-            .map_err(fault)?;
-        // The scale beside the map.
-        if low <= high {
-            let (x, steps) = (left + width + 30, 40);
-            for k in 0..steps {
-                let part = [
-                    (x, top + height - height * (k + 1) / steps),
-                    (x + 18, top + height - height * k / steps),
-                ];
-                let tone = shade((f64::from(k) + 0.5) / f64::from(steps));
-                root.draw(&Rectangle::new(part, tone.filled())).map_err(fault)?;
-            }
-            for (value, y) in [(low, top + height), (0.5 * (low + high), top + height / 2), (high, top)] {
-                let beside = style(&BLACK, TEXT - 2, Pos::new(HPos::Left, VPos::Center));
-                root.draw(&Text::new(short(value), (x + 24, y), beside))
-                    .map_err(fault)?;
-            }
-        }
-        Ok(())
-    })
-}
-
 /// Lines over one axis.
 ///
 /// # Errors
@@ -374,11 +287,8 @@ pub(super) fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use super::super::{Cloud, Map};
     use super::*;
-
-    fn words(list: &[&str]) -> Vec<String> {
-        list.iter().map(|w| (*w).to_owned()).collect()
-    }
 
     #[test]
     fn pictures_hold_their_words() {
@@ -403,17 +313,6 @@ mod tests {
         ] {
             assert!(svg.contains(word), "{word}");
         }
-        let svg = map(
-            "Loss",
-            ("speed rpm", &words(&["1000", "2000"])),
-            ("volume ml", &words(&["60", "90"])),
-            &[Some(1.5), None, Some(3.0), Some(4.0)],
-            false,
-        )
-        .unwrap();
-        for word in ["speed rpm", "volume ml", "1.50", "2000", "60"] {
-            assert!(svg.contains(word), "{word}");
-        }
         let line = Line {
             name: "limit".to_owned(),
             points: vec![Some((0.0, 1.0)), Some((1.0, 2.0)), None, Some((3.0, 1.0))],
@@ -425,6 +324,6 @@ mod tests {
     #[test]
     fn nothing_to_draw_is_no_fault() {
         assert!(bars("a", "b", &[], &[]).is_ok() && lines("a", "b", "c", &[]).is_ok());
-        assert!(map("a", ("b", &[]), ("c", &[]), &[], true).is_ok());
+        assert!(map(&Map::default()).is_ok() && cloud(&Cloud::default()).is_ok());
     }
 }

@@ -18,6 +18,11 @@ pub struct Span {
 }
 
 impl Span {
+    /// From, to and step.
+    pub fn new(from: f64, to: f64, step: f64) -> Self {
+        Self { from, to, step }
+    }
+
     /// The values.
     ///
     /// # Errors
@@ -35,6 +40,48 @@ impl Span {
     }
 }
 
+/// Shares of a rating.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Shares {
+    /// Several shares. [-]
+    List(#[schemars(inner(range(min = -10.0, max = 10.0)), length(min = 1))] Vec<f64>),
+    /// Shares at equal steps.
+    Steps(ShareSpan),
+}
+
+/// Shares at equal steps.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+pub struct ShareSpan {
+    /// First share. [-]
+    #[schemars(range(min = -10.0, max = 10.0))]
+    pub from: f64,
+    /// Last share. [-]
+    #[schemars(range(min = -10.0, max = 10.0))]
+    pub to: f64,
+    /// Step. [-]
+    #[schemars(range(min = -10.0, max = 10.0))]
+    pub step: f64,
+}
+
+/// Values that count in shares of what the gearbox is made for, so that gearboxes of different size can be compared.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct OfRating {
+    /// Shares of the torque, or speed, that the gearbox states under `rating`: a list, or from, to and step.
+    pub of_rating: Shares,
+}
+
+impl OfRating {
+    fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
+        let rating = rating.ok_or("the axis counts in shares of a rating, and the gearbox states none")?;
+        let shares = match &self.of_rating {
+            Shares::List(list) => list.clone(),
+            Shares::Steps(s) => Span::new(s.from, s.to, s.step).values()?,
+        };
+        Ok(shares.into_iter().map(|share| share * rating).collect())
+    }
+}
+
 /// Torques.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
@@ -45,6 +92,8 @@ pub enum TorqueAxis {
     List(#[schemars(inner(range(min = -1e9, max = 1e9)), length(min = 1))] Vec<f64>),
     /// Torques at equal steps.
     Steps(TorqueSpan),
+    /// Torques as shares of the torque that the gearbox is made for.
+    Rated(OfRating),
 }
 
 /// Torques at equal steps.
@@ -65,18 +114,19 @@ impl TorqueAxis {
     /// The torques. \[Nm\]
     ///
     /// # Errors
-    /// As [`Span::values`].
-    pub fn values(&self) -> Result<Vec<f64>, String> {
+    /// As [`Span::values`], or if the axis counts in shares of a rating that is absent.
+    pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
         match self {
             Self::One(torque) => Ok(vec![*torque]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span {
-                from: s.from,
-                to: s.to,
-                step: s.step,
-            }
-            .values(),
+            Self::Steps(s) => Span::new(s.from, s.to, s.step).values(),
+            Self::Rated(shares) => shares.values(rating),
         }
+    }
+
+    /// True where the axis counts in shares of a rating.
+    pub fn is_rated(&self) -> bool {
+        matches!(self, Self::Rated(_))
     }
 }
 
@@ -90,6 +140,8 @@ pub enum SpeedAxis {
     List(#[schemars(inner(range(min = -1e6, max = 1e6)), length(min = 1))] Vec<f64>),
     /// Speeds at equal steps.
     Steps(SpeedSpan),
+    /// Speeds as shares of the speed that the gearbox is made for.
+    Rated(OfRating),
 }
 
 /// Speeds at equal steps.
@@ -110,18 +162,149 @@ impl SpeedAxis {
     /// The speeds. \[rad/s\]
     ///
     /// # Errors
-    /// As [`Span::values`].
-    pub fn values(&self) -> Result<Vec<f64>, String> {
+    /// As [`Span::values`], or if the axis counts in shares of a rating that is absent.
+    pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
         match self {
             Self::One(speed) => Ok(vec![*speed]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span {
-                from: s.from,
-                to: s.to,
-                step: s.step,
-            }
-            .values(),
+            Self::Steps(s) => Span::new(s.from, s.to, s.step).values(),
+            Self::Rated(shares) => shares.values(rating),
         }
+    }
+
+    /// True where the axis counts in shares of a rating.
+    pub fn is_rated(&self) -> bool {
+        matches!(self, Self::Rated(_))
+    }
+}
+
+/// Powers.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PowerAxis {
+    /// One power. [W]
+    One(#[schemars(range(min = -1e9, max = 1e9))] f64),
+    /// Several powers. [W]
+    List(#[schemars(inner(range(min = -1e9, max = 1e9)), length(min = 1))] Vec<f64>),
+    /// Powers at equal steps.
+    Steps(PowerSpan),
+}
+
+/// Powers at equal steps.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+pub struct PowerSpan {
+    /// First power. [W]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub from: f64,
+    /// Last power. [W]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub to: f64,
+    /// Step. [W]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub step: f64,
+}
+
+impl PowerAxis {
+    /// The powers. \[W\]
+    ///
+    /// # Errors
+    /// As [`Span::values`].
+    pub fn values(&self) -> Result<Vec<f64>, String> {
+        match self {
+            Self::One(power) => Ok(vec![*power]),
+            Self::List(list) => Ok(list.clone()),
+            Self::Steps(s) => Span::new(s.from, s.to, s.step).values(),
+        }
+    }
+}
+
+/// Temperatures.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum TemperatureAxis {
+    /// One temperature. [degC]
+    One(#[schemars(range(min = -60.0, max = 250.0))] f64),
+    /// Several temperatures. [degC]
+    List(#[schemars(inner(range(min = -60.0, max = 250.0)), length(min = 1))] Vec<f64>),
+    /// Temperatures at equal steps.
+    Steps(TemperatureSpan),
+}
+
+/// Temperatures at equal steps.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+pub struct TemperatureSpan {
+    /// First temperature. [degC]
+    #[schemars(range(min = -60.0, max = 250.0))]
+    pub from: f64,
+    /// Last temperature. [degC]
+    #[schemars(range(min = -60.0, max = 250.0))]
+    pub to: f64,
+    /// Step. [K]
+    #[schemars(range(min = -60.0, max = 250.0))]
+    pub step: f64,
+}
+
+impl TemperatureAxis {
+    /// The temperatures. \[degC\]
+    ///
+    /// # Errors
+    /// As [`Span::values`].
+    pub fn values(&self) -> Result<Vec<f64>, String> {
+        match self {
+            Self::One(temperature) => Ok(vec![*temperature]),
+            Self::List(list) => Ok(list.clone()),
+            Self::Steps(s) => Span::new(s.from, s.to, s.step).values(),
+        }
+    }
+}
+
+/// Largest torque over speed: points beyond it are left out.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct Envelope {
+    /// Speeds, rising, from zero on; their sign does not count. [rpm]
+    #[schemars(inner(range(min = 0.0, max = 1e6)), length(min = 2))]
+    pub speed: Vec<f64>,
+    /// Largest torque at each speed, straight between them; its sign does not count. [Nm]
+    #[schemars(inner(range(min = 0.0, max = 1e9)), length(min = 2))]
+    pub torque: Vec<f64>,
+}
+
+impl Envelope {
+    /// Why it is none.
+    ///
+    /// # Errors
+    /// If the lists differ in length or speeds do not rise.
+    pub fn check(&self) -> Result<(), String> {
+        if self.speed.len() != self.torque.len() {
+            return Err(format!(
+                "{} speeds and {} torques do not make an envelope",
+                self.speed.len(),
+                self.torque.len()
+            ));
+        }
+        if self.speed.windows(2).all(|w| w[0] < w[1]) {
+            Ok(())
+        } else {
+            Err("the speeds of the envelope do not rise".to_owned())
+        }
+    }
+
+    /// True for a point that the envelope holds; torque in Nm, speed in rad/s.
+    pub fn holds(&self, torque: f64, speed: f64) -> bool {
+        let speed = speed.abs();
+        // Speeds of a grid are sums of steps, so the last digits do not count.
+        let near = 1e-9 * self.speed.last().copied().unwrap_or(0.0);
+        let right = self.speed.iter().position(|s| speed <= s + near);
+        let most = match right {
+            None => return false,
+            Some(0) if speed < self.speed[0] - near => return false,
+            Some(0) => self.torque[0],
+            Some(i) => {
+                let share = (speed - self.speed[i - 1]) / (self.speed[i] - self.speed[i - 1]);
+                self.torque[i - 1] + share.min(1.0) * (self.torque[i] - self.torque[i - 1])
+            }
+        };
+        torque.abs() <= most * (1.0 + 1e-9)
     }
 }
 
@@ -166,5 +349,38 @@ mod tests {
         for (from, to, step) in [(1.0, 2.0, 0.0), (1.0, 2.0, -1.0), (0.0, 1.0, 1e-9)] {
             assert!(Span { from, to, step }.values().is_err());
         }
+    }
+
+    #[test]
+    fn an_envelope_holds_what_is_below_it() {
+        let envelope = Envelope {
+            speed: vec![0.0, 100.0, 300.0],
+            torque: vec![20.0, 20.0, 10.0],
+        };
+        assert!(envelope.check().is_ok());
+        for (torque, speed, held) in [
+            (20.0, 50.0, true),
+            (-20.0, 100.0, true),
+            (15.0, 200.0, true),
+            (15.1, 200.0, false),
+            (10.0, -300.0, true),
+            (1.0, 301.0, false),
+        ] {
+            assert_eq!(envelope.holds(torque, speed), held, "{torque} {speed}");
+        }
+        let falling = Envelope {
+            speed: vec![100.0, 100.0],
+            torque: vec![20.0, 20.0],
+        };
+        assert!(falling.check().is_err());
+    }
+
+    #[test]
+    fn shares_of_a_rating_need_one() {
+        let axis = TorqueAxis::Rated(OfRating {
+            of_rating: Shares::List(vec![0.5, 1.0]),
+        });
+        assert_eq!(axis.values(Some(20.0)).unwrap(), [10.0, 20.0]);
+        assert!(axis.values(None).unwrap_err().contains("states none"));
     }
 }

@@ -29,6 +29,9 @@ pub struct CompareEntry {
     /// What is compared.
     #[serde(default)]
     pub quantity: Quantity,
+    /// Accuracy of a measurement, in the unit of the difference: maps of differences show where they are smaller. [-]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub accuracy: Option<f64>,
     /// How the difference counts: the other set minus the base, or the model minus the measurement.
     #[serde(default)]
     pub difference: Difference,

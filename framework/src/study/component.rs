@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::{SpeedAxis, TorqueAxis, Write};
 use crate::description::Ordered;
+use crate::measured::MeasuredEntry;
 
 /// Several models of one component over speed.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -27,9 +28,9 @@ pub struct ComponentCompareEntry {
     pub torque: TorqueAxis,
     /// Speeds.
     pub speed: SpeedAxis,
-    /// CSV file with measured points: columns `torque [Nm]` and `speed [rpm]` of the study's ports, and `loss [W]`. Each is
-    /// compared with every model at that torque and speed.
-    pub measured: Option<String>,
+    /// Measured points: torque and speed at the study's ports, and the loss of the component. Each is compared with every model
+    /// at that torque and speed.
+    pub measured: Option<MeasuredEntry>,
     /// Formats to write; absent, CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,

@@ -3,19 +3,35 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::Write;
+use crate::description::Ordered;
+use crate::measured::MeasuredEntry;
+
+use super::{Export, Write};
 
 /// Losses and efficiency over a grid.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MapEntry {
     /// Gearbox; absent, the first.
     pub gearbox: Option<String>,
-    /// Grid.
-    pub grid: String,
+    /// Grid; not with `points`.
+    pub grid: Option<String>,
+    /// File of points in place of a grid, as of measured data: torque, speed, and where it has them gear state and temperature
+    /// of the oil, which then holds for its point.
+    pub points: Option<MeasuredEntry>,
+    /// Columns of the points that change a value of the gearbox: column to resolved path.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// Gear state of the points where no column says it; absent, the first.
+    pub gear: Option<String>,
+    /// Measured points that are drawn into the pictures.
+    pub measured: Option<MeasuredEntry>,
     /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Formats to write; absent, CSV and JSON. Pictures show efficiency, loss and, with a balance, temperature.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
+    /// Tables of losses for other programs, one file for each gear state; a grid is needed.
+    #[serde(default)]
+    pub export: Vec<Export>,
 }

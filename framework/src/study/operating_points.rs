@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::measured::MeasuredEntry;
+
 use super::{By, Write};
 use crate::description::Ordered;
 
@@ -16,10 +18,9 @@ pub struct OperatingPointsEntry {
     /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// CSV file beside the study, one row for each point: `name`, `torque [Nm]`, `speed [rpm]`, the columns of `bind`, and what
-    /// was measured: `measured_loss [W]`, `measured_oil_temperature [degC]`, `measured_surface_temperature [degC]`, each with an
-    /// error such as `measured_loss_error [W]` or `measured_surface_temperature_error [K]`. Cells of measured columns may be empty.
-    pub file: String,
+    /// The points, one row each: torque, speed and a name, the columns of `bind`, and what was measured: loss, temperatures of
+    /// oil and surface, each with its accuracy. With `faulty_rows: keep` cells of measured columns may be empty.
+    pub data: MeasuredEntry,
     /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit stands
     /// in the header: `volume [ml]`.
     #[serde(default)]

@@ -28,3 +28,15 @@ impl Write {
         vec![Self::Csv, Self::Json, Self::Svg]
     }
 }
+
+/// A table of losses for another program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Export {
+    /// Loss torque over input speed and torque as VECTO reads it, for engineering mode.
+    Vecto,
+    /// Efficiency over torque and speed as a script with the vectors of Simulink's gearbox blocks.
+    Matlab,
+    /// Efficiency and bearing friction over speed for `LossyGear` of the Modelica Standard Library, a fit.
+    LossyGear,
+}

@@ -118,6 +118,7 @@ impl Transmission {
                 warnings,
                 oil_temperature: entry.thermal.oil,
                 thermal_mode: entry.thermal.mode,
+                rating: entry.rating,
                 housing,
             };
             built.check_states()?;

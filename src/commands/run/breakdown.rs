@@ -1,173 +1,288 @@
-//! Losses by mechanism, component or sum over speed.
+//! Where losses arise: stacks of bars over speed, torque or temperature.
 
-use gearloss_framework::analysis::{PointResult, SUMS, notes};
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::Bar;
-use gearloss_framework::study::{As, BreakdownEntry, By};
-use gearloss_framework::transmission::PartInfo;
-use serde_json::{Value, json};
+mod bars;
 
+use gearloss_framework::analysis::{Given, PointResult, notes};
+use gearloss_framework::measured::Measured;
+use gearloss_framework::study::{As, BreakdownEntry, Over, Quantity, SpinLossEntry, TemperatureSweepEntry};
+use serde_json::Value;
+
+use self::bars::{Bars, Kind, Row};
 use super::super::solve::{RPM, outside};
-use super::map::{spread, tidy};
-use super::write::{cell, head, picture, write};
-use super::{Built, Runner, axis};
-use crate::output::{Failure, Out, Table, number};
+use super::seen::Seen;
+use super::write::{head, write};
+use super::{Built, Runner, axis, gear_of, speeds, torques};
+use crate::output::{Failure, Out};
 
 pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
-    let torques = axis(runner, &format!("{path}.torque"), entry.torque.values())?;
-    let speeds = axis(runner, &format!("{path}.speed"), entry.speed.values())?;
     let built = runner.built(gearbox, &entry.model_sets)?;
-    let (unit, label) = if entry.unit == As::Watts {
-        ("w", "W")
-    } else {
-        ("percent", "%")
+    let measured = match &entry.measured {
+        Some(data) => runner.read(&format!("{path}.measured"), data, &[])?,
+        None => Measured::default(),
     };
-    let header: Vec<String> = [
-        "model_set",
-        "gear",
-        "torque_nm",
-        "speed_rpm",
-        "share",
-        &format!("loss_{unit}"),
-    ]
-    .map(str::to_owned)
-    .to_vec();
-    let mut rows = Vec::new();
-    let mut results = Vec::new();
-    for b in &built {
-        let first = b.transmission.states().first().map_or("", |s| s.name.as_str());
-        let gear = entry.gear.as_deref().unwrap_or(first);
-        let points = runner.points(&b.transmission, gear, torques.clone(), speeds.clone());
-        let solved = runner.solve(b, &points)?;
-        let names = names(b, entry.by);
-        let stacks: Vec<Option<Vec<f64>>> = solved.points.iter().map(|p| shares(b, p, entry, &names)).collect();
-        for (point, stack) in solved.points.iter().zip(&stacks) {
-            for (i, share) in names.iter().enumerate() {
-                rows.push(vec![
-                    b.name.clone(),
-                    gear.to_owned(),
-                    cell(Some(point.torque)),
-                    cell(Some(tidy(point.speed * RPM))),
-                    share.clone(),
-                    cell(stack.as_ref().map(|s| s[i])),
-                ]);
-            }
-        }
-        let shown = spread(speeds.len());
-        for (t, torque) in torques.iter().enumerate() {
-            let bars = speeds.iter().enumerate().map(|(i, speed)| Bar {
-                label: format!("{:.0}", speed * RPM),
-                shares: stacks[t * speeds.len() + i].clone().unwrap_or_default(),
-                ..Bar::default()
-            });
-            let figure = Figure::Bars {
-                title: format!(
-                    "{name}: loss in {label} over speed in rpm, gear {gear}, {torque} Nm, models {}",
-                    b.name
-                ),
-                height: format!("loss in {label}"),
-                names: names.clone(),
-                bars: bars.collect(),
-            };
-            let file = format!("{name}-{}-{torque}Nm", b.name);
-            picture(runner, &file, figure, &entry.write)?;
-            out.line(format!(
-                "{name}: loss in {label}, gear {gear}, {torque} Nm, models {}",
-                b.name
-            ))?;
-            let mut titles = vec!["share".to_owned()];
-            titles.extend(shown.iter().map(|i| format!("{:.0} rpm", speeds[*i] * RPM)));
-            let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
-            let at = |i: usize| stacks[t * speeds.len() + i].as_ref();
-            for (k, share) in names.iter().enumerate() {
-                let mut row = vec![share.clone()];
-                row.extend(shown.iter().map(|i| number(at(*i).map(|s| s[k]), 2)));
-                table.row(row);
-            }
-            let mut sum = vec!["sum".to_owned()];
-            sum.extend(shown.iter().map(|i| number(at(*i).map(|s| s.iter().sum()), 2)));
-            table.row(sum);
-            out.text(&table.render())?;
-            out.line("")?;
-        }
-        let seen = notes(&b.transmission, &solved.seen);
-        out.line(outside(&seen))?;
-        results.push(json!({
-            "model_set": b.name,
-            "gear": gear,
-            "unit": unit,
-            "shares": names,
-            "notes": seen,
-            "points": solved.points.iter().zip(&stacks).map(|(p, s)| json!({
-                "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "loss": s,
-            })).collect::<Vec<_>>(),
-        }));
+    for note in &measured.notes {
+        out.line(format!("{name}: measured: {note}"))?;
     }
-    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
-    value["breakdowns"] = Value::Array(results);
-    write(runner, name, &entry.write, &header, &rows, &value)?;
+    let mut bars = Bars::new(Kind::new(name, entry.by, entry.unit, &entry.write), &built);
+    for b in &built {
+        let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &b.transmission)?;
+        let loads = loads(runner, &path, entry, b)?;
+        let gear = gear_of(entry.gear.as_deref(), &b.transmission);
+        let at = |load: &Load, speed: f64| Given {
+            torque: load.torque(speed),
+            speed,
+            oil: None,
+        };
+        let rows: Vec<(String, Vec<(String, Given)>)> = match entry.over {
+            Over::Speed => loads
+                .iter()
+                .map(|load| {
+                    let bars = speeds.iter().map(|w| (format!("{:.0}", w * RPM), at(load, *w)));
+                    (load.words(), bars.collect())
+                })
+                .collect(),
+            Over::Torque => speeds
+                .iter()
+                .map(|w| {
+                    let bars = loads.iter().map(|load| (load.number(), at(load, *w)));
+                    (format!("{:.0} rpm", w * RPM), bars.collect())
+                })
+                .collect(),
+        };
+        let over = match (entry.over, &entry.power) {
+            (Over::Speed, _) => "speed in rpm",
+            (Over::Torque, None) => "torque in Nm",
+            (Over::Torque, Some(_)) => "power in W",
+        };
+        let seen = |point: &PointResult| beside(&measured, point, gear);
+        solve(runner, b, gear, (over, rows), &seen, &mut bars, out)?;
+    }
+    finish(runner, name, &built, &bars)
+}
+
+/// What stays the same while the speed changes.
+enum Load {
+    Torque(f64),
+    Power(f64),
+}
+
+impl Load {
+    fn torque(&self, speed: f64) -> f64 {
+        match self {
+            Self::Torque(torque) => *torque,
+            Self::Power(power) => power / speed,
+        }
+    }
+
+    fn words(&self) -> String {
+        match self {
+            Self::Torque(torque) => format!("{torque} Nm"),
+            Self::Power(power) => format!("{power} W"),
+        }
+    }
+
+    fn number(&self) -> String {
+        match self {
+            Self::Torque(x) | Self::Power(x) => format!("{x}"),
+        }
+    }
+}
+
+fn loads(runner: &Runner<'_>, path: &str, entry: &BreakdownEntry, b: &Built<'_>) -> Result<Vec<Load>, Failure> {
+    match (&entry.torque, &entry.power) {
+        (Some(own), None) => {
+            let values = torques(runner, &format!("{path}.torque"), own, &b.transmission)?;
+            Ok(values.into_iter().map(Load::Torque).collect())
+        }
+        (None, Some(own)) => {
+            let values = axis(runner, &format!("{path}.power"), own.values())?;
+            let turning = speeds(runner, &format!("{path}.speed"), &entry.speed, &b.transmission)?;
+            if turning.contains(&0.0) {
+                let speed = format!("{path}.speed");
+                return Err(runner.wrong(&speed, "no torque gives a power at standstill", "leave 0 rpm out"));
+            }
+            Ok(values.into_iter().map(Load::Power).collect())
+        }
+        _ => Err(runner.wrong(
+            path,
+            "a breakdown needs either `torque` or `power`",
+            "write `torque: 10 Nm`, or `power: 5 kW` for one power at every speed",
+        )),
+    }
+}
+
+/// Mean measured loss of the points within 2 % of torque and speed, and its accuracy. \[W\]
+fn beside(measured: &Measured, point: &PointResult, gear: &str) -> Option<(f64, f64)> {
+    let near = |a: Option<f64>, b: f64| a.is_some_and(|a| (a - b).abs() <= 0.02 * b.abs().max(1e-9));
+    let (mut sum, mut accuracy, mut count) = (0.0, 0.0_f64, 0.0);
+    for row in &measured.rows {
+        let value = |quantity: &str| measured.value(row, quantity);
+        let same = row.gear.as_deref().is_none_or(|g| g == gear);
+        if !(same && near(value("torque"), point.torque) && near(value("speed"), point.speed)) {
+            continue;
+        }
+        let seen = Seen::of(
+            measured,
+            row,
+            value("torque").unwrap_or(0.0),
+            value("speed").unwrap_or(0.0),
+            point.speed,
+        );
+        let Some(loss) = seen.quantity(Quantity::Loss) else {
+            continue;
+        };
+        sum += loss;
+        count += 1.0;
+        let own = value("loss_accuracy")
+            .or_else(|| Some(value("loss_torque_accuracy")? * point.speed.abs()))
+            .or_else(|| Some(value("efficiency_accuracy")? * point.input?));
+        accuracy = accuracy.max(own.unwrap_or(0.0));
+    }
+    (count > 0.0).then(|| (sum / count, accuracy))
+}
+
+/// Solves rows of bars and shows them.
+fn solve(
+    runner: &Runner<'_>,
+    b: &Built<'_>,
+    gear: &str,
+    (over, rows): (&str, Vec<(String, Vec<(String, Given)>)>),
+    measured: &dyn Fn(&PointResult) -> Option<(f64, f64)>,
+    bars: &mut Bars<'_>,
+    out: &mut Out,
+) -> Result<(), Failure> {
+    let list = rows.iter().flat_map(|(_, bars)| bars.iter().map(|(_, given)| *given));
+    let mut points = runner.listed(&b.transmission, gear, list.collect());
+    points.terms = bars.needs_terms();
+    let solved = runner.solve(b, &points)?;
+    let mut all = solved.points.into_iter();
+    for (title, labels) in rows {
+        let points = labels.into_iter().zip(all.by_ref());
+        let row = Row {
+            over,
+            title,
+            bars: points
+                .map(|((label, _), point)| (label, measured(&point), point))
+                .collect(),
+        };
+        bars.show(runner, b, gear, &row, out)?;
+    }
+    let seen = notes(&b.transmission, &solved.seen);
+    out.line(outside(&seen))?;
+    bars.close(b, gear, &seen);
     Ok(())
 }
 
-/// A part's component: its path without the slot of a drag.
-fn component(path: &str) -> &str {
-    path.split(".drag.").next().unwrap_or(path)
+fn finish(runner: &Runner<'_>, name: &str, built: &[Built<'_>], bars: &Bars<'_>) -> Result<(), Failure> {
+    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
+    value["breakdowns"] = Value::Array(bars.results.clone());
+    write(runner, name, bars.formats(), &bars.header(), &bars.rows, &value)
 }
 
-/// Name of the share that a part belongs to, by mechanism or by component.
-pub fn name_of(part: &PartInfo, by: By) -> &str {
-    if by == By::Mechanism {
-        part.mechanism
-    } else {
-        component(&part.path)
+/// Losses without load, in every gear state.
+pub fn spin_loss(runner: &Runner<'_>, name: &str, entry: &SpinLossEntry, out: &mut Out) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let built = runner.built(gearbox, &entry.model_sets)?;
+    let turned = entry
+        .turned_at
+        .as_ref()
+        .unwrap_or(&runner.study.entry.conditions.speed_at);
+    let mut bars = Bars::new(Kind::new(name, entry.by, As::Watts, &entry.write), &built);
+    for b in &built {
+        let t = &b.transmission;
+        let names: Vec<String> = t.ports().iter().map(|p| p.name.clone()).collect();
+        let Some(turned_port) = names.iter().position(|n| n == turned) else {
+            let known: Vec<&str> = names.iter().map(String::as_str).collect();
+            let error = gearloss_framework::attach::dangling(&format!("{path}.turned_at"), "port", turned, &known);
+            return Err(runner.study.findings(vec![error]).into());
+        };
+        let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, t)?;
+        let states: Vec<&str> = if entry.gears.is_empty() {
+            t.states().iter().map(|s| s.name.as_str()).collect()
+        } else {
+            entry.gears.iter().map(String::as_str).collect()
+        };
+        for gear in states {
+            let state = t
+                .state(gear)
+                .map_err(|error| Failure::from(b.gearbox.findings(vec![error])))?;
+            let state = &t.states()[state];
+            // The other free ports stand still; the torque is zero at every port that is not turned.
+            let mut speed_at = vec![turned.clone()];
+            let others = state.speed_ports.iter().filter(|p| **p != turned_port);
+            speed_at.extend(others.take(state.speed_ports.len() - 1).map(|p| names[*p].clone()));
+            let resting = speed_at[1..].join(", ");
+            let mut points = runner.points(t, gear, vec![0.0], speeds.clone());
+            points.speed_at = speed_at;
+            points.torque_at = names.iter().filter(|n| *n != turned).cloned().collect();
+            points.terms = bars.needs_terms();
+            let solved = runner.solve(b, &points)?;
+            let mut title = format!("no load, `{turned}` turned");
+            if !resting.is_empty() {
+                title.push_str(&format!(", {resting} at rest"));
+            }
+            let bars_of = solved.points.into_iter();
+            let row = Row {
+                over: "speed in rpm",
+                title,
+                bars: bars_of.map(|p| (format!("{:.0}", p.speed * RPM), None, p)).collect(),
+            };
+            bars.show(runner, b, gear, &row, out)?;
+            let seen = notes(t, &solved.seen);
+            out.line(outside(&seen))?;
+            bars.close(b, gear, &seen);
+        }
     }
+    finish(runner, name, &built, &bars)
 }
 
-/// Names of the shares.
-pub fn names(built: &Built<'_>, by: By) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    match by {
-        By::Sum => names.extend(SUMS.iter().map(|(name, _)| (*name).to_owned())),
-        By::Mechanism | By::Component => {
-            for part in built.transmission.parts() {
-                let name = name_of(part, by);
-                if !names.iter().any(|n| n == name) {
-                    names.push(name.to_owned());
-                }
+/// Where losses arise, over the temperature of the oil.
+pub fn temperature_sweep(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &TemperatureSweepEntry,
+    out: &mut Out,
+) -> Result<(), Failure> {
+    let path = format!("analyses.{name}");
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let built = runner.built(gearbox, &entry.model_sets)?;
+    let temperatures = axis(
+        runner,
+        &format!("{path}.oil_temperature"),
+        entry.oil_temperature.values(),
+    )?;
+    let mut bars = Bars::new(Kind::new(name, entry.by, entry.unit, &entry.write), &built);
+    for b in &built {
+        let t = &b.transmission;
+        let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, t)?;
+        let torques = torques(runner, &format!("{path}.torque"), &entry.torque, t)?;
+        let gear = gear_of(entry.gear.as_deref(), t);
+        let mut rows = Vec::new();
+        for torque in &torques {
+            for speed in &speeds {
+                let bars = temperatures.iter().map(|oil| {
+                    let given = Given {
+                        torque: *torque,
+                        speed: *speed,
+                        oil: Some(*oil),
+                    };
+                    (format!("{oil}"), given)
+                });
+                rows.push((format!("{torque} Nm, {:.0} rpm", speed * RPM), bars.collect()));
             }
         }
+        solve(
+            runner,
+            b,
+            gear,
+            ("oil temperature in degC", rows),
+            &|_| None,
+            &mut bars,
+            out,
+        )?;
     }
-    names
-}
-
-/// The stack of one point in W; absent where its loss is.
-pub fn stack(built: &Built<'_>, point: &PointResult, by: By, names: &[String]) -> Option<Vec<f64>> {
-    point.loss?;
-    let mut stack = vec![0.0; names.len()];
-    match by {
-        By::Sum => stack.copy_from_slice(&point.sums),
-        By::Mechanism | By::Component => {
-            for (part, watts) in built.transmission.parts().iter().zip(&point.parts) {
-                let name = name_of(part, by);
-                if let Some(i) = names.iter().position(|n| n == name) {
-                    stack[i] += watts;
-                }
-            }
-        }
-    }
-    Some(stack)
-}
-
-/// The stack in the unit of the analysis.
-fn shares(built: &Built<'_>, point: &PointResult, entry: &BreakdownEntry, names: &[String]) -> Option<Vec<f64>> {
-    let mut stack = stack(built, point, entry.by, names)?;
-    if entry.unit == As::Percent {
-        let loss = point.loss.filter(|loss| *loss != 0.0)?;
-        for watts in &mut stack {
-            *watts *= 100.0 / loss;
-        }
-    }
-    Some(stack)
+    finish(runner, name, &built, &bars)
 }

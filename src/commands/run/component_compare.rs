@@ -5,6 +5,7 @@ use gearloss_framework::evaluate::{PartLoss, Point};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Term;
+use gearloss_framework::measured::MeasuredEntry;
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::resolve::Choice;
@@ -15,7 +16,7 @@ use serde_json::{Value, json};
 use super::super::solve::RPM;
 use super::map::{spread, tidy};
 use super::write::{cell, head, picture, write};
-use super::{Built, Runner, axis};
+use super::{Built, Runner, speeds, torques};
 use crate::output::{Failure, Out, Table, number};
 
 /// The component under one model at one point.
@@ -52,14 +53,15 @@ fn slot(component: &str) -> String {
 pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
-    let torques = axis(runner, &format!("{path}.torque"), entry.torque.values())?;
-    let speeds = axis(runner, &format!("{path}.speed"), entry.speed.values())?;
+    let own = runner.built(gearbox, entry.model_set.as_slice())?;
+    let torques = torques(runner, &format!("{path}.torque"), &entry.torque, &own[0].transmission)?;
+    let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &own[0].transmission)?;
     let points: Vec<(f64, f64)> = torques
         .iter()
         .flat_map(|t| speeds.iter().map(move |w| (*t, *w)))
         .collect();
     let measured = match &entry.measured {
-        Some(file) => read(runner, &format!("{path}.measured"), file)?,
+        Some(data) => measured(runner, &format!("{path}.measured"), data)?,
         None => Vec::new(),
     };
     names(runner, &path, entry)?;
@@ -69,6 +71,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
         match answered(runner, &path, entry, gearbox, (model, value), &points, &measured) {
             Ok(model) => models.push(model),
             Err(Failure::Input(text)) => failed.push_str(&text),
+            Err(interrupted) => return Err(interrupted),
         }
     }
     if models.is_empty() {
@@ -394,59 +397,17 @@ fn deviations(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]
 }
 
 /// Reads measured points.
-fn read(runner: &Runner<'_>, path: &str, file: &str) -> Result<Vec<Measured>, Failure> {
-    let full = runner.study.folder.join(file);
-    let fault = |reason: String, mend: &str| -> Failure {
-        runner
-            .study
-            .findings(vec![
-                Diagnostic::error(path, format!("{file}: {reason}")).mend(mend.to_owned()),
-            ])
-            .into()
-    };
-    let columns = "name the columns `torque [Nm]`, `speed [rpm]` and `loss [W]`";
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_path(&full)
-        .map_err(|e| fault(e.to_string(), "file names are relative to the study"))?;
-    let header = reader.headers().map_err(|e| fault(e.to_string(), columns))?.clone();
-    let mut places = [0; 3];
-    for (place, name) in places.iter_mut().zip(["torque [Nm]", "speed [rpm]", "loss [W]"]) {
-        *place = header
-            .iter()
-            .position(|h| h == name)
-            .ok_or_else(|| fault(format!("no column `{name}`"), columns))?;
-    }
+fn measured(runner: &Runner<'_>, path: &str, data: &MeasuredEntry) -> Result<Vec<Measured>, Failure> {
+    let read = runner.read(path, data, &[])?;
     let mut points = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|e| fault(e.to_string(), "give every row as many cells"))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let mut numbers = [0.0; 3];
-        for (number, place) in numbers.iter_mut().zip(places) {
-            *number = record[place]
-                .parse::<f64>()
-                .ok()
-                .filter(|x| x.is_finite())
-                .ok_or_else(|| {
-                    fault(
-                        format!("line {line}: `{}` is not a number", &record[place]),
-                        "correct the cell",
-                    )
-                })?;
-        }
-        let [torque, speed, watts] = numbers;
-        if watts <= 0.0 {
-            return Err(fault(
-                format!("line {line}: a loss of {watts} W"),
-                "give losses above zero",
-            ));
-        }
-        points.push(Measured {
-            torque,
-            speed: speed / RPM,
-            watts,
-        });
+    for row in &read.rows {
+        let value = |quantity: &str| read.value(row, quantity);
+        let loss = value("loss").filter(|watts| *watts > 0.0);
+        let (Some(torque), Some(speed), Some(watts)) = (value("torque"), value("speed"), loss) else {
+            let message = format!("{}: line {}: no loss above zero", data.file, row.line);
+            return Err(runner.wrong(path, message, "give the loss of the component in a column `loss [W]`"));
+        };
+        points.push(Measured { torque, speed, watts });
     }
     Ok(points)
 }

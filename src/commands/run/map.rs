@@ -1,11 +1,16 @@
 //! Losses and efficiency over a grid.
 
+mod export;
 mod over_bound;
 mod pictures;
 
-use gearloss_framework::analysis::{GridResult, OilTemperature, PointResult, Points, SUMS, evidence, notes};
-use gearloss_framework::document::Diagnostic;
-use gearloss_framework::study::MapEntry;
+use std::rc::Rc;
+
+use gearloss_framework::analysis::{Given, Note, OilTemperature, PointResult, SUMS, evidence, notes};
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::loss::Extent;
+use gearloss_framework::measured::{Measured, Row};
+use gearloss_framework::study::{Envelope, Grid, MapEntry};
 use gearloss_framework::thermal::Outcome;
 use serde_json::{Value, json};
 
@@ -13,7 +18,7 @@ use self::over_bound::over_bound;
 use self::pictures::pictures;
 use super::super::solve::{RPM, outside};
 use super::write::{cell, head, write};
-use super::{Built, Runner, axis};
+use super::{Built, Runner, speeds, torques};
 use crate::output::{Failure, Out, Table, number};
 
 /// The most rows and columns of a table on the terminal.
@@ -22,31 +27,37 @@ const SHOWN: usize = 8;
 pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
-    let grid = runner.study.grid(&path, &entry.grid)?;
-    let torques = axis(runner, &format!("grids.{}.torque", entry.grid), grid.torque.values())?;
-    let speeds = axis(runner, &format!("grids.{}.speed", entry.grid), grid.speed.values())?;
-    // One map for each set and each combination of bound values.
-    let mut maps = Vec::new();
-    let combinations = grid.combinations().map_err(|bound| {
-        let error = Diagnostic::error(
-            format!("grids.{}.bind", entry.grid),
-            format!("`{bound}` has no list of values"),
-        )
-        .mend("write `[60 ml, 90 ml]`, say");
-        Failure::from(runner.study.findings(vec![error]))
-    })?;
-    for bound in combinations {
-        for built in runner.built_with(gearbox, &entry.model_sets, &bound)? {
-            let points = runner.points(&built.transmission, &grid.gear, torques.clone(), speeds.clone());
-            let solved = runner.solve(&built, &points)?;
-            maps.push(Map {
-                built,
-                bound: bound.clone(),
-                points,
-                solved,
-            });
+    let (maps, bound): (_, Vec<String>) = match (&entry.grid, &entry.points) {
+        (Some(_), None) if !entry.bind.is_empty() || entry.gear.is_some() => {
+            return Err(runner.wrong(&path, "`bind` and `gear` belong to `points`", "state them in the grid"));
         }
-    }
+        (Some(name), None) => {
+            let grid = runner.study.grid(&path, name)?;
+            let bound = grid.bind.ids().map(str::to_owned).collect();
+            (on_grid(runner, name, grid, gearbox, &entry.model_sets)?, bound)
+        }
+        (None, Some(_)) if !entry.export.is_empty() => {
+            let export = format!("{path}.export");
+            return Err(runner.wrong(
+                &export,
+                "a table for another program needs a grid",
+                "give `grid` in place of `points`",
+            ));
+        }
+        (None, Some(points)) => {
+            let bind: Vec<&str> = entry.bind.ids().collect();
+            let listed = runner.read(&format!("{path}.points"), points, &bind)?;
+            for note in &listed.notes {
+                out.line(format!("{name}: {}: {note}", points.file))?;
+            }
+            let bound = entry.bind.iter().map(|(_, path)| path.clone()).collect();
+            (on_list(runner, entry, &listed, gearbox)?, bound)
+        }
+        _ => {
+            let mend = "write `grid: NAME`, or `points: { file: ... }`";
+            return Err(runner.wrong(&path, "a map needs either `grid` or `points`", mend));
+        }
+    };
     // Sets may differ in their parts; each part has one column, empty where a set has it not.
     let mut parts: Vec<String> = Vec::new();
     for part in maps.iter().flat_map(|m| m.built.transmission.parts()) {
@@ -54,8 +65,186 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
             parts.push(part.path.clone());
         }
     }
+    let header = header(&bound, &parts);
+    let (mut rows, mut results) = (Vec::new(), Vec::new());
+    let one_table = over_bound::fits(&maps);
+    if one_table {
+        over_bound(name, &maps, out)?;
+    }
+    for map in &maps {
+        rows.extend(map.rows(&parts));
+        if !one_table {
+            map.show(name, out)?;
+        }
+        results.push(map.result());
+    }
+    let mut value = head(runner, name, &maps.iter().map(|m| &*m.built).collect::<Vec<_>>());
+    value["maps"] = Value::Array(results);
+    write(runner, name, &entry.write, &header, &rows, &value)?;
+    for export in &entry.export {
+        for line in export::write(runner, name, *export, &maps)? {
+            out.line(format!("{name}: {line}"))?;
+        }
+    }
+    let measured = match &entry.measured {
+        Some(data) => runner.read(&format!("{path}.measured"), data, &[])?,
+        None => Measured::default(),
+    };
+    let marks: Vec<Mark> = measured.rows.iter().map(|row| Mark::of(&measured, row)).collect();
+    pictures(runner, name, &maps, &marks, &entry.write)
+}
+
+/// A measured point, to be drawn.
+pub struct Mark {
+    gear: Option<String>,
+    torque: f64,
+    speed: f64,
+}
+
+impl Mark {
+    fn of(measured: &Measured, row: &Row) -> Self {
+        Self {
+            gear: row.gear.clone(),
+            torque: measured.value(row, "torque").unwrap_or(0.0),
+            speed: measured.value(row, "speed").unwrap_or(0.0),
+        }
+    }
+}
+
+/// One map for each gear state, each set and each combination of bound values.
+fn on_grid<'s>(
+    runner: &'s Runner<'_>,
+    name: &str,
+    grid: &Grid,
+    gearbox: &'s Gearbox,
+    sets: &'s [String],
+) -> Result<Vec<Map<'s>>, Failure> {
+    let path = format!("grids.{name}");
+    let combinations = grid.combinations().map_err(|bound| {
+        let message = format!("`{bound}` has no list of values");
+        runner.wrong(&format!("{path}.bind"), message, "write `[60 ml, 90 ml]`, say")
+    })?;
+    if let Some(Err(reason)) = grid.envelope.as_ref().map(Envelope::check) {
+        let mend = "give as many torques as speeds, and speeds that rise";
+        return Err(runner.wrong(&format!("{path}.envelope"), reason, mend));
+    }
+    let mut maps = Vec::new();
+    for bound in combinations {
+        for built in runner.built_with(gearbox, sets, &bound)? {
+            let built = Rc::new(built);
+            let t = &built.transmission;
+            let axes = Axes {
+                torques: torques(runner, &format!("{path}.torque"), &grid.torque, t)?,
+                speeds: speeds(runner, &format!("{path}.speed"), &grid.speed, t)?,
+                shares: [
+                    t.rating.filter(|_| grid.speed.is_rated()).map(|r| r.speed),
+                    t.rating.filter(|_| grid.torque.is_rated()).map(|r| r.torque),
+                ],
+            };
+            let whole = runner.points(t, "", axes.torques.clone(), axes.speeds.clone()).field;
+            let held = |given: &Given| {
+                grid.envelope
+                    .as_ref()
+                    .is_none_or(|e| e.holds(given.torque, given.speed))
+            };
+            let mut inside = Vec::new();
+            let mut places = Vec::new();
+            for i in 0..whole.len() {
+                let given = whole.at(i);
+                places.push(held(&given).then_some(inside.len()));
+                if held(&given) {
+                    inside.push(given);
+                }
+            }
+            if inside.is_empty() {
+                let path = format!("{path}.envelope");
+                return Err(runner.wrong(
+                    &path,
+                    "no point of the grid lies below the envelope",
+                    "correct one of them",
+                ));
+            }
+            for gear in grid.gear.names() {
+                let points = if inside.len() == whole.len() {
+                    runner.field(t, gear, whole.clone())
+                } else {
+                    runner.listed(t, gear, inside.clone())
+                };
+                let solved = runner.solve(&built, &points)?;
+                maps.push(Map {
+                    built: Rc::clone(&built),
+                    bound: bound.clone(),
+                    gear: gear.clone(),
+                    oil: points.oil,
+                    notes: notes(t, &solved.seen),
+                    seen: solved.seen,
+                    passes: solved.passes,
+                    points: solved.points,
+                    grid: Some((axes.clone(), places.clone())),
+                });
+            }
+        }
+    }
+    Ok(maps)
+}
+
+/// One map for each set, each gear state and each combination of bound values that the rows have.
+fn on_list<'s>(
+    runner: &'s Runner<'_>,
+    entry: &'s MapEntry,
+    listed: &Measured,
+    gearbox: &'s Gearbox,
+) -> Result<Vec<Map<'s>>, Failure> {
+    let mut maps = Vec::new();
+    for solved in runner.at_rows(
+        gearbox,
+        &entry.model_sets,
+        &entry.bind,
+        entry.gear.as_deref(),
+        listed,
+        false,
+    )? {
+        let mut keys: Vec<(usize, &String)> = Vec::new();
+        for (place, gear, _) in &solved.rows {
+            if !keys.contains(&(*place, gear)) {
+                keys.push((*place, gear));
+            }
+        }
+        let keys: Vec<(usize, String)> = keys.into_iter().map(|(place, gear)| (place, gear.clone())).collect();
+        let built: Vec<Rc<Built<'_>>> = solved.built.into_iter().map(Rc::new).collect();
+        for (place, gear) in keys {
+            let of_map = solved
+                .rows
+                .iter()
+                .zip(&listed.rows)
+                .filter(|(row, _)| row.0 == place && row.1 == gear);
+            let bound = of_map.clone().next().map(|(_, row)| {
+                let values = row.bound.iter().map(|v| Value::from(v.as_str()));
+                entry.bind.iter().map(|(_, path)| path.clone()).zip(values).collect()
+            });
+            let points: Vec<PointResult> = of_map.map(|((_, _, point), _)| point.clone()).collect();
+            maps.push(Map {
+                bound: bound.unwrap_or_default(),
+                gear,
+                oil: OilTemperature::of(
+                    &built[place].transmission,
+                    runner.study.entry.conditions.oil_temperature,
+                ),
+                notes: solved.notes.clone(),
+                seen: Vec::new(),
+                passes: points.iter().map(|p| p.passes).sum(),
+                points,
+                grid: None,
+                built: Rc::clone(&built[place]),
+            });
+        }
+    }
+    Ok(maps)
+}
+
+fn header(bound: &[String], parts: &[String]) -> Vec<String> {
     let mut header: Vec<String> = ["model_set", "gear"].map(str::to_owned).to_vec();
-    header.extend(grid.bind.ids().map(str::to_owned));
+    header.extend_from_slice(bound);
     header.extend(
         [
             "torque_nm",
@@ -74,46 +263,33 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
     );
     header.extend(SUMS.iter().map(|(sum, _)| format!("{sum}_w")));
     header.extend(parts.iter().map(|p| format!("{p}_w")));
-    let mut rows = Vec::new();
-    let mut results = Vec::new();
-    let one_table = torques.len() == 1 && grid.bind.len() == 1;
-    if one_table {
-        over_bound(name, &maps, out)?;
-    }
-    for map in &maps {
-        rows.extend(map.rows(&parts));
-        if one_table {
-            results.push(map.result());
-            continue;
-        }
-        out.line(format!(
-            "{name}: efficiency in %, gear {}, models {}{}",
-            grid.gear,
-            map.built.name,
-            map.words()
-        ))?;
-        let percent = |p: &PointResult| p.efficiency.map(|e| 100.0 * e);
-        out.text(&map.table(&percent))?;
-        if map.points.oil == OilTemperature::Balance {
-            out.line("oil temperature in degC")?;
-            out.text(&map.table(&|p| p.oil))?;
-        }
-        out.text(&outside(&notes(&map.built.transmission, &map.solved.seen)))?;
-        out.line("")?;
-        results.push(map.result());
-    }
-    let mut value = head(runner, name, &maps.iter().map(|m| &m.built).collect::<Vec<_>>());
-    value["maps"] = Value::Array(results);
-    write(runner, name, &entry.write, &header, &rows, &value)?;
-    pictures(runner, name, &maps, &entry.write)
+    header
 }
 
-/// A map under one set with one combination of bound values.
+/// Axes of a grid for one gearbox.
+#[derive(Clone)]
+struct Axes {
+    /// \[Nm\]
+    torques: Vec<f64>,
+    /// \[rad/s\]
+    speeds: Vec<f64>,
+    /// Ratings of speed and torque where the axes count in shares of them.
+    shares: [Option<f64>; 2],
+}
+
+/// A map under one set in one gear state with one combination of bound values.
 struct Map<'a> {
-    built: Built<'a>,
+    /// Maps that differ in their points only share a transmission.
+    built: Rc<Built<'a>>,
     bound: Vec<(String, Value)>,
-    points: Points,
-    solved: GridResult,
+    gear: String,
+    oil: OilTemperature,
+    points: Vec<PointResult>,
+    seen: Vec<Extent>,
+    notes: Vec<Note>,
+    passes: usize,
+    /// The grid, and for each of its places the number of the point; absent beyond the envelope.
+    grid: Option<(Axes, Vec<Option<usize>>)>,
 }
 
 /// Names of the sets in the order of the maps.
@@ -148,7 +324,7 @@ impl Map<'_> {
         let row = |point: &PointResult| {
             let undefined = point.undefined.map(|(part, _)| part);
             let known = point.oil.is_some();
-            let mut row = vec![self.built.name.clone(), self.points.gear.clone()];
+            let mut row = vec![self.built.name.clone(), self.gear.clone()];
             row.extend(self.bound.iter().map(|(_, value)| word(value)));
             row.extend([
                 cell(Some(point.torque)),
@@ -170,22 +346,55 @@ impl Map<'_> {
             }));
             row
         };
-        self.solved.points.iter().map(row).collect()
+        self.points.iter().map(row).collect()
     }
 
-    fn table(&self, quantity: &dyn Fn(&PointResult) -> Option<f64>) -> String {
-        let (torques, speeds) = (&self.points.torques, &self.points.speeds);
-        let shown = spread(speeds.len());
+    /// Prints the map.
+    fn show(&self, name: &str, out: &mut Out) -> Result<(), Failure> {
+        let words = self.words();
+        out.line(format!(
+            "{name}: efficiency in %, gear {}, models {}{words}",
+            self.gear, self.built.name
+        ))?;
+        let percent = |p: &PointResult| p.efficiency.map(|e| 100.0 * e);
+        if let Some(grid) = &self.grid {
+            out.text(&self.table(grid, &percent))?;
+            if self.oil == OilTemperature::Balance {
+                out.line("oil temperature in degC")?;
+                out.text(&self.table(grid, &|p| p.oil))?;
+            }
+        } else {
+            let mut table = Table::new(&["torque Nm", "speed rpm", "oil degC", "efficiency %", "loss W"]);
+            for i in spread(self.points.len()) {
+                let p = &self.points[i];
+                table.row(vec![
+                    format!("{}", tidy(p.torque)),
+                    format!("{:.0}", p.speed * RPM),
+                    number(p.oil, 1),
+                    number(percent(p), 2),
+                    number(p.loss, 2),
+                ]);
+            }
+            out.text(&table.render())?;
+        }
+        out.text(&outside(&self.notes))?;
+        out.line("")?;
+        Ok(())
+    }
+
+    fn table(
+        &self,
+        (axes, places): &(Axes, Vec<Option<usize>>),
+        quantity: &dyn Fn(&PointResult) -> Option<f64>,
+    ) -> String {
+        let shown = spread(axes.speeds.len());
         let mut head = vec!["torque Nm".to_owned()];
-        head.extend(shown.iter().map(|i| format!("{:.0} rpm", speeds[*i] * RPM)));
+        head.extend(shown.iter().map(|i| format!("{:.0} rpm", axes.speeds[*i] * RPM)));
         let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
-        for t in spread(torques.len()) {
-            let mut row = vec![format!("{}", torques[t])];
-            row.extend(
-                shown
-                    .iter()
-                    .map(|i| number(quantity(&self.solved.points[t * speeds.len() + i]), 2)),
-            );
+        for t in spread(axes.torques.len()) {
+            let mut row = vec![format!("{}", tidy(axes.torques[t]))];
+            let cell = |i: &usize| quantity(&self.points[places[t * axes.speeds.len() + i]?]);
+            row.extend(shown.iter().map(|i| number(cell(i), 2)));
             table.row(row);
         }
         table.render()
@@ -209,8 +418,8 @@ pub fn spread(count: usize) -> Vec<usize> {
 
 impl Map<'_> {
     fn result(&self) -> Value {
-        let (built, points, solved) = (&self.built, &self.points, &self.solved);
-        let list: Vec<Value> = solved
+        let built = &self.built;
+        let list: Vec<Value> = self
             .points
             .iter()
             .map(|p| {
@@ -234,20 +443,17 @@ impl Map<'_> {
             .collect();
         json!({
             "model_set": built.name,
-            "gear": points.gear,
+            "gear": self.gear,
             "bound": self.bound.iter().map(|(path, value)| json!({ "path": path, "value": value })).collect::<Vec<_>>(),
-            "oil_temperature_degc": points.oil.given(),
-            "power_flow": points.flow,
-            "torque_at": points.torque_at,
-            "speed_at": points.speed_at,
+            "oil_temperature_degc": self.oil.given(),
             "sums": SUMS.map(|(name, meaning)| json!({ "sum": name, "meaning": meaning })),
             "parts": built.transmission.parts().iter().map(|p| json!({
                 "part": p.path,
                 "mechanism": p.mechanism,
                 "model": built.transmission.instances()[p.notes.instance].entry.name,
             })).collect::<Vec<_>>(),
-            "passes": solved.passes,
-            "notes": notes(&built.transmission, &solved.seen),
+            "passes": self.passes,
+            "notes": self.notes,
             "evidence": evidence(&built.transmission, &built.resolved, &|path| built.gearbox.places.is_written(path)),
             "points": list,
         })

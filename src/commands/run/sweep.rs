@@ -5,15 +5,15 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::SweepEntry;
+use gearloss_framework::study::{By, SweepEntry};
 use gearloss_framework::thermal::Outcome;
 use serde_json::{Value, json};
 
 use super::super::solve::{RPM, outside};
-use super::breakdown::{names, stack};
 use super::map::{tidy, word};
+use super::shares::{Shares, together};
 use super::write::{cell, head, picture, write};
-use super::{Built, Runner, axis, gear_of};
+use super::{Built, Runner, gear_of, speeds, torques};
 use crate::output::{Failure, Out, Table, number};
 
 /// A quantity in short, in words, and how to read it.
@@ -30,8 +30,6 @@ struct At<'a> {
 pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
-    let torques = axis(runner, &format!("{path}.torque"), entry.torque.values())?;
-    let speeds = axis(runner, &format!("{path}.speed"), entry.speed.values())?;
     let words: Vec<String> = entry.values.iter().map(word).collect();
     if entry.path == "thermal.oil" && runner.study.entry.conditions.oil_temperature.is_some() {
         let error = Diagnostic::error(
@@ -46,7 +44,10 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
         let change = [(entry.path.clone(), change.clone())];
         for built in runner.built_with(gearbox, &entry.model_sets, &change)? {
             let gear = gear_of(entry.gear.as_deref(), &built.transmission);
-            let points = runner.points(&built.transmission, gear, torques.clone(), speeds.clone());
+            let torques = torques(runner, &format!("{path}.torque"), &entry.torque, &built.transmission)?;
+            let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &built.transmission)?;
+            let mut points = runner.points(&built.transmission, gear, torques, speeds);
+            points.terms = entry.by == By::Term;
             let solved = runner.solve(&built, &points)?;
             all.push(At {
                 value,
@@ -56,12 +57,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
             });
         }
     }
-    let mut shares: Vec<String> = Vec::new();
-    for share in all.iter().flat_map(|at| names(&at.built, entry.by)) {
-        if !shares.contains(&share) {
-            shares.push(share);
-        }
-    }
+    let shares = together(all.iter().map(|at| &at.built.transmission), entry.by);
     let mut header: Vec<String> = ["model_set", "gear", &entry.path].map(str::to_owned).to_vec();
     header.extend(
         [
@@ -80,8 +76,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
     for at in &all {
         let gear = gear_of(entry.gear.as_deref(), &at.built.transmission);
         let mut points = Vec::new();
+        let own = Shares::of(&at.built.transmission, entry.by).under(&shares);
         for p in &at.points {
-            let stack = stack(&at.built, p, entry.by, &shares);
+            let stack = own.stack(p);
             let mut row = vec![at.built.name.clone(), gear.to_owned(), words[at.value].clone()];
             row.extend([cell(Some(p.torque)), cell(Some(tidy(p.speed * RPM))), cell(p.oil)]);
             row.extend([

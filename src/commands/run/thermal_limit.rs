@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::super::solve::{RPM, outside};
 use super::map::tidy;
 use super::write::{cell, head, picture, write};
-use super::{Built, Runner, axis, gear_of};
+use super::{Built, Runner, gear_of, speeds, torques};
 use crate::output::{Failure, Out, Table, number};
 
 /// The limit at one speed, or at one torque.
@@ -34,28 +34,6 @@ struct Found {
 pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
-    let torques = axis(runner, &format!("{path}.torque"), entry.torque.values())?;
-    let speeds = axis(runner, &format!("{path}.speed"), entry.speed.values())?;
-    let (range, key) = match entry.find {
-        Find::Torque => (&torques, "torque"),
-        Find::Speed => (&speeds, "speed"),
-    };
-    if range.len() < 2 {
-        let error = Diagnostic::error(
-            format!("{path}.{key}"),
-            format!("one {key} is no range to look for a limit in"),
-        )
-        .mend("write `{ from: ..., to: ..., step: ... }`");
-        return Err(runner.study.findings(vec![error]).into());
-    }
-    if range
-        .iter()
-        .any(|x| x * range[0] < 0.0 || x * range[range.len() - 1] < 0.0)
-    {
-        let error = Diagnostic::error(format!("{path}.{key}"), "the range goes through zero")
-            .mend("look on one side of zero at a time");
-        return Err(runner.study.findings(vec![error]).into());
-    }
     let built = runner.built(gearbox, &entry.model_sets)?;
     let header = [
         "model_set",
@@ -76,6 +54,12 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
     for b in &built {
         needs_balance(runner, &path, b)?;
         let gear = gear_of(entry.gear.as_deref(), &b.transmission);
+        let torques = torques(runner, &format!("{path}.torque"), &entry.torque, &b.transmission)?;
+        let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &b.transmission)?;
+        match entry.find {
+            Find::Torque => is_range(runner, &format!("{path}.torque"), &torques)?,
+            Find::Speed => is_range(runner, &format!("{path}.speed"), &speeds)?,
+        }
         let (found, seen) = search(runner, entry, b, gear, &torques, &speeds)?;
         for f in &found {
             let mut row = vec![b.name.clone(), gear.to_owned(), cell(Some(f.temperature))];
@@ -302,5 +286,21 @@ fn show(
         )?;
     }
     out.line("")?;
+    Ok(())
+}
+
+/// A limit is looked for between two values on one side of zero.
+fn is_range(runner: &Runner<'_>, path: &str, range: &[f64]) -> Result<(), Failure> {
+    let (Some(first), Some(last), true) = (range.first(), range.last(), range.len() > 1) else {
+        let message = "one value is no range to look for a limit in";
+        return Err(runner.wrong(path, message, "write `{ from: ..., to: ..., step: ... }`"));
+    };
+    if range.iter().any(|x| x * first < 0.0 || x * last < 0.0) {
+        return Err(runner.wrong(
+            path,
+            "the range goes through zero",
+            "look on one side of zero at a time",
+        ));
+    }
     Ok(())
 }

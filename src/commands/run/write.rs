@@ -27,12 +27,19 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
             inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(&text) }));
         }
     }
+    let conditions = &runner.study.entry.conditions;
     json!({
         "format": "gearloss-result/1",
         "gearloss": env!("CARGO_PKG_VERSION"),
         "packages": runner.language.registry().packages(),
         "study": runner.study.entry.title,
         "analysis": analysis,
+        "conditions": {
+            "torque_at": conditions.torque_at,
+            "speed_at": conditions.speed_at,
+            "oil_temperature_degc": conditions.oil_temperature,
+            "power_flow": conditions.power_flow,
+        },
         "inputs": inputs,
         "unreached": built.iter().map(|b| json!({ "model_set": b.name, "notes": b.resolved.unreached })).collect::<Vec<_>>(),
     })

@@ -2,14 +2,14 @@
 
 use gearloss_framework::analysis::{GridResult, PointResult, notes};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::report::Figure;
+use gearloss_framework::report::{Figure, Map};
 use gearloss_framework::study::CompareEntry;
 use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, outside};
+use super::super::Runner;
 use super::super::map::{spread, tidy};
 use super::super::write::{cell, head, picture, write};
-use super::super::{Runner, axis};
 use super::of;
 use crate::output::{Failure, Out, Table, number};
 
@@ -29,16 +29,43 @@ pub fn run(
             .mend("give it a grid of its own, and the value under `conditions: { set: ... }`");
         return Err(runner.study.findings(vec![error]).into());
     }
-    let torques = axis(runner, &format!("grids.{grid_name}.torque"), grid.torque.values())?;
-    let speeds = axis(runner, &format!("grids.{grid_name}.speed"), grid.speed.values())?;
+    let wrong = |key: &str, message: &str, mend: &str| runner.wrong(&format!("grids.{grid_name}.{key}"), message, mend);
+    if grid.envelope.is_some() {
+        return Err(wrong(
+            "envelope",
+            "a comparison takes a grid without envelope",
+            "give it a grid of its own",
+        ));
+    }
+    let [gear] = grid.gear.names() else {
+        return Err(wrong(
+            "gear",
+            "a comparison takes a grid of one gear state",
+            "give it a grid of its own",
+        ));
+    };
     let sets: Vec<String> = std::iter::once(base.to_owned())
         .chain(entry.against.iter().cloned())
         .collect();
     let built = runner.built(gearbox, &sets)?;
     let mut solved: Vec<GridResult> = Vec::new();
-    for b in &built {
-        let points = runner.points(&b.transmission, &grid.gear, torques.clone(), speeds.clone());
-        solved.push(runner.solve(b, &points)?);
+    // Axes that count in shares of a rating have other values for each product; tables and pictures show those of the base.
+    let (mut torques, mut speeds) = (Vec::new(), Vec::new());
+    for b in built.iter().rev() {
+        torques = super::super::torques(
+            runner,
+            &format!("grids.{grid_name}.torque"),
+            &grid.torque,
+            &b.transmission,
+        )?;
+        speeds = super::super::speeds(
+            runner,
+            &format!("grids.{grid_name}.speed"),
+            &grid.speed,
+            &b.transmission,
+        )?;
+        let points = runner.points(&b.transmission, gear, torques.clone(), speeds.clone());
+        solved.insert(0, runner.solve(b, &points)?);
     }
     let quantity = |p: &PointResult| of(p, entry.quantity);
     let unit = entry.quantity.unit(entry.difference);
@@ -74,7 +101,7 @@ pub fn run(
             rows.push(vec![
                 b.name.clone(),
                 base.to_owned(),
-                grid.gear.clone(),
+                gear.clone(),
                 cell(Some(point.torque)),
                 cell(Some(tidy(point.speed * RPM))),
                 cell(quantity(point)),
@@ -84,7 +111,7 @@ pub fn run(
         }
         out.line(format!(
             "{name}: {words} of {} minus {} in {label}, gear {}",
-            b.name, base, grid.gear
+            b.name, base, gear
         ))?;
         let shown = spread(speeds.len());
         let mut titles = vec!["torque Nm".to_owned()];
@@ -157,15 +184,23 @@ pub fn run(
     let mark = |x: f64| format!("{}", tidy(x));
     let columns: Vec<String> = speeds.iter().map(|w| mark(w * RPM)).collect();
     let lines: Vec<String> = torques.iter().map(|t| mark(*t)).collect();
-    for (b, differences) in built.iter().skip(1).zip(&gaps) {
+    for ((b, other), differences) in built.iter().zip(&solved).skip(1).zip(&gaps) {
         let title = format!("{name}: {words} of {} minus {base} in {label}", b.name);
-        let figure = Figure::Map {
+        let figure = Figure::Map(Map {
             title,
             x: ("speed rpm".to_owned(), columns.clone()),
             y: ("torque Nm".to_owned(), lines.clone()),
             values: differences.clone(),
             diverging: true,
-        };
+            hatched: solved[0]
+                .points
+                .iter()
+                .zip(&other.points)
+                .map(|(a, b)| a.outside || b.outside)
+                .collect(),
+            marks: Vec::new(),
+            unseen: entry.accuracy,
+        });
         picture(runner, &format!("{name}-{}", b.name), figure, &entry.write)?;
     }
     Ok(())

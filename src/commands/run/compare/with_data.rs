@@ -1,19 +1,19 @@
 //! Models against measured points: the model minus the measurement.
 
-use gearloss_framework::analysis::{Note, OilTemperature, PointResult, Statistics, bands, histogram, merge, notes};
-use gearloss_framework::description::ThermalMode;
+use gearloss_framework::analysis::{Note, PointResult, Statistics, bands, histogram};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::Extent;
 use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
-use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{CompareEntry, Quantity};
+use gearloss_framework::report::{Cloud, Figure, Map};
+use gearloss_framework::study::{CompareEntry, Difference, Quantity};
 use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, outside};
 use super::super::map::tidy;
+use super::super::rows::Solved;
+use super::super::seen::Seen;
 use super::super::write::{cell, head, picture, write};
-use super::super::{Built, Runner, bound_value, gear_of};
+use super::super::{Built, Runner};
 use super::of;
 use crate::output::{Failure, Out, Table, number};
 
@@ -48,15 +48,24 @@ pub fn run(
     out: &mut Out,
 ) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
-    let measured = read(runner, &path, data, entry)?;
+    let bind: Vec<&str> = entry.bind.ids().collect();
+    let measured = runner.read(&format!("{path}.data"), data, &bind)?;
     for note in &measured.notes {
         out.line(format!("{name}: {}: {note}", data.file))?;
     }
-    let all: Vec<Compared<'_>> = entry
-        .against
-        .iter()
-        .map(|set| compared(runner, &path, entry, &measured, set))
-        .collect::<Result<_, _>>()?;
+    let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
+    let all: Vec<Compared<'_>> = runner
+        .at_rows(
+            gearbox,
+            &entry.against,
+            &entry.bind,
+            entry.gear.as_deref(),
+            &measured,
+            false,
+        )?
+        .into_iter()
+        .map(|solved| compared(entry, &measured, solved))
+        .collect();
     if all.iter().all(|c| c.pairs.iter().all(|p| p.measured.is_none())) {
         let error = Diagnostic::error(
             format!("{path}.data"),
@@ -114,132 +123,22 @@ pub fn run(
     pictures(runner, name, entry, &all)
 }
 
-fn read(runner: &Runner<'_>, path: &str, data: &MeasuredEntry, entry: &CompareEntry) -> Result<Measured, Failure> {
-    let file = runner.study.folder.join(&data.file);
-    let wrong = |message: String, mend: String| -> Failure {
-        let error = Diagnostic::error(format!("{path}.data"), format!("{}: {message}", data.file)).mend(mend);
-        runner.study.findings(vec![error]).into()
-    };
-    let bytes = std::fs::read(&file).map_err(|e| {
-        wrong(
-            format!("cannot read: {e}"),
-            "file names are relative to the study".to_owned(),
-        )
-    })?;
-    let bind: Vec<&str> = entry.bind.ids().collect();
-    data.read(&bytes, &bind)
-        .map_err(|fault| wrong(fault.message, fault.mend))
-}
-
-/// What was measured, from whichever columns give it.
-struct Seen {
-    efficiency: Option<f64>,
-    loss: Option<f64>,
-    loss_torque: Option<f64>,
-    oil: Option<f64>,
-}
-
-impl Seen {
-    /// Torque and speed are those at the ports of the conditions; `out` columns those at the other port. Power counts as it
-    /// flows: what goes in is positive.
-    fn of(measured: &Measured, row: &Row, torque: f64, speed: f64, reference: f64) -> Self {
-        let value = |quantity: &str| measured.value(row, quantity);
-        let here = torque * speed;
-        let there = value("torque_out").zip(value("speed_out")).map(|(t, w)| t * w);
-        // Rigs write the torque of the brake with either sign: power comes in at one port and out at the other.
-        let both = there.map(|there| (here.abs().max(there.abs()), here.abs().min(there.abs())));
-        let loss = value("loss")
-            .or_else(|| value("loss_torque").map(|t| t * reference.abs()))
-            .or_else(|| both.map(|(more, less)| more - less))
-            .or_else(|| {
-                let eta = value("efficiency")?;
-                if here > 0.0 {
-                    Some(here * (1.0 - eta))
-                } else {
-                    (eta > 0.0).then(|| -here * (1.0 / eta - 1.0))
-                }
-            });
-        let efficiency = value("efficiency")
-            .or_else(|| both.map(|(more, less)| less / more))
-            .or_else(|| {
-                let loss = loss?;
-                if here > 0.0 {
-                    Some((here - loss) / here)
-                } else {
-                    (here < 0.0).then(|| -here / (loss - here))
-                }
-            })
-            .filter(|eta| eta.is_finite());
-        Self {
-            efficiency,
-            loss,
-            loss_torque: value("loss_torque").or_else(|| Some(loss? / reference.abs()).filter(|t| t.is_finite())),
-            oil: value("oil_temperature"),
-        }
-    }
-
-    fn quantity(&self, quantity: Quantity) -> Option<f64> {
-        match quantity {
-            Quantity::Efficiency => self.efficiency,
-            Quantity::Loss => self.loss,
-            Quantity::LossTorque => self.loss_torque,
-            Quantity::Temperature => self.oil,
-        }
-    }
-}
-
-fn compared<'a>(
-    runner: &'a Runner<'_>,
-    path: &str,
-    entry: &'a CompareEntry,
-    measured: &Measured,
-    set: &'a String,
-) -> Result<Compared<'a>, Failure> {
-    let (_, gearbox) = runner.study.gearbox(path, entry.gearbox.as_ref())?;
-    // One transmission for each combination of bound values.
-    let mut combinations: Vec<&Vec<String>> = Vec::new();
-    for row in &measured.rows {
-        if !combinations.contains(&&row.bound) {
-            combinations.push(&row.bound);
-        }
-    }
-    let mut built: Vec<Built<'_>> = Vec::new();
-    for bound in &combinations {
-        let paths = entry.bind.iter().map(|(_, path)| path.clone());
-        let overrides: Vec<(String, Value)> = paths.zip(bound.iter().map(|v| bound_value(v))).collect();
-        built.extend(runner.built_with(gearbox, std::slice::from_ref(set), &overrides)?);
-    }
+fn compared<'a>(entry: &CompareEntry, measured: &Measured, solved: Solved<'a>) -> Compared<'a> {
     let accuracy = match entry.quantity {
         Quantity::Efficiency => "efficiency_accuracy",
         Quantity::Loss => "loss_accuracy",
         Quantity::LossTorque => "loss_torque_accuracy",
         Quantity::Temperature => "oil_temperature_accuracy",
     };
-    let mut pairs = Vec::new();
-    let mut seen: Vec<Extent> = Vec::new();
-    for (i, row) in measured.rows.iter().enumerate() {
-        let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
-        let b = &built[place];
-        let t = &b.transmission;
-        let value = |quantity: &str| measured.value(row, quantity);
-        let (torque, speed) = (value("torque").unwrap_or(0.0), value("speed").unwrap_or(0.0));
-        let gear = gear_of(row.gear.as_deref().or(entry.gear.as_deref()), t);
-        let mut points = runner.points(t, gear, vec![torque], vec![speed]);
-        // The measured temperature counts where the model does not find its own.
-        if let (Some(oil), ThermalMode::Fixed) = (value("oil_temperature"), t.thermal_mode) {
-            points.oil = OilTemperature::Fixed(oil);
-        }
-        let mut result = runner.solve(b, &points)?;
-        merge(&mut seen, &result.seen);
-        let Some(point) = result.points.pop() else { continue };
-        pairs.push(pair(entry, measured, (i, row), &point, value(accuracy)));
+    let pairs = measured.rows.iter().zip(&solved.rows).enumerate();
+    Compared {
+        pairs: pairs
+            .map(|(i, (row, (_, _, point)))| pair(entry, measured, (i, row), point, measured.value(row, accuracy)))
+            .collect(),
+        notes: solved.notes,
+        built: solved.built,
+        name: solved.name,
     }
-    Ok(Compared {
-        notes: notes(&built[0].transmission, &seen),
-        built,
-        name: set.clone(),
-        pairs,
-    })
 }
 
 fn pair(
@@ -334,31 +233,36 @@ fn verdict(name: &str, entry: &CompareEntry, all: &[Compared<'_>], out: &mut Out
     let [first, second, ..] = ranked[..] else {
         return Ok(());
     };
-    // The accuracy counts as the difference does: a share is a hundred points.
-    let accuracy = Statistics::of(all[0].pairs.iter().filter_map(|p| {
-        let value = p.accuracy?;
-        match entry.quantity {
-            _ if entry.difference == gearloss_framework::study::Difference::Percent => {
-                p.measured.filter(|m| *m != 0.0).map(|m| 100.0 * value / m)
-            }
-            Quantity::Efficiency => Some(100.0 * value),
-            _ => Some(value),
-        }
-    }));
+    let accuracy = accuracy(entry, &all[0]);
     let (_, unit) = entry.quantity.words(entry.difference);
     let words = format!(
         "{name}: `{}` meets the measurement best, {:.3} {unit} rms; next `{}`, {:.3}",
         first.0, first.1, second.0, second.1
     );
     match accuracy {
-        Some(a) if second.1 - first.1 < a.rms => out.line(format!(
-            "{words}; indistinguishable: the measurement is accurate to {:.3} {unit}",
-            a.rms
+        Some(a) if second.1 - first.1 < a => out.line(format!(
+            "{words}; indistinguishable: the measurement is accurate to {a:.3} {unit}"
         ))?,
         _ => out.line(words)?,
     }
     out.line("")?;
     Ok(())
+}
+
+/// Accuracy of the measurement, root of the mean square over the points, counted as the difference is: a share is a hundred
+/// points.
+fn accuracy(entry: &CompareEntry, c: &Compared<'_>) -> Option<f64> {
+    let of = |p: &Pair| {
+        let value = p.accuracy?;
+        match entry.quantity {
+            _ if entry.difference == Difference::Percent => p.measured.filter(|m| *m != 0.0).map(|m| 100.0 * value / m),
+            Quantity::Efficiency => Some(100.0 * value),
+            _ => Some(value),
+        }
+    };
+    Statistics::of(c.pairs.iter().filter_map(of))
+        .map(|s| s.rms)
+        .or(entry.accuracy)
 }
 
 fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compared<'_>]) -> Result<(), Failure> {
@@ -394,6 +298,15 @@ fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compar
     };
     let write = &entry.write;
     picture(runner, &format!("{name}-parity"), figure, write)?;
+    for c in all {
+        let title = format!("{name}: {what} of {} minus measurement in {unit}", c.name);
+        picture(
+            runner,
+            &format!("{name}-{}", c.name),
+            differences(entry, c, title),
+            write,
+        )?;
+    }
     let steps = |c: &Compared<'_>| {
         let values: Vec<f64> = c.pairs.iter().filter_map(|p| p.difference).collect();
         let (from, width, counts) = histogram(&values);
@@ -417,4 +330,57 @@ fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compar
         lines,
     };
     picture(runner, &format!("{name}-histogram"), figure, write)
+}
+
+/// The differences over speed and torque: as a map where the points lie on a grid, but for the scatter of a rig; else as dots.
+fn differences(entry: &CompareEntry, c: &Compared<'_>, title: String) -> Figure {
+    let over = |f: fn(&Pair) -> f64| c.pairs.iter().map(f).collect::<Vec<_>>();
+    let (torques, speeds) = (lines_of(&over(|p| p.torque)), lines_of(&over(|p| p.speed * RPM)));
+    let mut values = vec![None; torques.len() * speeds.len()];
+    let mut on_grid = torques.len() > 1 && speeds.len() > 1 && values.len() == c.pairs.len();
+    for (i, pair) in c.pairs.iter().enumerate() {
+        let line = |lines: &[Vec<usize>]| lines.iter().position(|line| line.contains(&i)).unwrap_or(0);
+        let place = line(&torques) * speeds.len() + line(&speeds);
+        on_grid &= values.get(place).is_some_and(Option::is_none);
+        if let Some(value) = values.get_mut(place) {
+            *value = pair.difference;
+        }
+    }
+    let axes = ("speed rpm".to_owned(), "torque Nm".to_owned());
+    if !on_grid {
+        let of = |p: &Pair| Some((p.speed * RPM, p.torque, p.difference?));
+        return Figure::Cloud(Cloud {
+            title,
+            axes,
+            points: c.pairs.iter().filter_map(of).collect(),
+            diverging: true,
+        });
+    }
+    let mean = |lines: &[Vec<usize>], f: fn(&Pair) -> f64| -> Vec<String> {
+        let of = |line: &Vec<usize>| line.iter().map(|i| f(&c.pairs[*i])).sum::<f64>() / line.len() as f64;
+        lines.iter().map(|line| format!("{:.3}", of(line))).collect()
+    };
+    Figure::Map(Map {
+        title,
+        x: (axes.0, mean(&speeds, |p| p.speed * RPM)),
+        y: (axes.1, mean(&torques, |p| p.torque)),
+        values,
+        diverging: true,
+        unseen: accuracy(entry, c),
+        ..Map::default()
+    })
+}
+
+/// Places of points that share a value, but for the scatter of a rig: within 2 % of the first.
+fn lines_of(values: &[f64]) -> Vec<Vec<usize>> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let mut lines: Vec<Vec<usize>> = Vec::new();
+    for i in order {
+        match lines.last_mut() {
+            Some(line) if (values[i] - values[line[0]]).abs() <= 0.02 * values[line[0]].abs() => line.push(i),
+            _ => lines.push(vec![i]),
+        }
+    }
+    lines
 }

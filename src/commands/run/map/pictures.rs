@@ -1,54 +1,55 @@
 //! Pictures of maps.
 
 use gearloss_framework::analysis::{OilTemperature, PointResult};
-use gearloss_framework::report::Figure;
+use gearloss_framework::report::{Cloud, Figure, Map as Picture};
 use gearloss_framework::study::Write;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
 use super::super::write::picture;
-use super::{Map, set_names, tidy, word};
+use super::{Axes, Map, Mark, over_bound, set_names, tidy, word};
 use crate::output::Failure;
 
 /// A quantity in short, in words, and how to read it.
 type Shown = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
 
 /// Pictures over speed and torque; over speed and the bound values where there is one torque and one path is bound.
-pub fn pictures(runner: &Runner<'_>, name: &str, maps: &[Map<'_>], write: &[Write]) -> Result<(), Failure> {
+pub fn pictures(
+    runner: &Runner<'_>,
+    name: &str,
+    maps: &[Map<'_>],
+    marks: &[Mark],
+    write: &[Write],
+) -> Result<(), Failure> {
     let mut quantities: Vec<Shown> = vec![
         ("efficiency", "efficiency in %", |p| p.efficiency.map(|e| 100.0 * e)),
         ("loss", "loss in W", |p| p.loss),
         ("loss-torque", "loss torque in Nm", |p| p.loss_torque),
     ];
-    if maps.iter().any(|m| m.points.oil == OilTemperature::Balance) {
+    if maps.iter().any(|m| m.oil == OilTemperature::Balance) {
         quantities.push(("temperature", "oil temperature in degC", |p| p.oil));
     }
-    let Some(first) = maps.first() else { return Ok(()) };
-    let label = |x: f64| format!("{}", tidy(x));
-    let speeds: Vec<String> = first.points.speeds.iter().map(|w| label(w * RPM)).collect();
-    let torques: Vec<String> = first.points.torques.iter().map(|t| label(*t)).collect();
+    let one_picture = over_bound::fits(maps);
     for set in set_names(maps) {
         let of_set: Vec<&Map<'_>> = maps.iter().filter(|m| m.built.name == set).collect();
         for (short, long, quantity) in &quantities {
             // Without load there is no efficiency to show.
-            if of_set
-                .iter()
-                .all(|m| m.solved.points.iter().all(|p| quantity(p).is_none()))
-            {
+            if of_set.iter().all(|m| m.points.iter().all(|p| quantity(p).is_none())) {
                 continue;
             }
-            let values = |map: &Map<'_>| -> Vec<Option<f64>> { map.solved.points.iter().map(quantity).collect() };
-            if first.bound.len() == 1 && torques.len() == 1 {
-                let bound: Vec<String> = of_set.iter().map(|m| word(&m.bound[0].1)).collect();
-                let all: Vec<Option<f64>> = of_set.iter().flat_map(|m| values(m)).collect();
-                let title = format!("{name}: {long}, models {set}, {} Nm", torques[0]);
-                let figure = Figure::Map {
-                    title,
-                    x: ("speed rpm".to_owned(), speeds.clone()),
-                    y: (first.bound[0].0.clone(), bound),
-                    values: all,
-                    diverging: false,
-                };
+            if let (true, Some((axes, _))) = (one_picture, &of_set[0].grid) {
+                let points = || of_set.iter().flat_map(|m| &m.points);
+                let figure = Figure::Map(Picture {
+                    title: format!("{name}: {long}, models {set}, {} Nm", axes.torques[0]),
+                    x: axes.over_speed(),
+                    y: (
+                        of_set[0].bound[0].0.clone(),
+                        of_set.iter().map(|m| word(&m.bound[0].1)).collect(),
+                    ),
+                    values: points().map(quantity).collect(),
+                    hatched: points().map(|p| p.outside).collect(),
+                    ..Picture::default()
+                });
                 picture(runner, &format!("{name}-{set}-{short}"), figure, write)?;
                 continue;
             }
@@ -58,17 +59,103 @@ pub fn pictures(runner: &Runner<'_>, name: &str, maps: &[Map<'_>], write: &[Writ
                 } else {
                     String::new()
                 };
-                let title = format!("{name}: {long}, models {set}{}", map.words());
-                let figure = Figure::Map {
-                    title,
-                    x: ("speed rpm".to_owned(), speeds.clone()),
-                    y: ("torque Nm".to_owned(), torques.clone()),
-                    values: values(map),
-                    diverging: false,
-                };
-                picture(runner, &format!("{name}-{set}-{short}{number}"), figure, write)?;
+                let mut title = format!("{name}: {long}, models {set}{}", map.words());
+                if of_set.iter().any(|m| m.gear != of_set[0].gear) {
+                    title.push_str(&format!(", gear {}", map.gear));
+                }
+                for (side, figure) in figures(map, &title, *short == "efficiency", *quantity, marks) {
+                    picture(runner, &format!("{name}-{set}-{short}{number}{side}"), figure, write)?;
+                }
             }
         }
     }
     Ok(())
+}
+
+/// The pictures of one quantity of one map. Efficiency falls to zero at no torque from both sides, so each side has a picture
+/// of its own.
+fn figures(
+    map: &Map<'_>,
+    title: &str,
+    sided: bool,
+    quantity: fn(&PointResult) -> Option<f64>,
+    marks: &[Mark],
+) -> Vec<(&'static str, Figure)> {
+    let Some((axes, places)) = &map.grid else {
+        let of = |p: &PointResult| Some((p.speed * RPM, p.torque, quantity(p)?));
+        let cloud = Cloud {
+            title: title.to_owned(),
+            axes: ("speed rpm".to_owned(), "torque Nm".to_owned()),
+            points: map.points.iter().filter_map(of).collect(),
+            diverging: false,
+        };
+        return vec![("", Figure::Cloud(cloud))];
+    };
+    let both = axes.torques.iter().any(|t| *t > 0.0) && axes.torques.iter().any(|t| *t < 0.0);
+    let sides: &[(&str, &str, fn(f64) -> bool)] = if sided && both {
+        &[
+            ("-above", ", torque above zero", |t| t > 0.0),
+            ("-below", ", torque below zero", |t| t < 0.0),
+        ]
+    } else {
+        &[("", "", |_| true)]
+    };
+    let columns = axes.speeds.len();
+    let marks: Vec<(f64, f64)> = marks
+        .iter()
+        .filter(|m| m.gear.as_deref().is_none_or(|g| g == map.gear))
+        .map(|m| (axes.speed(m.speed), axes.torque(m.torque)))
+        .collect();
+    let picture = |(file, words, held): &(&'static str, &str, fn(f64) -> bool)| {
+        let rows: Vec<usize> = (0..axes.torques.len()).filter(|t| held(axes.torques[*t])).collect();
+        let cells = || rows.iter().flat_map(|t| &places[t * columns..(t + 1) * columns]);
+        let solved = |place: &Option<usize>| place.map(|i| &map.points[i]);
+        let mut y = axes.over_torque();
+        y.1 = rows.iter().map(|t| y.1[*t].clone()).collect();
+        let figure = Figure::Map(Picture {
+            title: format!("{title}{words}"),
+            x: axes.over_speed(),
+            y,
+            values: cells().map(|p| solved(p).and_then(quantity)).collect(),
+            hatched: cells().map(|p| solved(p).is_some_and(|p| p.outside)).collect(),
+            marks: marks.clone(),
+            ..Picture::default()
+        });
+        (*file, figure)
+    };
+    sides.iter().map(picture).collect()
+}
+
+impl Axes {
+    /// A speed as the axis counts it.
+    fn speed(&self, speed: f64) -> f64 {
+        tidy(self.shares[0].map_or(speed * RPM, |rating| speed / rating))
+    }
+
+    /// A torque as the axis counts it.
+    fn torque(&self, torque: f64) -> f64 {
+        tidy(self.shares[1].map_or(torque, |rating| torque / rating))
+    }
+
+    /// Name and values of the axis of speeds.
+    pub fn over_speed(&self) -> (String, Vec<String>) {
+        let name = if self.shares[0].is_some() {
+            "speed over rating"
+        } else {
+            "speed rpm"
+        };
+        let values = self.speeds.iter().map(|w| format!("{}", self.speed(*w)));
+        (name.to_owned(), values.collect())
+    }
+
+    /// Name and values of the axis of torques.
+    pub fn over_torque(&self) -> (String, Vec<String>) {
+        let name = if self.shares[1].is_some() {
+            "torque over rating"
+        } else {
+            "torque Nm"
+        };
+        let values = self.torques.iter().map(|t| format!("{}", self.torque(*t)));
+        (name.to_owned(), values.collect())
+    }
 }
