@@ -24,6 +24,7 @@ pub mod mechanism;
 pub mod registry;
 pub mod report;
 pub mod resolve;
+pub mod sampling;
 pub mod study;
 pub mod table;
 pub mod thermal;
