@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::document::{Diagnostic, Node, Schema, Walked, read_yaml, walk, walk_at};
+use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, read_yaml, walk, walk_at};
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
@@ -155,6 +155,26 @@ impl Language {
             slot.get("type").and_then(Value::as_str).map(str::to_owned)
         };
         self.gearbox.shape_at(path, tag).is_some()
+    }
+
+    /// Unit, least and greatest value of the number that a resolved document has at a path; absent where it is no number.
+    pub fn number_at(&self, document: &Value, path: &str) -> Option<(&'static Unit, f64, f64)> {
+        let tag = |slot: &str| {
+            let slot = crate::resolve::lookup(document, slot)?;
+            slot.get("type").and_then(Value::as_str).map(str::to_owned)
+        };
+        match self.gearbox.shape_at(path, tag)? {
+            Shape::Number {
+                unit, least, greatest, whole: false,
+            } => Some((*unit, *least, *greatest)),
+            Shape::Either(shapes) => shapes.iter().find_map(|shape| match shape {
+                Shape::Number {
+                    unit, least, greatest, whole: false,
+                } => Some((*unit, *least, *greatest)),
+                _ => None,
+            }),
+            _ => None,
+        }
     }
 
     /// A piece of YAML checked against the gearbox schema at a path.

@@ -29,5 +29,6 @@ pub mod study;
 pub mod table;
 pub mod thermal;
 pub mod transmission;
+pub mod varied;
 
 pub use schemars;

@@ -15,6 +15,8 @@ pub use catalogue::{CatalogueRow, CatalogueTable};
 pub use choice::{Choice, ModelSet, expand_set, sets_of};
 pub use paths::{lookup, matches};
 
+pub(crate) use paths::no_match;
+
 use crate::document::Diagnostic;
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::Files;

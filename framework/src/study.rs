@@ -8,6 +8,7 @@ mod map;
 mod operating_points;
 mod sweep;
 mod temperature;
+mod uncertainty;
 mod write;
 
 use schemars::JsonSchema;
@@ -22,6 +23,7 @@ pub use map::MapEntry;
 pub use operating_points::OperatingPointsEntry;
 pub use sweep::SweepEntry;
 pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
+pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
 pub use write::{Export, Write};
 
 use crate::description::Ordered;
@@ -179,8 +181,10 @@ pub enum Analysis {
     ThermalLimit(ThermalLimitEntry),
     /// How the temperature of one point is found: losses and heat over temperature, and every step.
     Balance(BalanceEntry),
-    /// Losses and efficiency over the values of one path.
+    /// Losses and efficiency over the values of one path, or of two.
     Sweep(SweepEntry),
+    /// Bands of efficiency, loss and temperature from uncertain inputs.
+    Uncertainty(UncertaintyEntry),
 }
 
 /// The names that an analysis uses.
@@ -225,6 +229,10 @@ impl Analysis {
             Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
             Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
             Self::Sweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::Uncertainty(e) => Uses {
+                grid: Some(&e.grid),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+            },
         }
     }
 }

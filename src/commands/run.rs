@@ -14,6 +14,7 @@ mod seen;
 mod shares;
 mod sweep;
 mod thermal_limit;
+mod uncertainty;
 mod write;
 
 use std::cell::{Cell, RefCell};
@@ -43,6 +44,14 @@ pub(super) struct Built<'a> {
     pub gearbox: &'a Gearbox,
     pub resolved: Resolved,
     pub transmission: Transmission,
+}
+
+impl Built<'_> {
+    /// The set as a choice names it: without the product, absent for the gearbox's own models.
+    pub fn set(&self) -> Option<&str> {
+        let set = self.name.rsplit('/').next();
+        set.filter(|set| *set != "own")
+    }
 }
 
 /// What all analyses of one run share.
@@ -115,8 +124,8 @@ impl Runner<'_> {
         }
     }
 
-    fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
-        let count = points.field.len() as u64;
+    /// A bar of progress on standard error, on a terminal only.
+    fn bar(&self, count: u64, name: &str) -> ProgressBar {
         let bar = if self.progress {
             ProgressBar::new(count)
         } else {
@@ -125,7 +134,12 @@ impl Runner<'_> {
         if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {pos}/{len}") {
             bar.set_style(style);
         }
-        bar.set_message(built.name.clone());
+        bar.set_message(name.to_owned());
+        bar
+    }
+
+    fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
+        let bar = self.bar(points.field.len() as u64, &built.name);
         let going = |n: usize| {
             bar.inc(n as u64);
             !interrupt::pressed()
@@ -191,6 +205,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::ThermalLimit(entry) => thermal_limit::run(&runner, name, entry, out),
             Analysis::Balance(entry) => balance::run(&runner, name, entry, out),
             Analysis::Sweep(entry) => sweep::run(&runner, name, entry, out),
+            Analysis::Uncertainty(entry) => uncertainty::run(&runner, name, entry, out),
             Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
             Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
         };
@@ -279,6 +294,7 @@ fn about(analysis: &Analysis) -> &'static str {
         Analysis::ThermalLimit(_) => "How far a torque or a speed can go before the oil reaches a temperature.",
         Analysis::Balance(_) => "How the temperature of one point is found.",
         Analysis::Sweep(_) => "Losses and efficiency over the values of one path.",
+        Analysis::Uncertainty(_) => "Bands from uncertain inputs.",
         Analysis::SpinLoss(_) => "Losses without load.",
         Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",
     }

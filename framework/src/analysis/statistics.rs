@@ -39,6 +39,31 @@ impl Statistics {
     }
 }
 
+/// The value below which a share of a sorted list lies, straight between its members.
+///
+/// # Panics
+/// If the list is empty: a bug of the caller.
+pub fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let place = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
+    let (low, part) = (place.floor() as usize, place.fract());
+    let high = (low + 1).min(sorted.len() - 1);
+    sorted[low] + part * (sorted[high] - sorted[low])
+}
+
+/// Correlation of two lists of equal length; absent where one of them does not change.
+pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
+    let n = a.len() as f64;
+    let (mean_a, mean_b) = (a.iter().sum::<f64>() / n, b.iter().sum::<f64>() / n);
+    let (mut aa, mut bb, mut ab) = (0.0, 0.0, 0.0);
+    for (x, y) in a.iter().zip(b) {
+        let (x, y) = (x - mean_a, y - mean_b);
+        aa += x * x;
+        bb += y * y;
+        ab += x * y;
+    }
+    (aa > 0.0 && bb > 0.0).then(|| ab / (aa * bb).sqrt())
+}
+
 /// The most bands that values make of themselves.
 const MOST: usize = 8;
 
@@ -102,6 +127,15 @@ mod tests {
         };
         assert_eq!(of, Some(expected));
         assert_eq!(Statistics::of([]), None);
+    }
+
+    #[test]
+    fn quantiles_and_correlations_of_known_lists() {
+        let list = [1.0, 2.0, 3.0, 4.0, 5.0];
+        assert_eq!((quantile(&list, 0.5), quantile(&list, 0.125), quantile(&list, 1.0)), (3.0, 1.5, 5.0));
+        let falling: Vec<f64> = list.iter().map(|x| 7.0 - 2.0 * x).collect();
+        assert!((correlation(&list, &falling).unwrap_or(0.0) + 1.0).abs() < 1e-12);
+        assert_eq!(correlation(&list, &[3.0; 5]), None);
     }
 
     #[test]

@@ -94,7 +94,7 @@ pub(super) fn write(value: &mut Value, path: &str, new: Value) -> bool {
 }
 
 /// The error for a pattern that meets nothing: names the first key that fails.
-pub(super) fn no_match(value: &Value, pattern: &str) -> Diagnostic {
+pub(crate) fn no_match(value: &Value, pattern: &str) -> Diagnostic {
     let mut at = value;
     let mut good = String::new();
     for key in pattern.split('.') {

@@ -1,0 +1,69 @@
+//! What uncertain inputs do to losses and temperature.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::Write;
+use crate::varied::Tie;
+
+/// What uncertain inputs do to efficiency, loss and temperature over a grid: every input is drawn from its distribution.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct UncertaintyEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Grid, of one gear state.
+    pub grid: String,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// The uncertain inputs.
+    #[schemars(length(min = 1))]
+    pub inputs: Vec<ToleranceEntry>,
+    /// Number of samples; powers of two fill the ranges most evenly. [-]
+    #[serde(default = "samples")]
+    #[schemars(range(min = 8, max = 65536))]
+    pub samples: u32,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+fn samples() -> u32 {
+    256
+}
+
+/// One uncertain input: `plus_minus`, `percent`, or `from` and `to`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ToleranceEntry {
+    /// Resolved path; with `*` all that it meets move together.
+    pub path: String,
+    /// How several quantities move together.
+    #[serde(default)]
+    pub tie: Tie,
+    /// Half of the range about the value of the gearbox, as a quantity of the path: `0.1 um`.
+    pub plus_minus: Option<Value>,
+    /// The same in percent of the value of the gearbox. [-]
+    #[schemars(range(min = 1e-9, max = 1000.0))]
+    pub percent: Option<f64>,
+    /// Lower end of the range.
+    pub from: Option<Value>,
+    /// Upper end of the range.
+    pub to: Option<Value>,
+    /// How values lie in the range.
+    #[serde(default)]
+    pub distribution: Shape,
+}
+
+/// How values lie in a range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// All are as likely.
+    #[default]
+    Uniform,
+    /// Normal: the range holds 95 % of the values; those beyond the range of the schema are moved onto it.
+    Normal,
+    /// The value of the gearbox is the likeliest, the ends are not reached.
+    Triangular,
+}
