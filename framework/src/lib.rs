@@ -16,6 +16,7 @@ pub mod geometry;
 pub mod immersion;
 pub mod kinematics;
 pub mod language;
+pub mod least_squares;
 pub mod loads;
 pub mod loss;
 pub mod lubricant;

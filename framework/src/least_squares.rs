@@ -1,0 +1,54 @@
+//! Bounded nonlinear least squares: parameters that bring calculated values as near to measured ones as their
+//! uncertainties ask for.
+//!
+//! Minimised is F = 1/2 sum c^2 rho((r/c)^2) + 1/2 sum of the squares of the rows of priors, inside bounds. A row r is
+//! calculated minus measured over the standard uncertainty, a pure number; parameters carry their own units, and inside,
+//! a coordinate u is the parameter or its logarithm.
+//!
+//! The method is Gauss-Newton in a trust region: a ball in the metric of the column norms, together with the bounds. What
+//! is least inside both is a second-order cone program, solved with Clarabel (Goulart and Chen, "Clarabel: An interior-point
+//! solver for conic programs with quadratic objectives", 2024) and sharpened on its active set. Radius and
+//! acceptance follow Moré, "The Levenberg-Marquardt algorithm" (1978) and Conn, Gould and Toint, "Trust-Region Methods"
+//! (2000); the second-order correction is that of Transtrum and Sethna, arXiv:1201.5885; the test by relative offset that of
+//! Bates and Watts, "Nonlinear Regression Analysis" (1988).
+//!
+//! There is no clock and no chance in any decision, and sums run in the order of their indices: the same problem gives the
+//! same bits on any number of threads.
+//!
+//! ```
+//! use gearloss_framework::least_squares::{Options, Parameter, Problem, solve};
+//!
+//! let (x, y) = ([0.0, 1.0, 2.0, 3.0], [2.0, 1.21, 0.735, 0.446]);
+//! let residual = |p: &[f64]| Ok(x.iter().zip(y).map(|(x, y)| (p[0] * (-p[1] * x).exp() - y) / 0.01).collect());
+//! let parameters = vec![Parameter::new("height", 1.0).within(0.0, 10.0), Parameter::new("decay", 1.0).log()];
+//! let fit = solve(&Problem::new(residual, parameters), &Options::fit())?;
+//! assert!(fit.converged() && (fit.theta[1] - 0.5).abs() < 0.01);
+//! # Ok::<(), gearloss_framework::least_squares::Fault>(())
+//! ```
+
+mod cone;
+mod difference;
+mod dogleg;
+mod evaluate;
+mod fault;
+mod fit;
+mod iterate;
+mod linear;
+mod optimality;
+mod options;
+mod points;
+mod problem;
+mod robust;
+mod second_order;
+mod solve;
+mod space;
+mod subproblem;
+
+pub use fault::{Fault, Finding};
+pub use fit::{Counts, Derivative, Fit, Iteration, Reason, Side, Status};
+pub use options::{Differences, Noise, Options, Steps, Subproblem, Tolerances};
+pub use points::{halton, spread};
+pub use problem::{Parameter, Prior, Problem, Scale};
+pub use robust::Loss;
+pub use solve::solve;
+pub use subproblem::How;

@@ -1,0 +1,62 @@
+//! Measures of how far a point is from a minimum inside the bounds.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::fit::Side;
+use super::linear;
+use super::space::Space;
+
+/// On which bound each coordinate stands with the gradient pushing outward.
+pub(super) fn active(space: &Space<'_>, u: &[f64], gradient: &DVector<f64>) -> Vec<Option<Side>> {
+    let side = |j: usize| match gradient[j] {
+        g if g > 0.0 && u[j] <= space.lower[j] => Some(Side::Lower),
+        g if g < 0.0 && u[j] >= space.upper[j] => Some(Side::Upper),
+        _ => None,
+    };
+    (0..u.len()).map(side).collect()
+}
+
+/// The first-order measure: the greatest cosine between a column and the residual, or the fall that the room to a bound
+/// leaves. Pure number; zero on a bound towards which the gradient pushes, continuous near it.
+pub(super) fn first_order(space: &Space<'_>, u: &[f64], jacobian: &DMatrix<f64>, residual: &DVector<f64>) -> f64 {
+    let length = residual.norm();
+    let measure = |j: usize| {
+        let column = jacobian.column(j);
+        let norm = column.norm();
+        if norm == 0.0 || length == 0.0 {
+            return 0.0;
+        }
+        let along = column.dot(residual);
+        let room = if along > 0.0 {
+            u[j] - space.lower[j]
+        } else {
+            space.upper[j] - u[j]
+        };
+        (along.abs() / (norm * length)).min(room * norm / length)
+    };
+    (0..u.len()).map(measure).fold(0.0, f64::max)
+}
+
+/// The relative offset: what is left of the residual in the space of the free columns, against what is left outside of it,
+/// each by its degrees of freedom. Absent without degrees of freedom.
+pub(super) fn relative_offset(
+    jacobian: &DMatrix<f64>,
+    residual: &DVector<f64>,
+    active: &[Option<Side>],
+) -> Option<f64> {
+    let free: Vec<usize> = inactive(active);
+    let (rows, n) = (residual.len(), free.len());
+    if n == 0 || rows <= n {
+        return None;
+    }
+    let inside = linear::Factors::of(linear::columns(jacobian, &free), residual)
+        .q
+        .norm_squared();
+    let outside = residual.norm_squared() - inside;
+    (outside > 0.0).then(|| (inside / n as f64).sqrt() / (outside / (rows - n) as f64).sqrt())
+}
+
+/// Numbers of the coordinates that are on no bound.
+pub(super) fn inactive(active: &[Option<Side>]) -> Vec<usize> {
+    (0..active.len()).filter(|j| active[*j].is_none()).collect()
+}

@@ -1,0 +1,247 @@
+//! A problem from its start to its fit: further attempts, and what an end is worth.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::difference::{self, Differences};
+use super::evaluate::{Evaluator, Miss};
+use super::fault::{Fault, Finding};
+use super::fit::{Derivative, Fit, Reason, Status};
+use super::iterate::{self, Context, End, Point, Record};
+use super::options::{Noise, Options, Steps};
+use super::problem::Problem;
+use super::robust::{Loss, Robust};
+use super::space::Space;
+use super::{linear, optimality};
+
+/// Independence of the columns below which a fit is singular.
+const SINGULAR: f64 = 1e-9;
+/// Noise from which on central differences have no digits more than one-sided ones.
+const NOISIEST: f64 = 1e-6;
+/// Relative difference of costs that are equal.
+const EQUAL: f64 = 1e-9;
+/// Share of calls without value that is worth a note.
+const UNDEFINED: f64 = 0.1;
+/// Share of steps without answer of the cone program that is worth a note.
+const FAILURES: f64 = 0.2;
+
+/// Finds the parameters that bring a problem's cost to a minimum, as near to the start as there is one.
+///
+/// # Errors
+/// If the problem makes no sense as it is stated; all that is wrong with it. What goes wrong on the way is no error: the fit
+/// says by status and reason what it is worth.
+pub fn solve(problem: &Problem<'_>, options: &Options<'_>) -> Result<Fit, Fault> {
+    let space = Space::of(problem.parameters())?;
+    solve_from(problem, options, &space)
+}
+
+/// As [`solve`], from the start of a space.
+pub(super) fn solve_from(problem: &Problem<'_>, options: &Options<'_>, space: &Space<'_>) -> Result<Fit, Fault> {
+    options.check()?;
+    let (evaluator, r) = Evaluator::start(problem, space, options.interrupt)?;
+    let start = Point {
+        u: space.start.clone(),
+        r,
+    };
+    let mut notes = space.notes.clone();
+    let noise = match options.noise {
+        Noise::Rounding => f64::EPSILON,
+        Noise::Known(noise) => noise.max(f64::EPSILON),
+        Noise::Estimated => match difference::noise(&evaluator, &start.u, &start.r) {
+            Ok(noise) => noise,
+            Err(Miss::Interrupted) => f64::EPSILON,
+            Err(Miss::Undefined(message)) => {
+                let mend = "say how noisy they are, or start elsewhere";
+                return Err(Finding::new("residuals beside the start", message, mend).into());
+            }
+        },
+    };
+    if noise > NOISIEST {
+        notes.push(format!(
+            "residuals are noisy ({noise:.1e} of them): one-sided differences end the search"
+        ));
+    }
+    let mut context = Context {
+        evaluator: &evaluator,
+        options,
+        robust: Robust {
+            loss: options.loss,
+            scale: options.loss_scale,
+            rows: evaluator.rows,
+        },
+        noise,
+        noisy: noise > NOISIEST,
+    };
+    let mut record = Record::default();
+    let (end, attempt) = robust_attempts(&mut context, start, &mut record);
+    Ok(context.fit(end, attempt, record, notes))
+}
+
+/// All attempts from a start that a soft_l1 fit leaves, where a loss has minima of its own or its scale is to be found.
+fn robust_attempts(context: &mut Context<'_>, mut start: Point, record: &mut Record) -> (End, usize) {
+    let loss = context.robust.loss;
+    let estimate = context.options.estimate_spread && loss != Loss::Linear;
+    if estimate || matches!(loss, Loss::Cauchy | Loss::Arctan) {
+        context.robust.loss = Loss::SoftL1;
+        if estimate {
+            context.robust.scale = context.options.loss_scale * context.robust.spread(&start.r);
+        }
+        let (end, attempt) = attempts(context, start, record);
+        context.robust.loss = loss;
+        if end.reason == Reason::Interrupted {
+            return (end, attempt);
+        }
+        if estimate {
+            // Frozen from here on: a scale that moves with each step would spoil the test of the cost.
+            context.robust.scale = context.options.loss_scale * context.robust.spread(&end.point.r);
+        }
+        start = end.point;
+    }
+    attempts(context, start, record)
+}
+
+/// Attempts with other steps until one ends well; the best of them with its number.
+fn attempts(context: &Context<'_>, start: Point, record: &mut Record) -> (End, usize) {
+    let first = context.options.steps;
+    let tries = [
+        first,
+        Steps { radius: 0.3, ..first },
+        Steps {
+            radius: 100.0,
+            bound: 2.0,
+            ..first
+        },
+        Steps {
+            radius: 1.0,
+            bound: 10.0,
+            memory: 1.0,
+            second_order: false,
+        },
+    ];
+    let mut best: Option<(End, usize, bool)> = None;
+    for (i, steps) in tries.iter().enumerate() {
+        let mut end = iterate::run(context, start.clone(), *steps, i + 1, record);
+        context.derive(&mut end);
+        let over = end.reason == Reason::Interrupted || !context.options.attempts;
+        let clean = context.status(&end) == Status::Converged;
+        let better = match &best {
+            None => true,
+            Some((old, _, was_clean)) => {
+                let (new, old) = (context.robust.cost(&end.point.r), context.robust.cost(&old.point.r));
+                let equal = (new - old).abs() <= EQUAL * old.abs();
+                if equal { clean && !was_clean } else { new < old }
+            }
+        };
+        if better {
+            best = Some((end, i + 1, clean));
+        } else if over && let Some((old, ..)) = &mut best {
+            // The best point so far, and that the user ended the search.
+            old.reason = end.reason;
+        }
+        if over || clean {
+            break;
+        }
+    }
+    let (end, attempt, _) = best.unwrap_or_else(|| unreachable!("the first attempt is always kept"));
+    (end, attempt)
+}
+
+impl Context<'_> {
+    /// Central derivatives at an end that has none yet.
+    fn derive(&self, end: &mut End) {
+        let (u, r) = (&end.point.u, &end.point.r);
+        if end.jacobian.is_none() && end.reason != Reason::Interrupted {
+            let differences = Differences {
+                evaluator: self.evaluator,
+                noise: self.noise,
+                central: true,
+            };
+            end.jacobian = differences.jacobian(u, r).ok();
+        }
+    }
+
+    /// Gradient and independent share of the columns at an end.
+    fn measures(&self, end: &End, jacobian: &DMatrix<f64>) -> (DVector<f64>, f64) {
+        let gradient = jacobian.tr_mul(&self.robust.slope(&end.point.r));
+        let active = optimality::active(self.evaluator.space, &end.point.u, &gradient);
+        let weighted = self.robust.weighted(&end.point.r).rows(jacobian);
+        // A parameter that was never seen is told by name; one that has been lost on the way makes the end singular.
+        let free: Vec<usize> = optimality::inactive(&active)
+            .into_iter()
+            .filter(|j| !end.unseen[*j])
+            .collect();
+        let independence = linear::independence(&linear::columns(&weighted, &free));
+        (gradient, independence)
+    }
+
+    fn status(&self, end: &End) -> Status {
+        match (&end.jacobian, end.reason) {
+            (_, Reason::Interrupted) => Status::Interrupted,
+            (_, Reason::ZeroResidual) if end.point.u.is_empty() => Status::Converged,
+            (Some(jacobian), reason) if reason.is_convergence() => {
+                if self.measures(end, jacobian).1 < SINGULAR {
+                    Status::Singular
+                } else {
+                    Status::Converged
+                }
+            }
+            _ => Status::Failed,
+        }
+    }
+
+    fn fit(&self, end: End, attempt: usize, record: Record, mut notes: Vec<String>) -> Fit {
+        let space = self.evaluator.space;
+        let all = space.parameters.len();
+        let status = self.status(&end);
+        let mut active = vec![None; all];
+        let derivative = end.jacobian.as_ref().map(|jacobian| {
+            let (slope, independence) = self.measures(&end, jacobian);
+            let sides = optimality::active(space, &end.point.u, &slope);
+            let mut whole = DMatrix::zeros(jacobian.nrows(), all);
+            let (mut gradient, mut unseen) = (vec![0.0; all], vec![false; all]);
+            for (j, i) in space.free.iter().enumerate() {
+                whole.set_column(*i, &jacobian.column(j));
+                gradient[*i] = slope[j];
+                unseen[*i] = end.unseen[j];
+                active[*i] = sides[j];
+            }
+            Derivative {
+                jacobian: whole,
+                gradient,
+                independence,
+                unseen,
+            }
+        });
+        for (j, _) in end.unseen.iter().enumerate().filter(|(_, unseen)| **unseen) {
+            notes.push(format!("`{}` is not seen: it changes no residual", space.name(j)));
+        }
+        notes.extend(end.detail);
+        let mut counts = record.counts;
+        counts.evaluations = self.evaluator.evaluations();
+        counts.undefined = self.evaluator.undefined();
+        if counts.undefined as f64 > UNDEFINED * counts.evaluations as f64 {
+            let (bad, of) = (counts.undefined, counts.evaluations);
+            notes.push(format!("residuals had no value in {bad} of {of} calls"));
+        }
+        if counts.cone_failures as f64 > FAILURES * counts.steps as f64 {
+            let (bad, of) = (counts.cone_failures, counts.steps);
+            notes.push(format!("the cone program had no answer in {bad} of {of} steps"));
+        }
+        Fit {
+            theta: space.theta(&end.point.u),
+            u: space.all(&end.point.u),
+            cost: self.robust.cost(&end.point.r),
+            residuals: end.point.r.iter().copied().collect(),
+            rows: self.evaluator.rows,
+            derivative,
+            active,
+            fixed: (0..all).map(|i| !space.free.contains(&i)).collect(),
+            status,
+            reason: end.reason,
+            attempt,
+            loss_scale: self.robust.scale,
+            log: record.log,
+            counts,
+            notes,
+        }
+    }
+}
