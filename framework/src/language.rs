@@ -165,11 +165,17 @@ impl Language {
         };
         match self.gearbox.shape_at(path, tag)? {
             Shape::Number {
-                unit, least, greatest, whole: false,
+                unit,
+                least,
+                greatest,
+                whole: false,
             } => Some((*unit, *least, *greatest)),
             Shape::Either(shapes) => shapes.iter().find_map(|shape| match shape {
                 Shape::Number {
-                    unit, least, greatest, whole: false,
+                    unit,
+                    least,
+                    greatest,
+                    whole: false,
                 } => Some((*unit, *least, *greatest)),
                 _ => None,
             }),

@@ -8,6 +8,7 @@ mod map;
 mod operating_points;
 mod sweep;
 mod temperature;
+mod tournament;
 mod uncertainty;
 mod write;
 
@@ -23,6 +24,7 @@ pub use map::MapEntry;
 pub use operating_points::OperatingPointsEntry;
 pub use sweep::SweepEntry;
 pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
+pub use tournament::{CandidatesEntry, FactorsEntry, TournamentEntry};
 pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
 pub use write::{Export, Write};
 
@@ -183,6 +185,8 @@ pub enum Analysis {
     Balance(BalanceEntry),
     /// Losses and efficiency over the values of one path, or of two.
     Sweep(SweepEntry),
+    /// Every combination of models, ranked by a measurement.
+    Tournament(TournamentEntry),
     /// Bands of efficiency, loss and temperature from uncertain inputs.
     Uncertainty(UncertaintyEntry),
 }
@@ -229,6 +233,10 @@ impl Analysis {
             Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
             Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
             Self::Sweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::Tournament(e) => Uses {
+                grid: e.grid.as_ref(),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_set)
+            },
             Self::Uncertainty(e) => Uses {
                 grid: Some(&e.grid),
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)

@@ -64,11 +64,15 @@ impl Varied {
                 return Err(Diagnostic::error(pattern, format!("`{path}` is no number"))
                     .mend("name the path of a quantity; `gearloss check --resolved` prints every path"));
             };
-            let base = lookup(&resolved.value, &path).and_then(Value::as_f64).map(|si| unit.from_si(si));
+            let base = lookup(&resolved.value, &path)
+                .and_then(Value::as_f64)
+                .map(|si| unit.from_si(si));
             match tie {
                 Tie::Factor if base.is_none() => {
-                    return Err(Diagnostic::error(pattern, format!("`{path}` has no value to be multiplied"))
-                        .mend("state it in the gearbox, or leave `tie: factor` out"));
+                    return Err(
+                        Diagnostic::error(pattern, format!("`{path}` has no value to be multiplied"))
+                            .mend("state it in the gearbox, or leave `tie: factor` out"),
+                    );
                 }
                 Tie::Factor => {}
                 Tie::Value => {
@@ -129,10 +133,17 @@ impl Varied {
     /// A value with its unit.
     pub fn words(&self, value: f64) -> String {
         if self.unit.dimension == Dimension::None {
-            format!("{value:.6}").trim_end_matches('0').trim_end_matches('.').to_owned()
+            format!("{value:.6}")
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned()
         } else {
             let digits = format!("{value:.6}");
-            format!("{} {}", digits.trim_end_matches('0').trim_end_matches('.'), self.unit.symbol)
+            format!(
+                "{} {}",
+                digits.trim_end_matches('0').trim_end_matches('.'),
+                self.unit.symbol
+            )
         }
     }
 }

@@ -14,6 +14,7 @@ mod seen;
 mod shares;
 mod sweep;
 mod thermal_limit;
+mod tournament;
 mod uncertainty;
 mod write;
 
@@ -205,6 +206,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::ThermalLimit(entry) => thermal_limit::run(&runner, name, entry, out),
             Analysis::Balance(entry) => balance::run(&runner, name, entry, out),
             Analysis::Sweep(entry) => sweep::run(&runner, name, entry, out),
+            Analysis::Tournament(entry) => tournament::run(&runner, name, entry, out),
             Analysis::Uncertainty(entry) => uncertainty::run(&runner, name, entry, out),
             Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
             Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
@@ -294,6 +296,9 @@ fn about(analysis: &Analysis) -> &'static str {
         Analysis::ThermalLimit(_) => "How far a torque or a speed can go before the oil reaches a temperature.",
         Analysis::Balance(_) => "How the temperature of one point is found.",
         Analysis::Sweep(_) => "Losses and efficiency over the values of one path.",
+        Analysis::Tournament(_) => {
+            "Every combination of models, ranked by a measurement, or the spread that they leave."
+        }
         Analysis::Uncertainty(_) => "Bands from uncertain inputs.",
         Analysis::SpinLoss(_) => "Losses without load.",
         Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",

@@ -328,28 +328,39 @@ fn sums(transmission: &Transmission, solution: &Solution<'_>) -> [f64; 6] {
     sums
 }
 
-/// What was outside of its stated range.
+/// What was outside of its stated range, one line for all components that left the same range.
 pub fn outside(notes: &[Note]) -> String {
-    let mut text = String::new();
+    let mut groups: Vec<(&Note, Vec<&Note>)> = Vec::new();
     for note in notes.iter().filter(|n| n.outside > 0) {
-        if let Some((least, greatest, origin)) = note.range {
-            text.push_str(&format!(
-                "outside: {}: {} {} to {}{} is outside of {} to {} at {} of {} points ({origin})\n",
-                note.path,
-                note.name,
-                significant(note.least),
-                significant(note.greatest),
-                if note.unit == "-" {
-                    String::new()
-                } else {
-                    format!(" {}", note.unit)
-                },
-                significant(least),
-                significant(greatest),
-                note.outside,
-                note.points,
-            ));
+        let same = |(first, _): &&mut (&Note, Vec<&Note>)| first.name == note.name && first.range == note.range;
+        match groups.iter_mut().find(same) {
+            Some((_, group)) => group.push(note),
+            None => groups.push((note, vec![note])),
         }
+    }
+    let mut text = String::new();
+    for (note, group) in groups {
+        let Some((least, greatest, origin)) = note.range else {
+            continue;
+        };
+        let unit = if note.unit == "-" {
+            String::new()
+        } else {
+            format!(" {}", note.unit)
+        };
+        let seen = |f: fn(f64, f64) -> f64, of: fn(&Note) -> f64| group.iter().map(|n| of(n)).reduce(f).unwrap_or(0.0);
+        let paths: Vec<&str> = group.iter().map(|n| n.path.as_str()).collect();
+        let outside: u32 = group.iter().map(|n| n.outside).sum();
+        let points: u32 = group.iter().map(|n| n.points).sum();
+        text.push_str(&format!(
+            "outside: {}: {} {} to {}{unit} is outside of {} to {} at {outside} of {points} points ({origin})\n",
+            paths.join(", "),
+            note.name,
+            significant(seen(f64::min, |n| n.least)),
+            significant(seen(f64::max, |n| n.greatest)),
+            significant(least),
+            significant(greatest),
+        ));
     }
     text
 }

@@ -132,7 +132,10 @@ mod tests {
     #[test]
     fn quantiles_and_correlations_of_known_lists() {
         let list = [1.0, 2.0, 3.0, 4.0, 5.0];
-        assert_eq!((quantile(&list, 0.5), quantile(&list, 0.125), quantile(&list, 1.0)), (3.0, 1.5, 5.0));
+        assert_eq!(
+            (quantile(&list, 0.5), quantile(&list, 0.125), quantile(&list, 1.0)),
+            (3.0, 1.5, 5.0)
+        );
         let falling: Vec<f64> = list.iter().map(|x| 7.0 - 2.0 * x).collect();
         assert!((correlation(&list, &falling).unwrap_or(0.0) + 1.0).abs() < 1e-12);
         assert_eq!(correlation(&list, &[3.0; 5]), None);

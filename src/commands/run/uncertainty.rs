@@ -80,7 +80,11 @@ impl Input {
         let [low, high] = range;
         let [least, greatest] = varied.range;
         if entry.distribution != Shape::Normal && (low < least || high > greatest) {
-            let said = format!("{} to {} leaves {least} to {greatest}", varied.words(low), varied.words(high));
+            let said = format!(
+                "{} to {} leaves {least} to {greatest}",
+                varied.words(low),
+                varied.words(high)
+            );
             return Err(wrong(said, "narrow the range"));
         }
         let distribution = match entry.distribution {
@@ -123,7 +127,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let grid = runner.study.grid(&path, &entry.grid)?;
     let [gear] = grid.gear.names() else {
-        return Err(runner.wrong(&path, "a band takes a grid of one gear state", "give it a grid of its own"));
+        return Err(runner.wrong(
+            &path,
+            "a band takes a grid of one gear state",
+            "give it a grid of its own",
+        ));
     };
     if !grid.bind.is_empty() || grid.envelope.is_some() {
         let message = "a band takes a grid without bound values and envelope";
@@ -131,8 +139,18 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
     }
     let mut all = Vec::new();
     for built in runner.built(gearbox, &entry.model_sets)? {
-        let torques = torques(runner, &format!("grids.{}.torque", entry.grid), &grid.torque, &built.transmission)?;
-        let speeds = speeds(runner, &format!("grids.{}.speed", entry.grid), &grid.speed, &built.transmission)?;
+        let torques = torques(
+            runner,
+            &format!("grids.{}.torque", entry.grid),
+            &grid.torque,
+            &built.transmission,
+        )?;
+        let speeds = speeds(
+            runner,
+            &format!("grids.{}.speed", entry.grid),
+            &grid.speed,
+            &built.transmission,
+        )?;
         let points = runner.points(&built.transmission, gear, torques.clone(), speeds.clone());
         let nominal = runner.solve(&built, &points)?.points;
         let inputs: Vec<Input> = entry
@@ -152,7 +170,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
             failed,
         });
     }
-    let mut header: Vec<String> = ["model_set", "gear", "torque_nm", "speed_rpm"].map(str::to_owned).to_vec();
+    let mut header: Vec<String> = ["model_set", "gear", "torque_nm", "speed_rpm"]
+        .map(str::to_owned)
+        .to_vec();
     for (quantity, ..) in QUANTITIES {
         header.extend(["", "_low", "_median", "_high"].map(|end| format!("{quantity}{end}")));
     }
@@ -366,11 +386,16 @@ fn pictures(
         for t in spread(s.torques.len()).into_iter().step_by(3) {
             let line = |words: &str, stroke: Stroke, of: &dyn Fn(usize) -> Option<f64>| Line {
                 name: words.to_owned(),
-                points: (0..columns).map(|i| Some((s.speeds[i] * RPM, of(t * columns + i)?))).collect(),
+                points: (0..columns)
+                    .map(|i| Some((s.speeds[i] * RPM, of(t * columns + i)?)))
+                    .collect(),
                 stroke,
             };
             let figure = Figure::Lines {
-                title: format!("{name}: {long} with its 95 % band, {} Nm, models {set}", tidy(s.torques[t])),
+                title: format!(
+                    "{name}: {long} with its 95 % band, {} Nm, models {set}",
+                    tidy(s.torques[t])
+                ),
                 x: "speed in rpm".to_owned(),
                 y: (*long).to_owned(),
                 lines: vec![

@@ -1,0 +1,306 @@
+//! The models that take part, each evaluated once.
+
+use gearloss_framework::analysis::{Field, PointResult, Points, run_grid};
+use gearloss_framework::language::{DRAGS, HELD, Language};
+use gearloss_framework::resolve::{Came, Resolved};
+use gearloss_framework::study::{CandidatesEntry, TournamentEntry};
+use gearloss_framework::transmission::{PartInfo, Transmission};
+use serde_json::{Map, Value};
+
+use super::super::{Built, Runner};
+use crate::interrupt;
+use crate::output::Failure;
+
+/// A mechanism whose models change.
+pub struct Slot {
+    /// Mechanism, with the slot of a drag.
+    pub name: String,
+    mechanism: String,
+    /// Slot of a drag.
+    slot: Option<String>,
+    /// The models.
+    pub candidates: Vec<Candidate>,
+}
+
+/// A model, and what it loses at every point.
+pub struct Candidate {
+    /// Name in the tournament.
+    pub name: String,
+    /// The model as in a gearbox.
+    pub model: Value,
+    /// \[W\]
+    pub loss: Vec<f64>,
+    /// Time of all points over that of the set which the tournament starts from.
+    pub time: f64,
+}
+
+impl Slot {
+    /// True for the parts of this mechanism, and slot.
+    pub fn covers(&self, part: &PartInfo) -> bool {
+        let slot = self.slot.as_ref().map(|slot| format!(".drag.{slot}"));
+        part.mechanism == self.mechanism && slot.is_none_or(|slot| part.path.ends_with(&slot))
+    }
+
+    /// The description with another model, nothing for that of the set, in every place of the mechanism that has no model of its own.
+    pub fn with(&self, language: &Language, resolved: &Resolved, model: &Value) -> Result<Resolved, String> {
+        let mut changed = resolved.clone();
+        if model.is_null() {
+            return Ok(changed);
+        }
+        let Some(slot) = &self.slot else {
+            let section = section(language, &self.mechanism).ok_or("its models sit in no section of the gearbox")?;
+            for (id, record) in records(&mut changed.value, section) {
+                let path = format!("{section}.{id}.model");
+                if taken_over(resolved, &path) {
+                    record.insert("model".to_owned(), checked(language, model, &path)?);
+                }
+            }
+            return Ok(changed);
+        };
+        for section in ["gears", "meshes"] {
+            for (id, record) in records(&mut changed.value, section) {
+                let path = format!("{section}.{id}.drag.{slot}");
+                let Some(drags) = record.get_mut("drag").and_then(Value::as_object_mut) else {
+                    continue;
+                };
+                let own = drags.contains_key(slot) && !taken_over(resolved, &path);
+                if own {
+                    continue;
+                }
+                drags.shift_remove(slot);
+                if language.fits_scope(section, model) {
+                    drags.insert(slot.clone(), checked(language, model, &path)?);
+                }
+            }
+        }
+        Ok(changed)
+    }
+}
+
+/// True where a model came from a set or the defaults by mechanism.
+fn taken_over(resolved: &Resolved, path: &str) -> bool {
+    matches!(resolved.came(path), Came::Models | Came::Set(_))
+}
+
+fn checked(language: &Language, model: &Value, path: &str) -> Result<Value, String> {
+    let first = |list: Vec<gearloss_framework::document::Diagnostic>| {
+        let first = list.into_iter().next();
+        first.map_or_else(String::new, |d| match d.mend {
+            Some(mend) => format!("{}; {mend}", d.message),
+            None => d.message,
+        })
+    };
+    language.checked(model, path).map_err(first)
+}
+
+/// Section that holds the models of a mechanism.
+fn section<'l>(language: &'l Language, mechanism: &str) -> Option<&'l str> {
+    let held = HELD
+        .iter()
+        .find(|(_, key)| *key == mechanism)
+        .map(|(section, _)| *section);
+    held.or_else(|| {
+        language
+            .registry()
+            .mechanism(mechanism)?
+            .section
+            .as_ref()
+            .map(|s| s.name)
+    })
+}
+
+fn records<'a>(
+    value: &'a mut Value,
+    section: &str,
+) -> impl Iterator<Item = (&'a String, &'a mut Map<String, Value>)> + use<'a> {
+    let section = value.get_mut(section).and_then(Value::as_object_mut);
+    section
+        .into_iter()
+        .flatten()
+        .filter_map(|(id, record)| record.as_object_mut().map(|record| (id, record)))
+}
+
+/// The slots with their candidates, and why others cannot take part.
+pub fn slots(
+    runner: &Runner<'_>,
+    path: &str,
+    entry: &TournamentEntry,
+    base: &Built<'_>,
+    (points, solved): (&Points, &[PointResult]),
+) -> Result<(Vec<Slot>, Vec<String>), Failure> {
+    let time = timed(&base.transmission, points)?;
+    let (mut slots, mut left_out): (Vec<Slot>, Vec<String>) = (Vec::new(), Vec::new());
+    for (i, candidates) in entry.mechanisms.iter().enumerate() {
+        let path = format!("{path}.mechanisms.{i}");
+        let slot = slot(runner, &path, candidates)?;
+        if slots.iter().any(|s| s.name == slot.name) {
+            return Err(runner.wrong(&path, format!("`{}` stands twice", slot.name), "name it once"));
+        }
+        let mut slot = filled(runner, &path, candidates, slot, base, points, time, &mut left_out)?;
+        // Where all take part, so does what the set has.
+        if candidates.models.is_empty() {
+            let own: Vec<usize> = (0..base.transmission.parts().len())
+                .filter(|i| slot.covers(&base.transmission.parts()[*i]))
+                .collect();
+            let of_own = |p: &PointResult| own.iter().map(|i| p.parts[*i]).sum();
+            slot.candidates.insert(
+                0,
+                Candidate {
+                    name: format!("as in {}", base.name),
+                    model: Value::Null,
+                    loss: solved.iter().map(of_own).collect(),
+                    time: 1.0,
+                },
+            );
+        }
+        slots.push(slot);
+    }
+    Ok((slots, left_out))
+}
+
+fn slot(runner: &Runner<'_>, path: &str, entry: &CandidatesEntry) -> Result<Slot, Failure> {
+    let registry = runner.language.registry();
+    let drag = entry.mechanism == DRAGS;
+    if !drag && section(runner.language, &entry.mechanism).is_none() {
+        let keys: Vec<&str> = registry.mechanisms().iter().map(|m| m.key).collect();
+        let fits = |key: &&str| *key == DRAGS || section(runner.language, key).is_some();
+        let keys: Vec<&str> = keys.into_iter().filter(fits).collect();
+        let message = format!("`{}` is no mechanism whose models change", entry.mechanism);
+        let mend = format!("name one of {}", keys.join(", "));
+        return Err(runner.wrong(&format!("{path}.mechanism"), message, &mend));
+    }
+    let slot = match (&entry.slot, drag) {
+        (slot, true) => Some(slot.clone().unwrap_or_else(|| "churning".to_owned())),
+        (None, false) => None,
+        (Some(_), false) => {
+            let message = format!("`{}` has no slots", entry.mechanism);
+            return Err(runner.wrong(&format!("{path}.slot"), message, "leave `slot` out"));
+        }
+    };
+    Ok(Slot {
+        name: match &slot {
+            Some(slot) => format!("{}.{slot}", entry.mechanism),
+            None => entry.mechanism.clone(),
+        },
+        mechanism: entry.mechanism.clone(),
+        slot,
+        candidates: Vec::new(),
+    })
+}
+
+#[allow(clippy::too_many_arguments)]
+fn filled(
+    runner: &Runner<'_>,
+    path: &str,
+    entry: &CandidatesEntry,
+    mut slot: Slot,
+    base: &Built<'_>,
+    points: &Points,
+    time: f64,
+    left_out: &mut Vec<String>,
+) -> Result<Slot, Failure> {
+    let named = !entry.models.is_empty();
+    let models: Vec<(String, Value)> = if named {
+        entry
+            .models
+            .iter()
+            .map(|(name, model)| (name.to_owned(), model.clone()))
+            .collect()
+    } else {
+        let models = runner.language.registry().models(&entry.mechanism);
+        models
+            .filter(|model| model.source != "the user's own" && model.name != "none")
+            .map(|model| (model.name.to_owned(), serde_json::json!({ "type": model.name })))
+            .collect()
+    };
+    for (name, model) in models {
+        match evaluated(runner, &slot, base, points, &model) {
+            Err(Refused::Interrupted) => return Err(Failure::Interrupted),
+            Err(Refused::Because(reason)) if named => {
+                let mend = "`gearloss models --needs GEARBOX` tells what a model needs";
+                return Err(runner.wrong(&format!("{path}.models.{name}"), reason, mend));
+            }
+            Err(Refused::Because(reason)) => left_out.push(format!("{} {name}: {reason}", slot.name)),
+            Ok((loss, seconds)) => slot.candidates.push(Candidate {
+                name,
+                model,
+                loss,
+                time: if time > 0.0 { seconds / time } else { 1.0 },
+            }),
+        }
+    }
+    if slot.candidates.is_empty() {
+        let message = format!("no model of `{}` can take part", slot.name);
+        return Err(runner.wrong(
+            path,
+            message,
+            "`gearloss models --needs GEARBOX` tells what models need",
+        ));
+    }
+    Ok(slot)
+}
+
+/// Why a model cannot take part.
+enum Refused {
+    Because(String),
+    Interrupted,
+}
+
+/// Losses of the slot's parts under one model, and how long all points took.
+fn evaluated(
+    runner: &Runner<'_>,
+    slot: &Slot,
+    base: &Built<'_>,
+    points: &Points,
+    model: &Value,
+) -> Result<(Vec<f64>, f64), Refused> {
+    let because = |list: &[gearloss_framework::document::Diagnostic]| {
+        let first = list.first();
+        Refused::Because(first.map_or_else(String::new, |d| format!("{}: {}", d.path, d.message)))
+    };
+    let changed = slot
+        .with(runner.language, &base.resolved, model)
+        .map_err(Refused::Because)?;
+    let transmission = base
+        .gearbox
+        .build(runner.language, &changed)
+        .map_err(|findings| because(&findings.list))?;
+    let solved = run_grid(&transmission, points, &|_| !interrupt::pressed()).map_err(|list| because(&list))?;
+    let solved = solved.ok_or(Refused::Interrupted)?;
+    runner.seen(&transmission, &solved.seen);
+    if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {
+        let why = p.undefined.map_or_else(
+            || p.status.name().to_owned(),
+            |(part, reason)| format!("{}: {reason}", transmission.parts()[part].path),
+        );
+        return Err(Refused::Because(format!(
+            "no loss at {} Nm, {:.0} rpm ({why})",
+            p.torque,
+            p.speed * super::super::super::solve::RPM
+        )));
+    }
+    let covered: Vec<usize> = (0..transmission.parts().len())
+        .filter(|i| slot.covers(&transmission.parts()[*i]))
+        .collect();
+    let loss = solved.points.iter().map(|p| covered.iter().map(|i| p.parts[*i]).sum());
+    let loss = loss.collect();
+    let seconds = timed(&transmission, points).map_err(|_| Refused::Interrupted)?;
+    Ok((loss, seconds))
+}
+
+/// Time that one thread takes for the points at hand, the least of a few tries. Only its ratio to others counts. \[s\]
+fn timed(transmission: &Transmission, points: &Points) -> Result<f64, Failure> {
+    let few = Points {
+        field: Field::List((0..points.field.len().min(32)).map(|i| points.field.at(i)).collect()),
+        ..points.clone()
+    };
+    let mut least = f64::INFINITY;
+    for _ in 0..5 {
+        let begun = std::time::Instant::now();
+        if !matches!(run_grid(transmission, &few, &|_| !interrupt::pressed()), Ok(Some(_))) {
+            return Err(Failure::Interrupted);
+        }
+        least = least.min(begun.elapsed().as_secs_f64());
+    }
+    Ok(least)
+}
