@@ -1,0 +1,9 @@
+//! Sensitivity, inference and design of measurements against check values of one made-up identification problem and of
+//! published test functions.
+//!
+//! The check values were computed by an independent program. A test says how near they must be met and why.
+
+#![allow(clippy::unwrap_used)]
+
+mod check_problem;
+mod sensitivity;
