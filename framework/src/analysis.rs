@@ -8,6 +8,6 @@ mod temperature;
 
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use notes::{Note, WeakPoint, evidence, notes};
-pub use statistics::{Statistics, bands, correlation, histogram, quantile};
+pub use statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use sums::{SUMS, sum_of};
 pub use temperature::OilTemperature;

@@ -1,5 +1,35 @@
-//! What a fit says of its parameters.
+//! What a fit says of its parameters: covariance, intervals, verdicts, checks of residuals, comparison of models.
+//!
+//! Everything starts from the residuals and their central Jacobian at the optimum, [`Fit`]; no solver is needed. Profiles take
+//! a function that refits.
 
+mod derived;
+mod factors;
+mod fit;
+mod folds;
+mod gamma;
+mod interval;
+mod lack_of_fit;
+mod models;
+mod normality;
 mod parameter;
+pub mod probability;
+mod profile;
+mod residuals;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;
+mod verdict;
+mod words;
 
+pub use derived::{Breakdown, Derived, hull};
+pub use fit::{Accuracy, Fit};
+pub use folds::{FOLDS, Fold, Validation, folds};
+pub use interval::Interval;
+pub use lack_of_fit::{LackOfFit, PureError, pure_error};
+pub use models::{Comparison, FittedModel, akaike, ranking};
+pub use normality::{AndersonDarling, anderson_darling};
 pub use parameter::{Parameter, Scale, Side, Standing};
+pub use profile::{Profile, ProfileEnd, ProfileFault, ProfileInterval, Reach, Refit};
+pub use residuals::{BandMean, Succession, band_means, succession};
+pub use verdict::{Combination, Determination, Verdict};

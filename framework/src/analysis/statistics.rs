@@ -67,9 +67,8 @@ pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
 /// The most bands that values make of themselves.
 const MOST: usize = 8;
 
-/// Bands over a coordinate: one for each value where there are few, else bands of about as many points each. Lower and upper
-/// end, and the places of the points in it.
-pub fn bands(coordinates: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
+/// Places of points by the value of a coordinate, ascending: those within half a percent of the first count as one value.
+pub fn levels(coordinates: &[f64]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..coordinates.len()).collect();
     order.sort_by(|a, b| coordinates[*a].total_cmp(&coordinates[*b]));
     let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -84,6 +83,13 @@ pub fn bands(coordinates: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
             _ => groups.push(vec![i]),
         }
     }
+    groups
+}
+
+/// Bands over a coordinate: one for each value where there are few, else bands of about as many points each. Lower and upper
+/// end, and the places of the points in it.
+pub fn bands(coordinates: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
+    let mut groups = levels(coordinates);
     if groups.len() > MOST {
         let all: Vec<usize> = groups.concat();
         let size = all.len().div_ceil(MOST);

@@ -135,15 +135,17 @@ impl Parameter {
     }
 
     /// Step of a central difference for a function that is known to a relative noise. It balances what is left out of the
-    /// series against the noise. A logarithm changes things at the scale of one wherever it stands; other coordinates at that
-    /// of their own size, but no less than 1e-4 of their range.
+    /// series against the noise.
+    ///
+    /// A logarithm changes things at the scale of one wherever it stands, other coordinates at that of their size or a tenth of
+    /// their range, the greater of the two: an offset near zero would else get a step that drowns in rounding, and parallel
+    /// columns would not be found.
     pub fn step(&self, noise: f64) -> f64 {
         let width = self.bounds[1] - self.bounds[0];
         let size = match self.scale {
-            Scale::Log => 1.0,
-            Scale::Linear if width.is_finite() && width > 0.0 => self.u.abs().max(1e-4 * width),
+            Scale::Linear if width.is_finite() && width > 0.0 => self.u.abs().max(0.1 * width),
             Scale::Linear if self.u != 0.0 => self.u.abs(),
-            Scale::Linear => 1e-3,
+            _ => 1.0,
         };
         noise.max(f64::EPSILON).cbrt() * size
     }

@@ -1,6 +1,8 @@
 //! A made-up transmission with five losses and a torque offset of its rig: eight parameters, 440 points, known truth.
 
-use gearloss_framework::inference::{Parameter, Scale};
+use gearloss_framework::inference::{Accuracy, Fit, Parameter, Scale, Standing};
+use gearloss_framework::sensitivity::gradients;
+use nalgebra::{DMatrix, DVector};
 
 /// Names of the losses and of the offset, in the order of [`terms`].
 pub const TERMS: usize = 6;
@@ -144,6 +146,80 @@ pub fn residuals(u: &[f64], rows: &[usize], measured: &[f64]) -> Vec<f64> {
     rows.iter()
         .map(|i| (model(&theta, &points[*i]) - measured[*i]) / points[*i].sigma())
         .collect()
+}
+
+/// Residuals and central Jacobian over the coordinates, over some of the points.
+pub fn linearised(parameters: &[Parameter], rows: &[usize], measured: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
+    let points = points();
+    let function = |theta: &[f64]| {
+        let residual = |i: &usize| (model(theta, &points[*i]) - measured[*i]) / points[*i].sigma();
+        Ok(rows.iter().map(residual).collect())
+    };
+    let slopes = gradients(parameters, 0.0, function).unwrap();
+    let u: Vec<f64> = parameters.iter().map(|p| p.u).collect();
+    let jacobian = DMatrix::from_fn(rows.len(), parameters.len(), |i, k| slopes[i][k]);
+    (residuals(&u, rows, measured), jacobian)
+}
+
+/// The fit of all points at some parameters.
+pub fn fit(parameters: Vec<Parameter>) -> Fit {
+    let all: Vec<usize> = (0..440).collect();
+    let (residuals, jacobian) = linearised(&parameters, &all, &measured());
+    Fit::new(parameters, &jacobian, &residuals, 0, Accuracy::Given).unwrap()
+}
+
+/// A crude damped Gauss-Newton method inside the bounds, with some parameters held: objective and coordinates.
+pub fn minimise(rows: &[usize], measured: &[f64], mut at: Vec<Parameter>, held: &[usize]) -> (f64, Vec<f64>) {
+    let sum = |r: &[f64]| r.iter().map(|r| r * r).sum::<f64>();
+    let mut damping = 1e-6;
+    let (mut r, mut jacobian) = linearised(&at, rows, measured);
+    for _ in 0..300 {
+        let gradient: Vec<f64> = jacobian
+            .column_iter()
+            .map(|c| c.iter().zip(&r).map(|(j, r)| j * r).sum())
+            .collect();
+        for (p, g) in at.iter_mut().zip(&gradient) {
+            p.stand(*g);
+        }
+        let free: Vec<usize> = (0..8)
+            .filter(|k| !held.contains(k) && at[*k].standing == Standing::Free)
+            .collect();
+        let norms: Vec<f64> = free.iter().map(|k| jacobian.column(*k).norm()).collect();
+        let count = rows.len();
+        let augmented = DMatrix::from_fn(count + free.len(), free.len(), |i, c| match i.checked_sub(count) {
+            None => jacobian[(i, free[c])] / norms[c],
+            Some(d) => {
+                if d == c {
+                    f64::sqrt(damping)
+                } else {
+                    0.0
+                }
+            }
+        });
+        let right = DVector::from_fn(count + free.len(), |i, _| if i < count { -r[i] } else { 0.0 });
+        let step = augmented.svd(true, true).solve(&right, 1e-14).unwrap();
+        let mut next = at.clone();
+        let mut moved: f64 = 0.0;
+        for (c, k) in free.iter().enumerate() {
+            let [low, high] = next[*k].bounds;
+            next[*k].u = (next[*k].u + step[c] / norms[c]).clamp(low, high);
+            moved = moved.max((next[*k].u - at[*k].u).abs() * norms[c]);
+        }
+        let u: Vec<f64> = next.iter().map(|p| p.u).collect();
+        let trial = residuals(&u, rows, measured);
+        if sum(&trial) <= sum(&r) {
+            at = next;
+            (r, jacobian) = linearised(&at, rows, measured);
+            damping = (damping * 0.1_f64).max(1e-14);
+        } else {
+            damping *= 10.0;
+        }
+        // In units of standard deviations if all others were known.
+        if moved < 1e-7 || damping > 1e12 {
+            break;
+        }
+    }
+    (sum(&r), at.iter().map(|p| p.u).collect())
 }
 
 #[test]

@@ -6,4 +6,9 @@
 #![allow(clippy::unwrap_used)]
 
 mod check_problem;
+mod folds;
+mod inference;
+mod profile;
+mod residuals;
 mod sensitivity;
+mod variants;

@@ -1,0 +1,137 @@
+//! Cross-validation by blocks of neighbouring points.
+//!
+//! Single points are never left out alone: neighbours are correlated and would give the answer away (Roberts et al., Ecography
+//! 40 (2017) 913-929).
+
+use crate::analysis::levels;
+
+/// Folds at most, unless more are asked for.
+pub const FOLDS: usize = 5;
+/// Error of a fold over that of the fit from which on a model does not extrapolate.
+const EXTRAPOLATES: f64 = 1.5;
+
+/// Points that are left out together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fold {
+    /// Least and greatest value of the coordinate.
+    pub band: [f64; 2],
+    /// Places of the points, ascending.
+    pub points: Vec<usize>,
+}
+
+/// Folds of neighbouring values of a coordinate, of torque as a rule: as many as asked for, or one for each value where there
+/// are fewer. Values within half a percent count as one.
+///
+/// # Errors
+/// If there are fewer than two values or folds, or a value is not finite.
+pub fn folds(coordinate: &[f64], most: usize) -> Result<Vec<Fold>, String> {
+    if let Some(bad) = coordinate.iter().find(|x| !x.is_finite()) {
+        return Err(format!("{bad} has no neighbours"));
+    }
+    let levels = levels(coordinate);
+    let count = most.min(levels.len());
+    if count < 2 {
+        return Err(format!(
+            "{} values in {most} folds: leaving a fold out needs two of either",
+            levels.len()
+        ));
+    }
+    let fold = |k: usize| {
+        let mut points = levels[k * levels.len() / count..(k + 1) * levels.len() / count].concat();
+        let ends = [points[0], points[points.len() - 1]].map(|i| coordinate[i]);
+        points.sort_unstable();
+        Fold { band: ends, points }
+    };
+    Ok((0..count).map(fold).collect())
+}
+
+/// Errors of predictions over folds, in units of the standard uncertainty of the points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Validation {
+    /// Mean square of each fold.
+    pub mean_squares: Vec<f64>,
+    /// Root of the mean square over all points.
+    pub rms: f64,
+}
+
+impl Validation {
+    /// From the error of each point, calculated with the parameters that were fitted without its fold. Absent where a fold
+    /// names a point that is not there, or has none.
+    pub fn new(folds: &[Fold], errors: &[f64]) -> Option<Self> {
+        let sum = |fold: &Fold| -> Option<f64> {
+            let list = fold.points.iter().map(|i| errors.get(*i).map(|e| e * e));
+            list.sum::<Option<f64>>().filter(|_| !fold.points.is_empty())
+        };
+        let sums = folds.iter().map(sum).collect::<Option<Vec<f64>>>()?;
+        let count: usize = folds.iter().map(|f| f.points.len()).sum();
+        (count > 0).then(|| Self {
+            mean_squares: sums
+                .iter()
+                .zip(folds)
+                .map(|(sum, fold)| sum / fold.points.len() as f64)
+                .collect(),
+            rms: (sums.iter().sum::<f64>() / count as f64).sqrt(),
+        })
+    }
+
+    /// Root of the mean square of each fold.
+    pub fn fold_rms(&self) -> Vec<f64> {
+        self.mean_squares.iter().map(|m| m.sqrt()).collect()
+    }
+
+    /// Numbers of the folds to which the model does not extrapolate, given the root of the mean square of the whole fit.
+    pub fn strange(&self, in_sample: f64) -> Vec<usize> {
+        let rms = self.fold_rms();
+        (0..rms.len()).filter(|k| rms[*k] > EXTRAPOLATES * in_sample).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn neighbouring_values_stay_together() {
+        let torque = [20.0, 2.0, 6.0, 4.0, 2.001, 8.0];
+        let folds = folds(&torque, 2).unwrap();
+        assert_eq!(folds[0].points, [1, 3, 4]);
+        assert_eq!((folds[0].band, folds[1].band), ([2.0, 4.0], [6.0, 20.0]));
+        assert_eq!(folds[1].points, [0, 2, 5]);
+    }
+
+    #[test]
+    fn errors_of_folds() {
+        let folds = folds(&[1.0, 1.0, 2.0, 2.0], FOLDS).unwrap();
+        let found = Validation::new(&folds, &[1.0, 1.0, 3.0, 4.0]).unwrap();
+        assert_eq!(found.mean_squares, [1.0, 12.5]);
+        assert!((found.rms - 6.75_f64.sqrt()).abs() < 1e-15);
+        assert_eq!(found.strange(1.0), [1]);
+        assert_eq!(Validation::new(&folds, &[1.0]), None);
+        assert_eq!(Validation::new(&[], &[1.0]), None);
+    }
+
+    #[test]
+    fn what_cannot_be_folded_is_refused() {
+        assert!(folds(&[1.0, 1.0], 5).is_err());
+        assert!(folds(&[1.0, 2.0], 1).is_err());
+        assert!(folds(&[], 5).is_err());
+        assert!(folds(&[1.0, f64::NAN], 5).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn every_point_is_left_out_once(torque in proptest::collection::vec(0..30_i32, 2..60), most in 2..8_usize) {
+            let coordinate: Vec<f64> = torque.iter().map(|t| f64::from(*t)).collect();
+            if let Ok(folds) = folds(&coordinate, most) {
+                let mut all: Vec<usize> = folds.iter().flat_map(|f| f.points.clone()).collect();
+                all.sort_unstable();
+                prop_assert_eq!(all, (0..coordinate.len()).collect::<Vec<_>>());
+                prop_assert!(folds.len() <= most && folds.iter().all(|f| !f.points.is_empty()));
+                prop_assert!(folds.windows(2).all(|w| w[0].band[1] < w[1].band[0]));
+            }
+        }
+    }
+}
