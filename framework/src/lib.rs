@@ -4,6 +4,7 @@ pub mod analysis;
 pub mod attach;
 pub mod conformance;
 pub mod description;
+pub mod design;
 pub mod document;
 pub mod eval;
 pub mod evaluate;

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod check_problem;
+mod design;
 mod folds;
 mod inference;
 mod profile;
