@@ -15,6 +15,7 @@ mod normality;
 mod parameter;
 pub mod probability;
 mod profile;
+mod profile_interval;
 mod residuals;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
@@ -30,6 +31,7 @@ pub use lack_of_fit::{LackOfFit, PureError, pure_error};
 pub use models::{Comparison, FittedModel, akaike, ranking};
 pub use normality::{AndersonDarling, anderson_darling};
 pub use parameter::{Parameter, Scale, Side, Standing};
-pub use profile::{Profile, ProfileEnd, ProfileFault, ProfileInterval, Reach, Refit};
+pub use profile::{Profile, ProfileEnd, ProfileFault, Reach, Refit};
+pub use profile_interval::ProfileInterval;
 pub use residuals::{BandMean, Succession, band_means, succession};
 pub use verdict::{Combination, Determination, Verdict};

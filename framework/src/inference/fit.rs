@@ -21,6 +21,8 @@ pub enum Accuracy {
 }
 
 /// A fit, linearised at its optimum. Parameters are counted by their coordinate u.
+///
+/// Functions of one parameter take its place in the list and panic, as an index does, where there is none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     parameters: Vec<Parameter>,

@@ -32,9 +32,10 @@ pub(super) fn ln_gamma(x: f64) -> f64 {
     (far - 0.5) * far.ln() - far + 0.5 * (2.0 * std::f64::consts::PI).ln() + series - product.ln()
 }
 
-/// Terms that suffice: the series and fractions settle within some roots of their greatest parameter.
+/// Terms that suffice: the series and fractions settle within some roots of their greatest parameter. No fit has so many points
+/// that the end of the count matters.
 fn most(parameter: f64) -> usize {
-    1000 + (50.0 * parameter.sqrt()) as usize
+    1000 + (50.0 * parameter.sqrt()).min(1e6) as usize
 }
 
 /// Regularised incomplete gamma functions P and Q = 1 - P, both with all their digits; a above zero, x not below.

@@ -57,17 +57,20 @@ impl Distribution {
         }
     }
 
-    /// The value below which the quantity lies with a probability.
+    /// The value below which the quantity lies with a probability; zero and one are the ends, where there are ends.
     ///
     /// # Errors
-    /// If the probability is not inside the open interval from zero to one.
+    /// If the probability is not between zero and one, or is one of them and the quantity is normal.
     pub fn value(&self, probability: f64) -> Result<f64, String> {
-        let Some(standard) = inverse_normal(probability) else {
-            return Err(format!("{probability} is no probability between zero and one"));
-        };
+        if !(0.0..=1.0).contains(&probability) {
+            return Err(format!("{probability} is no probability"));
+        }
         Ok(match self.0 {
             Kind::Uniform([low, high]) => (low + probability * (high - low)).clamp(low, high),
-            Kind::Normal { mean, deviation } => mean + deviation * standard,
+            Kind::Normal { mean, deviation } => match inverse_normal(probability) {
+                Some(standard) => mean + deviation * standard,
+                None => return Err("a normal quantity has no end: give it a range".to_owned()),
+            },
             Kind::Triangular { low, mode, high } => {
                 let (width, rise) = (high - low, mode - low);
                 let value = if probability * width < rise {
@@ -105,7 +108,7 @@ impl Distribution {
 /// Values at a point of the unit cube, one distribution for each coordinate.
 ///
 /// # Errors
-/// If there are not as many coordinates as distributions, or a coordinate is not inside the open interval from zero to one.
+/// If there are not as many coordinates as distributions, or a coordinate has no value, [`Distribution::value`].
 pub fn values(distributions: &[Distribution], point: &[f64]) -> Result<Vec<f64>, String> {
     if distributions.len() != point.len() {
         return Err(format!(
@@ -137,9 +140,21 @@ mod tests {
         assert!(Distribution::triangular(0.0, f64::NAN, 1.0).is_err());
         let one = [Distribution::uniform(0.0, 1.0).unwrap()];
         assert!(
-            values(&one, &[0.5, 0.5]).is_err() && values(&one, &[1.0]).is_err() && values(&one, &[f64::NAN]).is_err()
+            values(&one, &[0.5, 0.5]).is_err() && values(&one, &[1.1]).is_err() && values(&one, &[f64::NAN]).is_err()
         );
         assert_eq!(values(&one, &[0.25]).unwrap(), [0.25]);
+    }
+
+    #[test]
+    fn ends_belong_to_what_has_ends() {
+        for d in [
+            Distribution::uniform(-1.0, 3.0).unwrap(),
+            Distribution::triangular(-1.0, 0.0, 3.0).unwrap(),
+        ] {
+            assert_eq!([0.0, 1.0].map(|p| d.value(p).unwrap()), [-1.0, 3.0]);
+        }
+        let normal = Distribution::normal(0.0, 1.0).unwrap();
+        assert!(normal.value(0.0).unwrap_err().contains("range") && normal.value(1.0).is_err());
     }
 
     #[test]
