@@ -9,6 +9,7 @@ mod check_problem;
 mod design;
 mod folds;
 mod inference;
+mod models;
 mod profile;
 mod residuals;
 mod sensitivity;
