@@ -34,6 +34,8 @@ mod fault;
 mod fit;
 mod iterate;
 mod linear;
+mod linearised;
+mod multistart;
 mod optimality;
 mod options;
 mod points;
@@ -46,6 +48,7 @@ mod subproblem;
 
 pub use fault::{Fault, Finding};
 pub use fit::{Counts, Derivative, Fit, Iteration, Reason, Side, Status};
+pub use multistart::{Kinship, Minima, Minimum, multistart};
 pub use options::{Differences, Noise, Options, Steps, Subproblem, Tolerances};
 pub use points::{halton, spread};
 pub use problem::{Parameter, Prior, Problem, Scale};

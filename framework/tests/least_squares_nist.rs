@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use gearloss_framework::least_squares::{Fit, Options, Parameter, Problem, Subproblem, solve};
+use gearloss_framework::least_squares::{Fit, Options, Parameter, Problem, Subproblem, halton, solve};
 
 /// Law of a problem: parameters and predictors to the response.
 type Law = fn(&[f64], &[f64]) -> f64;
@@ -235,4 +235,100 @@ fn check_2_8_dogleg_alone() {
     };
     let tally = tally(&options, Certified::parameters);
     assert!(tally.solved >= 52, "{:?} {:?}", tally.wrong, tally.missed);
+}
+
+#[test]
+fn check_2_8_boxes_that_bind() {
+    let cases: [(&str, &[(usize, f64, f64)], &[f64], f64, &[(usize, f64)]); 3] = [
+        (
+            "Misra1a",
+            &[(0, f64::NEG_INFINITY, 230.0)],
+            &[230.0, 0.0005752257721],
+            0.24762196991,
+            &[(0, -0.01437)],
+        ),
+        (
+            "Rat42",
+            &[(2, 0.07, f64::INFINITY)],
+            &[71.4268306, 2.67568313, 0.07],
+            8.8589160707,
+            &[(2, 299.4)],
+        ),
+        (
+            "Thurber",
+            &[(0, f64::NEG_INFINITY, 1280.0), (5, f64::NEG_INFINITY, 0.39)],
+            &[1280.0, 1476.00046, 574.650622, 73.805263, 0.96185089, 0.39, 0.046298106],
+            6267.7262152,
+            &[(0, -70.19), (5, -6686.0)],
+        ),
+    ];
+    for (name, bounds, optimum, sum, gradients) in cases {
+        let law = LAWS.iter().find(|law| law.0 == name).unwrap();
+        let problem = Certified::read(*law);
+        for subproblem in [Subproblem::Cone, Subproblem::Dogleg] {
+            let mut parameters = problem.parameters(1);
+            for (j, lower, upper) in bounds {
+                parameters[*j] = parameters[*j].clone().within(*lower, *upper);
+            }
+            let options = Options {
+                subproblem,
+                ..Options::exact()
+            };
+            let fit = problem.solve(parameters, &options);
+            assert!(fit.converged(), "{name} {:?}", fit.reason);
+            assert!(digits(&fit.theta, optimum) > 7.0, "{name} {:?}", fit.theta);
+            assert!((fit.chi2() / sum - 1.0).abs() < 1e-9, "{name} {}", fit.chi2());
+            for (j, gradient) in gradients {
+                assert!(fit.active[*j].is_some() && fit.theta[*j] == optimum[*j]);
+                let found = fit.derivative.as_ref().unwrap().gradient[*j];
+                assert!((found / gradient - 1.0).abs() < 1e-3, "{name} {found}");
+            }
+        }
+    }
+}
+
+#[test]
+fn check_2_8_in_a_wide_box() {
+    let parameters = |problem: &Certified, start: usize| -> Vec<Parameter> {
+        let bounded = |(p, b): (Parameter, &f64)| {
+            let reach = 10.0 * b.abs().max(p.start.abs());
+            p.within(-reach, reach)
+        };
+        problem
+            .parameters(start)
+            .into_iter()
+            .zip(&problem.values)
+            .map(bounded)
+            .collect()
+    };
+    let tally = tally(&Options::exact(), parameters);
+    assert!(
+        tally.wrong.is_empty() && tally.missed.is_empty(),
+        "{:?} {:?}",
+        tally.wrong,
+        tally.missed
+    );
+}
+
+#[test]
+fn check_2_8_moved_starts_are_solved_or_said_to_be_not() {
+    let mut tallies = Vec::new();
+    for k in 1..=5 {
+        let parameters = |problem: &Certified, start: usize| -> Vec<Parameter> {
+            let mut parameters = problem.parameters(start);
+            let n = parameters.len();
+            for (p, x) in parameters.iter_mut().zip(halton(17 * k + start, n)) {
+                p.start *= 1.0 + 0.02 * (2.0 * x - 1.0);
+            }
+            parameters
+        };
+        tallies.push(tally(&Options::exact(), parameters));
+    }
+    let solved: usize = tallies.iter().map(|t| t.solved).sum();
+    let wrong: Vec<&String> = tallies.iter().flat_map(|t| &t.wrong).collect();
+    let missed: Vec<&String> = tallies.iter().flat_map(|t| &t.missed).collect();
+
+    assert!(solved >= 265, "{solved} {wrong:?} {missed:?}");
+    // The waves of ENSO have minima of their own.
+    assert!(wrong.iter().all(|label| label.starts_with("ENSO")), "{wrong:?}");
 }

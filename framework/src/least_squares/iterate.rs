@@ -2,19 +2,24 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::difference::{Differences, NoDerivative};
+use super::difference::{self, Differences, NoDerivative};
 use super::evaluate::{Evaluator, Miss};
 use super::fit::{Counts, Iteration, Reason};
-use super::linear::Factors;
+use super::linearised::Linearised;
 use super::options::{self, Options, Steps, Tolerances};
-use super::robust::{Robust, Weighted};
-use super::subproblem::{self, How, Model, Region};
-use super::{optimality, second_order};
+use super::robust::Robust;
+use super::subproblem::{self, How};
 
 /// Least share of the expected fall with which a step is taken.
 const ACCEPT: f64 = 1e-4;
-/// Changes of the cost below so many times its noise say nothing.
+/// Changes of the cost below so many times the noise of a call that was told say nothing.
 const NOISY: f64 = 1e3;
+/// The same of a noise that was found at the point: 2 for the square, 10 to be safe.
+const SOUNDED: f64 = 20.0;
+/// Expected fall over the cost, below which noise may hide it.
+const FAINT: f64 = 1e-8;
+/// Step over its tolerance, below which noise may hide a fall, and a flat cost ends a run.
+const NEAR: f64 = 1e3;
 /// How often a run trusts a Gauss-Newton step whose fall drowns in noise.
 const TRUSTED: usize = 5;
 /// Expected fall over the cost, from which on a step is worth a correction.
@@ -67,18 +72,12 @@ struct Run<'a> {
     /// Column scales D.
     scale: DVector<f64>,
     radius: Option<f64>,
+    /// Gauss-Newton steps that were taken though their fall drowns in noise.
     trusted: usize,
+    /// Relative noise of the cost, and whether it was looked for at a point.
+    noise: f64,
+    sounded: bool,
     unseen: Vec<bool>,
-}
-
-/// The residuals as a linear model about a point.
-struct Local {
-    jacobian: DMatrix<f64>,
-    weighted: Weighted,
-    cost: f64,
-    factors: Factors,
-    first_order: f64,
-    relative_offset: Option<f64>,
 }
 
 /// What a step that was tried says about going on.
@@ -89,11 +88,22 @@ enum Verdict {
     Stop(Reason, bool),
 }
 
-/// Runs from a point, with derivatives that are counted in the record.
+/// A step that was tried, as far as tests look at it.
+struct Trial {
+    predicted: f64,
+    actual: f64,
+    ratio: f64,
+    /// Greatest relative change of a coordinate.
+    change: f64,
+    shortcut: bool,
+    accepted: bool,
+}
+
+/// Runs from a point until a test is met; steps and work go to the record.
 pub(super) fn run(context: &Context<'_>, start: Point, steps: Steps, attempt: usize, record: &mut Record) -> End {
     record.counts.runs += 1;
     let n = start.u.len();
-    Run {
+    let run = Run {
         context,
         steps,
         attempt,
@@ -102,22 +112,28 @@ pub(super) fn run(context: &Context<'_>, start: Point, steps: Steps, attempt: us
         scale: DVector::zeros(n),
         radius: None,
         trusted: 0,
+        noise: NOISY * context.noise,
+        sounded: false,
         unseen: vec![true; n],
-    }
-    .finish(record)
+    };
+    run.finish(record)
 }
 
 impl Run<'_> {
     fn finish(mut self, record: &mut Record) -> End {
+        let (context, evaluator) = (self.context, self.context.evaluator);
         if self.point.u.is_empty() {
             return self.end(Reason::FirstOrder, None, None);
         }
-        let begun = (record.counts.steps, self.context.evaluator.evaluations());
+        let limits = (
+            record.counts.steps + context.options.iterations,
+            evaluator.evaluations() + context.options.evaluations,
+        );
         let mut switched = false;
         loop {
             let differences = Differences {
-                evaluator: self.context.evaluator,
-                noise: self.context.noise,
+                evaluator,
+                noise: context.noise,
                 central: self.central,
             };
             let jacobian = match differences.jacobian(&self.point.u, &self.point.r) {
@@ -125,25 +141,27 @@ impl Run<'_> {
                 Err(NoDerivative::Interrupted) => return self.end(Reason::Interrupted, None, None),
                 Err(NoDerivative::NotFinite(why)) => return self.end(Reason::DerivativeNotFinite, Some(why), None),
             };
-            let local = self.local(jacobian);
+            for (unseen, column) in self.unseen.iter_mut().zip(jacobian.column_iter()) {
+                *unseen &= column.norm() == 0.0;
+            }
+            let (space, memory) = (evaluator.space, self.steps.memory);
+            let local = Linearised::about(&self.point, jacobian, &context.robust, space, &mut self.scale, memory);
             let mut stop = self.optimal(&local).map(|reason| (reason, false));
             if stop.is_none() {
-                self.start_radius(switched);
+                self.start_radius(&local, switched);
                 switched = false;
                 stop = loop {
-                    if record.counts.steps - begun.0 >= self.context.options.iterations {
+                    if record.counts.steps >= limits.0 {
                         return self.end(Reason::IterationLimit, None, Some(local));
                     }
-                    if self.context.evaluator.evaluations() - begun.1 >= self.context.options.evaluations {
+                    if evaluator.evaluations() >= limits.1 {
                         return self.end(Reason::EvaluationLimit, None, Some(local));
                     }
-                    if self.context.evaluator.interrupted() {
-                        return self.end(Reason::Interrupted, None, None);
-                    }
                     match self.trial(&local, record) {
-                        Verdict::Again => {}
-                        Verdict::Moved => break None,
-                        Verdict::Stop(reason, moved) => break Some((reason, moved)),
+                        Ok(Verdict::Again) => {}
+                        Ok(Verdict::Moved) => break None,
+                        Ok(Verdict::Stop(reason, moved)) => break Some((reason, moved)),
+                        Err(_) => break Some((Reason::Interrupted, false)),
                     }
                 };
             }
@@ -166,7 +184,7 @@ impl Run<'_> {
         self.central || last || matches!(reason, Reason::ZeroResidual | Reason::Interrupted)
     }
 
-    fn end(self, reason: Reason, detail: Option<String>, local: Option<Local>) -> End {
+    fn end(self, reason: Reason, detail: Option<String>, local: Option<Linearised<'_>>) -> End {
         End {
             point: self.point,
             reason,
@@ -184,34 +202,8 @@ impl Run<'_> {
         }
     }
 
-    /// The linear model about the point; column scales follow.
-    fn local(&mut self, jacobian: DMatrix<f64>) -> Local {
-        let (context, space) = (self.context, self.context.evaluator.space);
-        let weighted = context.robust.weighted(&self.point.r);
-        let rows = weighted.rows(&jacobian);
-        let mut columns = rows.clone();
-        for (j, mut column) in columns.column_iter_mut().enumerate() {
-            let norm = column.norm();
-            if norm > 0.0 {
-                self.unseen[j] = false;
-            }
-            let scale = (self.steps.memory * self.scale[j]).max(norm);
-            self.scale[j] = if scale > 0.0 { scale } else { 1.0 / space.typical[j] };
-            column /= self.scale[j];
-        }
-        let gradient = rows.tr_mul(&weighted.residual);
-        let active = optimality::active(space, &self.point.u, &gradient);
-        Local {
-            cost: context.robust.cost(&self.point.r),
-            factors: Factors::of(columns, &weighted.residual),
-            first_order: optimality::first_order(space, &self.point.u, &rows, &weighted.residual),
-            relative_offset: optimality::relative_offset(&rows, &weighted.residual, &active),
-            jacobian,
-            weighted,
-        }
-    }
-
-    fn optimal(&self, local: &Local) -> Option<Reason> {
+    /// Tests of a point.
+    fn optimal(&self, local: &Linearised<'_>) -> Option<Reason> {
         let tolerances = self.tolerances();
         if local.cost == 0.0 {
             Some(Reason::ZeroResidual)
@@ -227,76 +219,21 @@ impl Run<'_> {
         }
     }
 
-    /// Length in the scaled metric of a vector of coordinates.
-    fn length(&self, of: impl Fn(usize) -> f64) -> f64 {
-        DVector::from_fn(self.scale.len(), |j, _| self.scale[j] * of(j)).norm()
-    }
-
     /// A first radius, and one to go on with where the last differences have shrunk it to nothing.
-    fn start_radius(&mut self, switched: bool) {
+    fn start_radius(&mut self, local: &Linearised<'_>, switched: bool) {
         let typical = &self.context.evaluator.space.typical;
-        let here = self.length(|j| self.point.u[j]);
+        let here = local.length(|j| self.point.u[j]);
         match self.radius {
-            None => self.radius = Some(self.steps.radius * here.max(self.length(|j| typical[j]))),
+            None => self.radius = Some(self.steps.radius * here.max(local.length(|j| typical[j]))),
             Some(radius) if switched && radius < 1e-6 * here => self.radius = Some(1e-2 * here),
             Some(_) => {}
         }
     }
 
-    /// What a step may do: the ball, the bounds, and a greatest relative change of each coordinate.
-    fn region(&self, radius: f64) -> Region {
-        let (space, u) = (self.context.evaluator.space, &self.point.u);
-        let farthest = |j: usize| self.steps.bound * self.scale[j] * u[j].abs().max(space.typical[j]);
-        let n = u.len();
-        Region {
-            radius,
-            lower: DVector::from_fn(n, |j, _| (self.scale[j] * (space.lower[j] - u[j])).max(-farthest(j))),
-            upper: DVector::from_fn(n, |j, _| (self.scale[j] * (space.upper[j] - u[j])).min(farthest(j))),
-        }
-    }
-
-    /// Where a scaled step leads; on a bound that it meets, exactly.
-    fn target(&self, z: &DVector<f64>) -> Vec<f64> {
-        let (space, u) = (self.context.evaluator.space, &self.point.u);
-        let place = |j: usize| match z[j] {
-            z if z <= self.scale[j] * (space.lower[j] - u[j]) => space.lower[j],
-            z if z >= self.scale[j] * (space.upper[j] - u[j]) => space.upper[j],
-            z => (u[j] + z / self.scale[j]).clamp(space.lower[j], space.upper[j]),
-        };
-        (0..u.len()).map(place).collect()
-    }
-
-    /// Half the second-order correction of a step, where it is worth a call and stays inside the bounds.
-    fn correction(&self, local: &Local, region: &Region, z: &DVector<f64>) -> Result<Option<DVector<f64>>, Miss> {
-        let p = DVector::from_fn(z.len(), |j, _| z[j] / self.scale[j]);
-        let there = match self
-            .context
-            .evaluator
-            .residual(&self.target(&(z * second_order::PROBE)))
-        {
-            Ok(there) => there,
-            Err(Miss::Undefined(_)) => return Ok(None),
-            Err(Miss::Interrupted) => return Err(Miss::Interrupted),
-        };
-        let mut bend = second_order::bend(&self.point.r, &there, &(&local.jacobian * p));
-        if let Some(factors) = &local.weighted.factors {
-            bend.component_mul_assign(factors);
-        }
-        let model = local.model();
-        let half = second_order::correction(&model, region, z, &local.factors.project(bend));
-        let space = self.context.evaluator.space;
-        Ok(half.filter(|half| {
-            (0..z.len()).all(|j| {
-                let u = self.point.u[j] + (z[j] + half[j]) / self.scale[j];
-                half[j] == 0.0 || (space.lower[j] <= u && u <= space.upper[j])
-            })
-        }))
-    }
-
-    /// Tries one step.
-    fn trial(&mut self, local: &Local, record: &mut Record) -> Verdict {
+    /// Tries one step. The only miss that is handed up is an interruption.
+    fn trial(&mut self, local: &Linearised<'_>, record: &mut Record) -> Result<Verdict, Miss> {
         let (context, radius) = (self.context, self.radius.unwrap_or(0.0));
-        let (model, region) = (local.model(), self.region(radius));
+        let (model, region) = (local.model(), local.region(radius, self.steps.bound));
         let step = subproblem::step(&model, &region, context.options.subproblem);
         record.counts.steps += 1;
         record.counts.cone_solves += usize::from(step.cone);
@@ -304,43 +241,40 @@ impl Run<'_> {
         let (predicted, slope) = (model.fall(&step.z), model.slope(&step.z));
         let mut z = step.z;
         let mut corrected = false;
-        if self.steps.second_order && predicted > WORTH * local.cost {
-            match self.correction(local, &region, &z) {
-                Ok(None) => {}
-                Ok(Some(half)) => {
-                    z += half;
-                    corrected = true;
-                }
-                Err(_) => return Verdict::Stop(Reason::Interrupted, false),
-            }
+        if self.steps.second_order
+            && predicted > WORTH * local.cost
+            && let Some(half) = local.correction(context.evaluator, &region, &z)?
+        {
+            z += half;
+            corrected = true;
         }
-        let u = self.target(&z);
+        let u = local.target(&z);
         // A step that promises nothing is not worth a call.
         let there = if predicted > 0.0 {
-            match context.evaluator.residual(&u) {
-                Ok(r) => Some(r),
-                Err(Miss::Undefined(_)) => None,
-                Err(Miss::Interrupted) => return Verdict::Stop(Reason::Interrupted, false),
-            }
+            context.evaluator.residual(&u)
         } else {
-            None
+            Err(Miss::Undefined(String::new()))
         };
-        let actual = there
-            .as_ref()
-            .map_or(f64::NEG_INFINITY, |r| context.robust.fall(&self.point.r, r));
+        let there = match there {
+            Ok(r) => Some(r),
+            Err(Miss::Undefined(_)) => None,
+            Err(Miss::Interrupted) => return Err(Miss::Interrupted),
+        };
+        let fall = |r: &DVector<f64>| context.robust.fall(&self.point.r, r);
+        let actual = there.as_ref().map_or(f64::NEG_INFINITY, fall);
         let mut ratio = if predicted > 0.0 {
             actual / predicted
         } else {
             f64::NEG_INFINITY
         };
-        let shortcut = step.how == How::Shortcut;
-        let noise = NOISY * context.noise * local.cost;
-        if ratio <= ACCEPT && predicted <= noise && actual >= -noise && shortcut && self.trusted < TRUSTED {
+        let (shortcut, change) = (step.how == How::Shortcut, local.change(&u));
+        let tiny = predicted <= FAINT * local.cost || change <= NEAR * self.tolerances().step;
+        let faint = shortcut && self.trusted < TRUSTED && tiny;
+        if ratio <= ACCEPT && faint && self.drowns(predicted, actual, local.cost)? {
             self.trusted += 1;
             ratio = 1.0;
         }
-        let accepted = ratio > ACCEPT;
-        let length = z.norm();
+        let (accepted, length) = (ratio > ACCEPT, z.norm());
         record.log.push(Iteration {
             attempt: self.attempt,
             cost: local.cost,
@@ -355,63 +289,84 @@ impl Run<'_> {
             actual,
             accepted,
         });
-        self.radius = Some(if ratio < 0.25 {
-            let cut = if actual.is_finite() && actual < 0.0 {
-                (slope / (2.0 * (slope - actual))).clamp(0.1, 0.5)
-            } else {
-                0.25
-            };
-            cut * length.min(radius)
-        } else if ratio > 0.75 && shortcut {
-            radius.max(2.0 * length)
-        } else if ratio > 0.75 && length >= 0.99 * radius {
-            2.0 * radius
-        } else {
-            radius
+        self.radius = Some(match ratio {
+            // Where the cost has risen, to the least of the parabola through both ends with the slope at the first.
+            r if r < 0.25 && actual.is_finite() && actual < 0.0 => {
+                (slope / (2.0 * (slope - actual))).clamp(0.1, 0.5) * length.min(radius)
+            }
+            r if r < 0.25 => 0.25 * length.min(radius),
+            r if r > 0.75 && shortcut => radius.max(2.0 * length),
+            r if r > 0.75 && length >= 0.99 * radius => 2.0 * radius,
+            _ => radius,
         });
-        let change = self.change(&u);
-        let verdict = self.stop(local.cost, predicted, actual, ratio, change, accepted);
+        let trial = Trial {
+            predicted,
+            actual,
+            ratio,
+            change,
+            shortcut,
+            accepted,
+        };
+        let stop = self.stop(local, &trial)?;
         if let Some(r) = there.filter(|_| accepted) {
             self.point = Point { u, r };
         }
-        match verdict {
+        Ok(match stop {
             Some(reason) => Verdict::Stop(reason, accepted),
             None if accepted => Verdict::Moved,
             None => Verdict::Again,
-        }
+        })
     }
 
-    /// Greatest relative change of a coordinate.
-    fn change(&self, u: &[f64]) -> f64 {
-        let space = self.context.evaluator.space;
-        let change = |j: usize| (u[j] - self.point.u[j]).abs() / space.size(j, self.point.u[j]);
-        (0..u.len()).map(change).fold(0.0, f64::max)
+    /// Whether falls of the cost drown in its noise.
+    fn drowns(&mut self, predicted: f64, actual: f64, cost: f64) -> Result<bool, Miss> {
+        let below = |noise: f64| predicted <= noise * cost && actual >= -noise * cost;
+        if !below(self.noise) {
+            self.sound()?;
+        }
+        Ok(below(self.noise))
+    }
+
+    /// Finds the noise at the point by six calls, once. The one that was told is relative to the residuals, while that of
+    /// rounding is relative to the values whose small differences they are.
+    fn sound(&mut self) -> Result<(), Miss> {
+        if !std::mem::replace(&mut self.sounded, true) {
+            match difference::noise(self.context.evaluator, &self.point.u, &self.point.r) {
+                Ok(noise) => self.noise = self.noise.max(SOUNDED * noise),
+                Err(Miss::Undefined(_)) => {}
+                Err(Miss::Interrupted) => return Err(Miss::Interrupted),
+            }
+        }
+        Ok(())
     }
 
     /// Tests after a step.
-    fn stop(&self, cost: f64, predicted: f64, actual: f64, ratio: f64, change: f64, accepted: bool) -> Option<Reason> {
-        let tolerances = self.tolerances();
+    fn stop(&mut self, local: &Linearised<'_>, trial: &Trial) -> Result<Option<Reason>, Miss> {
+        let (tolerances, cost) = (*self.tolerances(), local.cost);
         // Of a step that was not taken, smallness says nothing about a minimum, unless what it promised drowns in noise.
-        let drowned = predicted <= NOISY * self.context.noise * cost;
-        if change <= tolerances.step && (accepted || drowned) {
-            return Some(Reason::Step);
-        }
-        let flat = actual.abs() <= tolerances.cost * cost && predicted <= tolerances.cost * cost && ratio <= 2.0;
-        let near = change <= 1e3 * tolerances.step || predicted <= 0.01 * f64::EPSILON * cost || !accepted;
-        if flat && near {
-            return Some(Reason::Cost);
+        let small = trial.change <= tolerances.step && (trial.accepted || trial.predicted <= self.noise * cost);
+        let flat = trial.actual.abs() <= tolerances.cost * cost
+            && trial.predicted <= tolerances.cost * cost
+            && trial.ratio <= 2.0;
+        let near =
+            trial.change <= NEAR * tolerances.step || trial.predicted <= 0.01 * f64::EPSILON * cost || !trial.accepted;
+        if small || (flat && near) {
+            // Nor does it where only the ball is small, as beside a point without residuals.
+            let settled = trial.shortcut || {
+                let promise = local.promise(self.steps.bound);
+                let faint = FAINT.max(tolerances.cost) * cost;
+                promise <= faint || {
+                    self.sound()?;
+                    promise <= self.noise * cost
+                }
+            };
+            if settled {
+                return Ok(Some(if small { Reason::Step } else { Reason::Cost }));
+            }
         }
         let space = self.context.evaluator.space;
-        let least = 1e-15 * self.length(|j| space.size(j, self.point.u[j]));
-        (!accepted && self.radius.is_some_and(|radius| radius <= least)).then_some(Reason::Radius)
-    }
-}
-
-impl Local {
-    fn model(&self) -> Model<'_> {
-        Model {
-            r: &self.factors.r,
-            q: &self.factors.q,
-        }
+        let least = 1e-15 * local.length(|j| space.size(j, self.point.u[j]));
+        let shrunk = !trial.accepted && self.radius.is_some_and(|radius| radius <= least);
+        Ok(shrunk.then_some(Reason::Radius))
     }
 }

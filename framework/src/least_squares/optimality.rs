@@ -6,6 +6,9 @@ use super::fit::Side;
 use super::linear;
 use super::space::Space;
 
+/// Error of central differences, relative to a column.
+const ROUNDING: f64 = 1e-9;
+
 /// On which bound each coordinate stands with the gradient pushing outward.
 pub(super) fn active(space: &Space<'_>, u: &[f64], gradient: &DVector<f64>) -> Vec<Option<Side>> {
     let side = |j: usize| match gradient[j] {
@@ -35,6 +38,22 @@ pub(super) fn first_order(space: &Space<'_>, u: &[f64], jacobian: &DMatrix<f64>,
         (along.abs() / (norm * length)).min(room * norm / length)
     };
     (0..u.len()).map(measure).fold(0.0, f64::max)
+}
+
+/// Numbers of the coordinates that no bound holds: those on none, and those that sit on one towards which the residual
+/// pushes no more than what is left of it in the other columns. A column that is a combination of the others is never
+/// pushed harder than that, so that its bound cannot hide that it is one.
+pub(super) fn unheld(jacobian: &DMatrix<f64>, residual: &DVector<f64>, active: &[Option<Side>]) -> Vec<usize> {
+    let free = inactive(active);
+    let left = linear::Factors::of(linear::columns(jacobian, &free), residual).q.norm();
+    let noise = ROUNDING * residual.norm();
+    let holds = |j: usize| {
+        let column = jacobian.column(j);
+        column.dot(residual).abs() > (2.0 * left + noise) * column.norm()
+    };
+    (0..active.len())
+        .filter(|j| active[*j].is_none() || !holds(*j))
+        .collect()
 }
 
 /// The relative offset: what is left of the residual in the space of the free columns, against what is left outside of it,

@@ -163,13 +163,12 @@ impl Context<'_> {
     fn measures(&self, end: &End, jacobian: &DMatrix<f64>) -> (DVector<f64>, f64) {
         let gradient = jacobian.tr_mul(&self.robust.slope(&end.point.r));
         let active = optimality::active(self.evaluator.space, &end.point.u, &gradient);
-        let weighted = self.robust.weighted(&end.point.r).rows(jacobian);
+        let weighted = self.robust.weighted(&end.point.r);
+        let rows = weighted.rows(jacobian);
         // A parameter that was never seen is told by name; one that has been lost on the way makes the end singular.
-        let free: Vec<usize> = optimality::inactive(&active)
-            .into_iter()
-            .filter(|j| !end.unseen[*j])
-            .collect();
-        let independence = linear::independence(&linear::columns(&weighted, &free));
+        let mut free = optimality::unheld(&rows, &weighted.residual, &active);
+        free.retain(|j| !end.unseen[*j]);
+        let independence = linear::independence(&linear::columns(&rows, &free));
         (gradient, independence)
     }
 

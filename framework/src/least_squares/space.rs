@@ -4,7 +4,7 @@ use super::fault::{Fault, Finding};
 use super::problem::{Parameter, Scale};
 
 /// Coordinates u of the free parameters, with their bounds and usual sizes.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Space<'p> {
     pub parameters: &'p [Parameter],
     /// Numbers of the free ones; all vectors below and all inside the solver count these only.
@@ -73,6 +73,14 @@ impl<'p> Space<'p> {
             space.upper.push(upper);
         }
         Ok(space)
+    }
+
+    /// The same from another start.
+    pub fn starting(&self, u: &[f64]) -> Self {
+        Self {
+            start: u.to_vec(),
+            ..self.clone()
+        }
     }
 
     /// How many are free.

@@ -1,0 +1,226 @@
+//! Many starts, to see whether there is more than one minimum.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use super::evaluate::Evaluator;
+use super::fault::{Fault, Finding};
+use super::fit::Fit;
+use super::options::Options;
+use super::points;
+use super::problem::Problem;
+use super::robust::Robust;
+use super::solve::solve_from;
+use super::space::Space;
+
+/// Relative difference of costs that are the same, and the same over the cost at the start.
+const SAME: [f64; 2] = [1e-6, 1e-12];
+/// Distance of points that are the same, in standard errors of each direction.
+const NEAR: f64 = 0.1;
+/// Relative distance of coordinates that are the same, where standard errors have no end.
+const APART: f64 = 1e-3;
+/// Room in usual sizes for starts, where a bound is missing.
+const AWAY: f64 = 10.0;
+/// Points between two minima that are looked at.
+const BETWEEN: usize = 7;
+/// Starts that are looked at for each one that is taken, before too many count as without value.
+const PATIENCE: usize = 20;
+
+/// One minimum with the starts that lead to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Minimum {
+    /// The best fit of those that end in it.
+    pub fit: Fit,
+    /// Numbers of the starts; 0 is the user's.
+    pub starts: Vec<usize>,
+    /// Their share of all. \[-\]
+    pub share: f64,
+}
+
+/// How minima of the same cost are related.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kinship {
+    /// The cost keeps to the least between them: a combination of parameters is not told by the data.
+    Valley,
+    /// The cost rises between them, as where two parameters may be exchanged.
+    Equivalent,
+}
+
+impl Kinship {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Valley => "valley",
+            Self::Equivalent => "equivalent minima",
+        }
+    }
+}
+
+/// All minima that were found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Minima {
+    /// Each of them, the lowest first.
+    pub minima: Vec<Minimum>,
+    /// How those are related that have the same cost as the lowest; absent where it is alone.
+    pub kinship: Option<Kinship>,
+    /// Calls of the residual function, all starts together.
+    pub evaluations: usize,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+/// Solves a problem from its own start and from others that fill its bounds evenly, to `starts` of them.
+///
+/// # Errors
+/// If the problem makes no sense as it is stated, or if hardly any point has residuals.
+pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -> Result<Minima, Fault> {
+    let space = Space::of(problem.parameters())?;
+    // Before all others, for its faults.
+    let first = solve_from(problem, options, &space)?;
+    let others = even_starts(problem, &space, starts.saturating_sub(1))?;
+    let solve_other = |start: &Vec<f64>| solve_from(problem, options, &space.starting(start));
+    let others: Vec<Fit> = others.par_iter().map(solve_other).collect::<Result<_, _>>()?;
+    // The cost at the user's start.
+    let begun = first.log.first().map_or(first.cost, |step| step.cost);
+    let mut fits: Vec<(usize, Fit)> = std::iter::once(first).chain(others).enumerate().collect();
+    fits.sort_by(|(i, a), (j, b)| a.cost.total_cmp(&b.cost).then(i.cmp(j)));
+    let mut evaluations = fits.iter().map(|(_, fit)| fit.counts.evaluations).sum();
+    let share = 1.0 / fits.len() as f64;
+    let mut minima: Vec<Minimum> = Vec::new();
+    for (i, fit) in fits {
+        let old = minima
+            .iter_mut()
+            .find(|old| level(&old.fit, &fit, begun) && near(&space, &old.fit, &fit));
+        if let Some(old) = old {
+            old.starts.push(i);
+            old.share += share;
+        } else {
+            let starts = vec![i];
+            minima.push(Minimum { fit, starts, share });
+        }
+    }
+    let mut notes = Vec::new();
+    if !minima[0].starts.contains(&0) {
+        notes.push("the start that was given does not lead to the lowest minimum".to_owned());
+    }
+    let lowest: Vec<&Fit> = minima
+        .iter()
+        .map(|minimum| &minimum.fit)
+        .filter(|fit| level(&minima[0].fit, fit, begun))
+        .collect();
+    let kinship = kinship(problem, options, &space, &lowest, &mut evaluations)?;
+    Ok(Minima {
+        minima,
+        kinship,
+        evaluations,
+        notes,
+    })
+}
+
+/// Starts that fill the bounds and have residuals.
+fn even_starts(problem: &Problem<'_>, space: &Space<'_>, count: usize) -> Result<Vec<Vec<f64>>, Fault> {
+    let end = |j: usize, bound: f64, side: f64| {
+        if bound.is_finite() {
+            bound
+        } else {
+            space.start[j] + side * AWAY * space.typical[j]
+        }
+    };
+    let mut starts = Vec::with_capacity(count);
+    for i in 1..=PATIENCE * count {
+        let point = points::spread(i, space.len());
+        let u: Vec<f64> = (0..space.len())
+            .map(|j| {
+                let (lower, upper) = (end(j, space.lower[j], -1.0), end(j, space.upper[j], 1.0));
+                lower + point[j] * (upper - lower)
+            })
+            .collect();
+        if Evaluator::start(problem, &space.starting(&u), None).is_ok() {
+            starts.push(u);
+        }
+        if starts.len() == count {
+            return Ok(starts);
+        }
+    }
+    if count == 0 {
+        return Ok(starts);
+    }
+    let message = format!(
+        "only {} of {} points inside the bounds have residuals",
+        starts.len(),
+        PATIENCE * count
+    );
+    Err(Finding::new("starts", message, "narrow the bounds, or ask for fewer starts").into())
+}
+
+/// Whether two costs are the same.
+fn level(a: &Fit, b: &Fit, begun: f64) -> bool {
+    (a.cost - b.cost).abs() <= SAME[0] * a.cost.min(b.cost) + SAME[1] * begun
+}
+
+/// Whether a fit lies where a better one does: in its standard errors, or by its coordinates where those have no end.
+fn near(space: &Space<'_>, better: &Fit, fit: &Fit) -> bool {
+    let free = |j: &usize| better.active[*j].is_none();
+    let apart = |i: usize| fit.u[i] - better.u[i];
+    match &better.derivative {
+        Some(derivative) if better.converged() => {
+            let columns: Vec<usize> = space.free.iter().copied().filter(free).collect();
+            let away = DVector::from_iterator(columns.len(), columns.iter().map(|i| apart(*i)));
+            let distance = (derivative.jacobian.select_columns(&columns) * away).norm();
+            distance <= NEAR * (columns.len() as f64).sqrt()
+        }
+        _ => (0..space.len()).all(|j| {
+            let i = space.free[j];
+            apart(i).abs() <= APART * space.size(j, better.u[i])
+        }),
+    }
+}
+
+/// Walks from each of several fits to its nearest one that was walked to before, and looks whether the cost rises between.
+fn kinship(
+    problem: &Problem<'_>,
+    options: &Options<'_>,
+    space: &Space<'_>,
+    fits: &[&Fit],
+    evaluations: &mut usize,
+) -> Result<Option<Kinship>, Fault> {
+    let coordinates: Vec<Vec<f64>> = fits
+        .iter()
+        .map(|fit| space.free.iter().map(|i| fit.u[*i]).collect())
+        .collect();
+    let distance = |a: usize, b: usize| -> f64 {
+        let part = |j: usize| (coordinates[a][j] - coordinates[b][j]) / space.typical[j];
+        (0..space.len()).map(|j| part(j).powi(2)).sum()
+    };
+    let start = space.starting(&coordinates[0]);
+    let (evaluator, _) = Evaluator::start(problem, &start, None)?;
+    let robust = Robust {
+        loss: options.loss,
+        scale: fits[0].loss_scale,
+        rows: evaluator.rows,
+    };
+    let (mut reached, mut left) = (vec![0], (1..fits.len()).collect::<Vec<usize>>());
+    let mut kinship = None;
+    while !left.is_empty() {
+        let pairs = reached.iter().flat_map(|a| left.iter().map(|b| (*a, *b)));
+        let Some((a, b)) = pairs.min_by(|x, y| distance(x.0, x.1).total_cmp(&distance(y.0, y.1))) else {
+            break;
+        };
+        kinship = kinship.or(Some(Kinship::Valley));
+        for k in 1..=BETWEEN {
+            let share = k as f64 / (BETWEEN + 1) as f64;
+            let mix = |j: usize| coordinates[a][j] + share * (coordinates[b][j] - coordinates[a][j]);
+            let u: Vec<f64> = (0..space.len()).map(mix).collect();
+            // Twice the cost is the sum of squares, of which one standard error is worth 1.
+            let rises = |r: &DVector<f64>| 2.0 * (robust.cost(r) - fits[0].cost) > 1.0;
+            if evaluator.residual(&u).map_or(true, |r| rises(&r)) {
+                kinship = Some(Kinship::Equivalent);
+                break;
+            }
+        }
+        reached.push(b);
+        left.retain(|other| *other != b);
+    }
+    *evaluations += evaluator.evaluations();
+    Ok(kinship)
+}
