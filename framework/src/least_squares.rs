@@ -36,6 +36,7 @@ mod iterate;
 mod linear;
 mod linearised;
 mod multistart;
+mod noise;
 mod optimality;
 mod options;
 mod points;
@@ -45,6 +46,7 @@ mod second_order;
 mod solve;
 mod space;
 mod subproblem;
+mod trial;
 
 pub use fault::{Fault, Finding};
 pub use fit::{Counts, Derivative, Fit, Iteration, Reason, Side, Status};

@@ -5,9 +5,6 @@ use rayon::prelude::*;
 
 use super::evaluate::{Evaluator, Miss};
 
-/// Distance of the values that tell the noise, in usual sizes.
-const SPACING: f64 = 1e-6;
-
 /// Why there is no Jacobian.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum NoDerivative {
@@ -147,33 +144,63 @@ impl Differences<'_> {
     }
 }
 
-/// Relative noise of one call, from third differences of seven of them along one direction, as in Hamming's table of
-/// differences; no less than rounding.
-pub(super) fn noise(evaluator: &Evaluator<'_>, u: &[f64], r: &DVector<f64>) -> Result<f64, Miss> {
-    let space = evaluator.space;
-    let away: Vec<f64> = (0..u.len())
-        .map(|j| {
-            let (down, up, step) = (u[j] - space.lower[j], space.upper[j] - u[j], SPACING * space.typical[j]);
-            if up >= down {
-                step.min(up / 6.0)
-            } else {
-                -step.min(down / 6.0)
-            }
-        })
-        .collect();
-    let mut values = vec![r.clone()];
-    for k in 1..7 {
-        let there: Vec<f64> = u.iter().zip(&away).map(|(u, step)| u + f64::from(k) * step).collect();
-        values.push(evaluator.residual(&there)?);
+#[cfg(test)]
+mod tests {
+    use super::super::problem::{Parameter, Problem};
+    use super::super::space::Space;
+    use super::*;
+
+    /// Derivative of x^2 + 3 x and of exp(x) at a place, with bounds and an edge below which there are no values.
+    fn slopes(x: f64, bounds: [f64; 2], edge: f64, central: bool) -> Result<Vec<f64>, NoDerivative> {
+        let law = |p: &[f64]| {
+            let inside = (p[0] >= edge).then(|| vec![p[0] * p[0] + 3.0 * p[0], p[0].exp()]);
+            inside.ok_or_else(|| "beyond the edge".to_owned())
+        };
+        let problem = Problem::new(law, vec![Parameter::new("x", x).within(bounds[0], bounds[1])]);
+        let space = Space::of(problem.parameters()).unwrap_or_else(|fault| panic!("{fault}"));
+        let (evaluator, r) = Evaluator::start(&problem, &space, None).unwrap_or_else(|fault| panic!("{fault}"));
+        let differences = Differences {
+            evaluator: &evaluator,
+            noise: f64::EPSILON,
+            central,
+        };
+        let jacobian = differences.jacobian(&space.start, &r)?;
+        Ok(jacobian.iter().copied().collect())
     }
-    let third = |w: &[DVector<f64>]| (&w[3] - &w[0] + (&w[1] - &w[2]) * 3.0).norm_squared();
-    let squares: f64 = values.windows(4).map(third).sum();
-    // Binomial weights 1, 3, 3, 1: the square of a third difference is 20 times that of the noise.
-    let deviation = (squares / (4.0 * 20.0)).sqrt();
-    let noise = deviation / r.norm();
-    Ok(if noise.is_finite() {
-        noise.max(f64::EPSILON)
-    } else {
-        f64::EPSILON
-    })
+
+    #[test]
+    fn check_2_5_differences_at_bounds_and_edges() {
+        let free = [f64::NEG_INFINITY, f64::INFINITY];
+        for (bounds, edge) in [
+            (free, -9.0),
+            ([1.0, 3.0], -9.0),
+            ([-3.0, 1.0], -9.0),
+            ([1.0 - 1e-9, 1.0 + 1e-4], -9.0),
+            (free, 1.0),
+            ([-3.0, 5.0], 1.0 - 1e-7),
+        ] {
+            for (central, error) in [(false, 1e-7), (true, 1e-9)] {
+                let found = slopes(1.0, bounds, edge, central);
+                assert!(
+                    found
+                        .as_ref()
+                        .is_ok_and(|d| (d[0] - 5.0).abs() < 5.0 * error && (d[1] - 1.0_f64.exp()).abs() < 3.0 * error),
+                    "{bounds:?} {edge} {central}: {found:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn check_2_5_no_value_on_any_side_is_named() {
+        // At its upper bound, with an edge just below.
+        for central in [false, true] {
+            let found = slopes(1.0, [0.0, 1.0], 1.0, central);
+            let named = |why: &String| why.contains("beside `x` = 1: beyond the edge");
+            assert!(
+                matches!(&found, Err(NoDerivative::NotFinite(why)) if named(why)),
+                "{found:?}"
+            );
+        }
+    }
 }

@@ -90,6 +90,15 @@ impl<'p> Evaluator<'p> {
         })
     }
 
+    /// As [`Self::residual`], nothing where it has no value: the only miss is an interruption.
+    pub fn try_residual(&self, u: &[f64]) -> Result<Option<DVector<f64>>, Miss> {
+        match self.residual(u) {
+            Ok(residual) => Ok(Some(residual)),
+            Err(Miss::Undefined(_)) => Ok(None),
+            Err(Miss::Interrupted) => Err(Miss::Interrupted),
+        }
+    }
+
     /// Whether the user has had enough.
     pub fn interrupted(&self) -> bool {
         self.interrupt.is_some_and(|stop| stop())

@@ -2,24 +2,16 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::difference::{self, Differences, NoDerivative};
+use super::difference::{Differences, NoDerivative};
 use super::evaluate::{Evaluator, Miss};
 use super::fit::{Counts, Iteration, Reason};
 use super::linearised::Linearised;
+use super::noise::CostNoise;
 use super::options::{self, Options, Steps, Tolerances};
 use super::robust::Robust;
 use super::subproblem::{self, How};
+use super::trial::{Here, Trial};
 
-/// Least share of the expected fall with which a step is taken.
-const ACCEPT: f64 = 1e-4;
-/// Changes of the cost below so many times the noise of a call that was told say nothing.
-const NOISY: f64 = 1e3;
-/// The same of a noise that was found at the point: 2 for the square, 10 to be safe.
-const SOUNDED: f64 = 20.0;
-/// Expected fall over the cost, below which noise may hide it.
-const FAINT: f64 = 1e-8;
-/// Step over its tolerance, below which noise may hide a fall, and a flat cost ends a run.
-const NEAR: f64 = 1e3;
 /// How often a run trusts a Gauss-Newton step whose fall drowns in noise.
 const TRUSTED: usize = 5;
 /// Expected fall over the cost, from which on a step is worth a correction.
@@ -74,9 +66,7 @@ struct Run<'a> {
     radius: Option<f64>,
     /// Gauss-Newton steps that were taken though their fall drowns in noise.
     trusted: usize,
-    /// Relative noise of the cost, and whether it was looked for at a point.
-    noise: f64,
-    sounded: bool,
+    noise: CostNoise,
     unseen: Vec<bool>,
 }
 
@@ -86,17 +76,6 @@ enum Verdict {
     Moved,
     /// The end, after a step that moved the point or not.
     Stop(Reason, bool),
-}
-
-/// A step that was tried, as far as tests look at it.
-struct Trial {
-    predicted: f64,
-    actual: f64,
-    ratio: f64,
-    /// Greatest relative change of a coordinate.
-    change: f64,
-    shortcut: bool,
-    accepted: bool,
 }
 
 /// Runs from a point until a test is met; steps and work go to the record.
@@ -112,8 +91,7 @@ pub(super) fn run(context: &Context<'_>, start: Point, steps: Steps, attempt: us
         scale: DVector::zeros(n),
         radius: None,
         trusted: 0,
-        noise: NOISY * context.noise,
-        sounded: false,
+        noise: CostNoise::told(context.noise),
         unseen: vec![true; n],
     };
     run.finish(record)
@@ -250,31 +228,41 @@ impl Run<'_> {
         }
         let u = local.target(&z);
         // A step that promises nothing is not worth a call.
-        let there = if predicted > 0.0 {
-            context.evaluator.residual(&u)
+        let promising = predicted > 0.0;
+        let there = if promising {
+            context.evaluator.try_residual(&u)?
         } else {
-            Err(Miss::Undefined(String::new()))
-        };
-        let there = match there {
-            Ok(r) => Some(r),
-            Err(Miss::Undefined(_)) => None,
-            Err(Miss::Interrupted) => return Err(Miss::Interrupted),
+            None
         };
         let fall = |r: &DVector<f64>| context.robust.fall(&self.point.r, r);
         let actual = there.as_ref().map_or(f64::NEG_INFINITY, fall);
-        let mut ratio = if predicted > 0.0 {
-            actual / predicted
-        } else {
-            f64::NEG_INFINITY
+        let mut trial = Trial {
+            predicted,
+            slope,
+            actual,
+            ratio: if promising {
+                actual / predicted
+            } else {
+                f64::NEG_INFINITY
+            },
+            length: z.norm(),
+            change: local.change(&u),
+            shortcut: step.how == How::Shortcut,
         };
-        let (shortcut, change) = (step.how == How::Shortcut, local.change(&u));
-        let tiny = predicted <= FAINT * local.cost || change <= NEAR * self.tolerances().step;
-        let faint = shortcut && self.trusted < TRUSTED && tiny;
-        if ratio <= ACCEPT && faint && self.drowns(predicted, actual, local.cost)? {
+        let here = Here {
+            evaluator: context.evaluator,
+            local,
+            u: &self.point.u,
+            r: &self.point.r,
+            tolerances: *self.tolerances(),
+        };
+        if self.trusted < TRUSTED && trial.drowns(here, &mut self.noise)? {
             self.trusted += 1;
-            ratio = 1.0;
+            trial.ratio = 1.0;
         }
-        let (accepted, length) = (ratio > ACCEPT, z.norm());
+        let (next, accepted) = (trial.radius(radius), trial.accepted());
+        self.radius = Some(next);
+        let stop = trial.stop(here, &mut self.noise, next, self.steps.bound)?;
         record.log.push(Iteration {
             attempt: self.attempt,
             cost: local.cost,
@@ -284,30 +272,11 @@ impl Run<'_> {
             how: step.how,
             corrected,
             radius,
-            length,
+            length: trial.length,
             predicted,
             actual,
             accepted,
         });
-        self.radius = Some(match ratio {
-            // Where the cost has risen, to the least of the parabola through both ends with the slope at the first.
-            r if r < 0.25 && actual.is_finite() && actual < 0.0 => {
-                (slope / (2.0 * (slope - actual))).clamp(0.1, 0.5) * length.min(radius)
-            }
-            r if r < 0.25 => 0.25 * length.min(radius),
-            r if r > 0.75 && shortcut => radius.max(2.0 * length),
-            r if r > 0.75 && length >= 0.99 * radius => 2.0 * radius,
-            _ => radius,
-        });
-        let trial = Trial {
-            predicted,
-            actual,
-            ratio,
-            change,
-            shortcut,
-            accepted,
-        };
-        let stop = self.stop(local, &trial)?;
         if let Some(r) = there.filter(|_| accepted) {
             self.point = Point { u, r };
         }
@@ -316,57 +285,5 @@ impl Run<'_> {
             None if accepted => Verdict::Moved,
             None => Verdict::Again,
         })
-    }
-
-    /// Whether falls of the cost drown in its noise.
-    fn drowns(&mut self, predicted: f64, actual: f64, cost: f64) -> Result<bool, Miss> {
-        let below = |noise: f64| predicted <= noise * cost && actual >= -noise * cost;
-        if !below(self.noise) {
-            self.sound()?;
-        }
-        Ok(below(self.noise))
-    }
-
-    /// Finds the noise at the point by six calls, once. The one that was told is relative to the residuals, while that of
-    /// rounding is relative to the values whose small differences they are.
-    fn sound(&mut self) -> Result<(), Miss> {
-        if !std::mem::replace(&mut self.sounded, true) {
-            match difference::noise(self.context.evaluator, &self.point.u, &self.point.r) {
-                Ok(noise) => self.noise = self.noise.max(SOUNDED * noise),
-                Err(Miss::Undefined(_)) => {}
-                Err(Miss::Interrupted) => return Err(Miss::Interrupted),
-            }
-        }
-        Ok(())
-    }
-
-    /// Tests after a step.
-    fn stop(&mut self, local: &Linearised<'_>, trial: &Trial) -> Result<Option<Reason>, Miss> {
-        let (tolerances, cost) = (*self.tolerances(), local.cost);
-        // Of a step that was not taken, smallness says nothing about a minimum, unless what it promised drowns in noise.
-        let small = trial.change <= tolerances.step && (trial.accepted || trial.predicted <= self.noise * cost);
-        let flat = trial.actual.abs() <= tolerances.cost * cost
-            && trial.predicted <= tolerances.cost * cost
-            && trial.ratio <= 2.0;
-        let near =
-            trial.change <= NEAR * tolerances.step || trial.predicted <= 0.01 * f64::EPSILON * cost || !trial.accepted;
-        if small || (flat && near) {
-            // Nor does it where only the ball is small, as beside a point without residuals.
-            let settled = trial.shortcut || {
-                let promise = local.promise(self.steps.bound);
-                let faint = FAINT.max(tolerances.cost) * cost;
-                promise <= faint || {
-                    self.sound()?;
-                    promise <= self.noise * cost
-                }
-            };
-            if settled {
-                return Ok(Some(if small { Reason::Step } else { Reason::Cost }));
-            }
-        }
-        let space = self.context.evaluator.space;
-        let least = 1e-15 * local.length(|j| space.size(j, self.point.u[j]));
-        let shrunk = !trial.accepted && self.radius.is_some_and(|radius| radius <= least);
-        Ok(shrunk.then_some(Reason::Radius))
     }
 }

@@ -102,10 +102,8 @@ impl<'a> Linearised<'a> {
         region: &Region,
         z: &DVector<f64>,
     ) -> Result<Option<DVector<f64>>, Miss> {
-        let probe = match evaluator.residual(&self.target(&(z * second_order::PROBE))) {
-            Ok(probe) => probe,
-            Err(Miss::Undefined(_)) => return Ok(None),
-            Err(Miss::Interrupted) => return Err(Miss::Interrupted),
+        let Some(probe) = evaluator.try_residual(&self.target(&(z * second_order::PROBE)))? else {
+            return Ok(None);
         };
         let slope = &self.jacobian * z.component_div(&self.scale);
         let mut bend = second_order::bend(&self.point.r, &probe, &slope);

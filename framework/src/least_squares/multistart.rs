@@ -77,14 +77,14 @@ pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -
     let space = Space::of(problem.parameters())?;
     // Before all others, for its faults.
     let first = solve_from(problem, options, &space)?;
-    let others = even_starts(problem, &space, starts.saturating_sub(1))?;
+    let (others, looked) = even_starts(problem, options, &space, starts.saturating_sub(1))?;
     let solve_other = |start: &Vec<f64>| solve_from(problem, options, &space.starting(start));
     let others: Vec<Fit> = others.par_iter().map(solve_other).collect::<Result<_, _>>()?;
     // The cost at the user's start.
     let begun = first.log.first().map_or(first.cost, |step| step.cost);
     let mut fits: Vec<(usize, Fit)> = std::iter::once(first).chain(others).enumerate().collect();
     fits.sort_by(|(i, a), (j, b)| a.cost.total_cmp(&b.cost).then(i.cmp(j)));
-    let mut evaluations = fits.iter().map(|(_, fit)| fit.counts.evaluations).sum();
+    let mut evaluations = looked + fits.iter().map(|(_, fit)| fit.counts.evaluations).sum::<usize>();
     let share = 1.0 / fits.len() as f64;
     let mut minima: Vec<Minimum> = Vec::new();
     for (i, fit) in fits {
@@ -117,8 +117,13 @@ pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -
     })
 }
 
-/// Starts that fill the bounds and have residuals.
-fn even_starts(problem: &Problem<'_>, space: &Space<'_>, count: usize) -> Result<Vec<Vec<f64>>, Fault> {
+/// Starts that fill the bounds and have residuals, and how many calls it took to find them.
+fn even_starts(
+    problem: &Problem<'_>,
+    options: &Options<'_>,
+    space: &Space<'_>,
+    count: usize,
+) -> Result<(Vec<Vec<f64>>, usize), Fault> {
     let end = |j: usize, bound: f64, side: f64| {
         if bound.is_finite() {
             bound
@@ -126,9 +131,17 @@ fn even_starts(problem: &Problem<'_>, space: &Space<'_>, count: usize) -> Result
             space.start[j] + side * AWAY * space.typical[j]
         }
     };
-    let mut starts = Vec::with_capacity(count);
-    for i in 1..=PATIENCE * count {
-        let point = points::spread(i, space.len());
+    let (mut starts, mut looked) = (Vec::with_capacity(count), 0);
+    while starts.len() < count && !options.interrupt.is_some_and(|stop| stop()) {
+        if looked == PATIENCE * count {
+            let message = format!(
+                "only {} of {looked} points inside the bounds have residuals",
+                starts.len()
+            );
+            return Err(Finding::new("starts", message, "narrow the bounds, or ask for fewer starts").into());
+        }
+        looked += 1;
+        let point = points::spread(looked, space.len());
         let u: Vec<f64> = (0..space.len())
             .map(|j| {
                 let (lower, upper) = (end(j, space.lower[j], -1.0), end(j, space.upper[j], 1.0));
@@ -138,19 +151,8 @@ fn even_starts(problem: &Problem<'_>, space: &Space<'_>, count: usize) -> Result
         if Evaluator::start(problem, &space.starting(&u), None).is_ok() {
             starts.push(u);
         }
-        if starts.len() == count {
-            return Ok(starts);
-        }
     }
-    if count == 0 {
-        return Ok(starts);
-    }
-    let message = format!(
-        "only {} of {} points inside the bounds have residuals",
-        starts.len(),
-        PATIENCE * count
-    );
-    Err(Finding::new("starts", message, "narrow the bounds, or ask for fewer starts").into())
+    Ok((starts, looked))
 }
 
 /// Whether two costs are the same.

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::difference::{self, Differences};
+use super::difference::Differences;
 use super::evaluate::{Evaluator, Miss};
 use super::fault::{Fault, Finding};
 use super::fit::{Derivative, Fit, Reason, Status};
@@ -11,7 +11,7 @@ use super::options::{Noise, Options, Steps};
 use super::problem::Problem;
 use super::robust::{Loss, Robust};
 use super::space::Space;
-use super::{linear, optimality};
+use super::{linear, noise, optimality};
 
 /// Independence of the columns below which a fit is singular.
 const SINGULAR: f64 = 1e-9;
@@ -46,7 +46,7 @@ pub(super) fn solve_from(problem: &Problem<'_>, options: &Options<'_>, space: &S
     let noise = match options.noise {
         Noise::Rounding => f64::EPSILON,
         Noise::Known(noise) => noise.max(f64::EPSILON),
-        Noise::Estimated => match difference::noise(&evaluator, &start.u, &start.r) {
+        Noise::Estimated => match noise::estimate(&evaluator, &start.u, &start.r) {
             Ok(noise) => noise,
             Err(Miss::Interrupted) => f64::EPSILON,
             Err(Miss::Undefined(message)) => {
@@ -117,32 +117,33 @@ fn attempts(context: &Context<'_>, start: Point, record: &mut Record) -> (End, u
             second_order: false,
         },
     ];
-    let mut best: Option<(End, usize, bool)> = None;
-    for (i, steps) in tries.iter().enumerate() {
-        let mut end = iterate::run(context, start.clone(), *steps, i + 1, record);
+    let attempt = |i: usize, record: &mut Record| {
+        let mut end = iterate::run(context, start.clone(), tries[i], i + 1, record);
         context.derive(&mut end);
-        let over = end.reason == Reason::Interrupted || !context.options.attempts;
         let clean = context.status(&end) == Status::Converged;
-        let better = match &best {
-            None => true,
-            Some((old, _, was_clean)) => {
-                let (new, old) = (context.robust.cost(&end.point.r), context.robust.cost(&old.point.r));
-                let equal = (new - old).abs() <= EQUAL * old.abs();
-                if equal { clean && !was_clean } else { new < old }
-            }
-        };
-        if better {
-            best = Some((end, i + 1, clean));
-        } else if over && let Some((old, ..)) = &mut best {
-            // The best point so far, and that the user ended the search.
-            old.reason = end.reason;
+        (end, clean)
+    };
+    let (mut best, mut clean) = attempt(0, record);
+    let mut number = 1;
+    for i in 1..tries.len() {
+        if clean || best.reason == Reason::Interrupted || !context.options.attempts {
+            break;
         }
-        if over || clean {
+        let (end, well) = attempt(i, record);
+        let [new, old] = [&end, &best].map(|end| context.robust.cost(&end.point.r));
+        let equal = (new - old).abs() <= EQUAL * old;
+        let reason = end.reason;
+        if (equal && well) || (!equal && new < old) {
+            (best, clean, number) = (end, well, i + 1);
+        } else if reason == Reason::Interrupted {
+            // The best point so far, and that the user ended the search.
+            best.reason = reason;
+        }
+        if well {
             break;
         }
     }
-    let (end, attempt, _) = best.unwrap_or_else(|| unreachable!("the first attempt is always kept"));
-    (end, attempt)
+    (best, number)
 }
 
 impl Context<'_> {
