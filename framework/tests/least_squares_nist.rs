@@ -12,6 +12,8 @@ use nist::{Certified, LAWS, all, digits};
 struct Tally {
     solved: usize,
     evaluations: usize,
+    /// Without MGH17 from afar, whose way hangs on the last bits.
+    tame: usize,
     cone_solves: usize,
     cone_failures: usize,
     /// Converged by status, with fewer than six digits.
@@ -39,6 +41,9 @@ fn tally(options: &Options<'_>, parameters: impl Fn(&Certified, usize) -> Vec<Pa
                 fit.chi2() / problem.sum - 1.0,
             );
             tally.evaluations += fit.counts.evaluations;
+            if (problem.name, start) != ("MGH17", 0) {
+                tally.tame += fit.counts.evaluations;
+            }
             tally.cone_solves += fit.counts.cone_solves;
             tally.cone_failures += fit.counts.cone_failures;
             let label = format!("{} {start}: {digits:.1}, {deviations:.1}", problem.name);
@@ -71,7 +76,13 @@ fn check_2_8_all_54_runs_have_six_digits() {
     );
     assert_eq!(tally.solved, 54);
     assert!(tally.poor_deviations.is_empty(), "{:?}", tally.poor_deviations);
-    assert!(tally.cone_failures <= 10);
+    assert!(
+        tally.tame < 7800 && tally.evaluations < 17_000,
+        "{} {}",
+        tally.tame,
+        tally.evaluations
+    );
+    assert!(tally.cone_failures <= 20, "{}", tally.cone_failures);
 }
 
 #[test]
@@ -178,6 +189,31 @@ fn check_2_8_moved_starts_are_solved_or_said_to_be_not() {
     assert!(solved >= 265, "{solved} {wrong:?} {missed:?}");
     // The waves of ENSO have minima of their own.
     assert!(wrong.iter().all(|label| label.starts_with("ENSO")), "{wrong:?}");
+}
+
+#[test]
+fn check_2_8_the_hardest_starts_moved_by_roundings() {
+    // What other processors and libraries do to the last bits. MGH17 from afar is solved most of the time, and where it is
+    // not, it says so.
+    for (name, least) in [("MGH09", 12), ("MGH10", 12), ("MGH17", 9)] {
+        let law = LAWS.iter().find(|law| law.0 == name).unwrap();
+        let problem = Certified::read(*law);
+        let mut solved = 0;
+        for k in 1..=12 {
+            let mut parameters = problem.parameters(0);
+            for (p, x) in parameters.iter_mut().zip(halton(k, 5)) {
+                p.start *= 1.0 + 1e-13 * (x - 0.5);
+            }
+            let fit = problem.solve(parameters, &Options::exact());
+            assert!(
+                problem.digits(&fit) > 6.0 || !fit.converged(),
+                "{name} {k} {:?}",
+                fit.theta
+            );
+            solved += usize::from(fit.converged());
+        }
+        assert!(solved >= least, "{name} {solved}");
+    }
 }
 
 #[test]
