@@ -23,6 +23,8 @@ struct Section {
     name: String,
     /// What the analysis is, as a sentence.
     about: String,
+    /// Sentences that a reader must not miss.
+    verdicts: Vec<String>,
     /// Tables and notes as printed.
     text: String,
     figures: Vec<Shown>,
@@ -45,8 +47,14 @@ pub struct GearboxPage {
     pub title: String,
     /// Where the description comes from.
     pub source: String,
+    /// Drawing, as SVG.
+    pub drawing: String,
     /// Tables of geometry and kinematics.
     pub tables: Vec<PageTable>,
+    /// An operating point in words; empty where there is none.
+    pub point: String,
+    /// Loads, balances and shares at that point.
+    pub point_tables: Vec<PageTable>,
     /// What is assumed and why.
     pub assumed: Vec<AssumedEntry>,
     /// The resolved description.
@@ -69,6 +77,8 @@ pub struct PageTable {
 pub struct Frame {
     /// Title of the study.
     pub title: String,
+    /// The question that it answers.
+    pub question: String,
     /// Version of the program.
     pub version: String,
     /// Crates that brought models.
@@ -83,6 +93,7 @@ impl Report {
         self.sections.push(Section {
             name: name.to_owned(),
             about: about.to_owned(),
+            verdicts: Vec::new(),
             text: String::new(),
             figures: Vec::new(),
         });
@@ -102,6 +113,13 @@ impl Report {
                 title: figure.title().to_owned(),
                 spec: figure.plotly(),
             });
+        }
+    }
+
+    /// Adds a sentence that a reader must not miss to the section.
+    pub fn verdict(&mut self, sentence: &str) {
+        if let Some(section) = self.sections.last_mut() {
+            section.verdicts.push(sentence.to_owned());
         }
     }
 
@@ -173,6 +191,7 @@ mod tests {
     fn frame() -> Frame {
         Frame {
             title: "A & B".to_owned(),
+            question: String::new(),
             version: "0".to_owned(),
             packages: Vec::new(),
             study: String::new(),

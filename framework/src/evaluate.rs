@@ -1,8 +1,11 @@
 //! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
 
+mod readings;
 mod scratch;
 mod solution;
 
+pub(crate) use readings::readings;
+pub use readings::{MemberTorques, Reading};
 pub use scratch::Scratch;
 pub use solution::{PartLoss, Solution};
 
@@ -280,6 +283,11 @@ impl Transmission {
     /// Loss of one drag model.
     fn drag(&self, index: usize, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
         state.asked.set(state.asked.get() + 1);
+        sound(self.drags[index].model.loss(&self.drag_at(index, state, notes)))
+    }
+
+    /// What a drag model sees, one copy.
+    fn drag_at<'a>(&'a self, index: usize, state: &State<'_>, notes: Notes<'a>) -> GearDragAt<'a> {
         let drag = &self.drags[index];
         let seat = &drag.seat;
         let oil = &state.oils[drag.oil as usize];
@@ -288,7 +296,7 @@ impl Transmission {
             .levels
             .map(|level| state.level(&crate::attach::Spot { oil: drag.oil, level }));
         let towards = |i: usize| f64::from(u8::from(seat.mates[i].iter().any(|y| speed[i] * y > 0.0)));
-        sound(drag.model.loss(&GearDragAt {
+        GearDragAt {
             part: &drag.part,
             speed: speed[0],
             speed_2: speed[1],
@@ -303,7 +311,7 @@ impl Transmission {
             eta: oil.eta,
             rho: oil.rho,
             notes,
-        }))
+        }
     }
 
     /// Loss of one mesh, one copy; the mean over the copies where they carry different loads.

@@ -22,7 +22,7 @@ pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
 pub use map::MapEntry;
 pub use operating_points::OperatingPointsEntry;
-pub use sweep::SweepEntry;
+pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
 pub use tournament::{CandidatesEntry, FactorsEntry, TournamentEntry};
 pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
@@ -39,6 +39,11 @@ pub struct StudyEntry {
     pub gearloss: StudyFormat,
     /// Title for reports.
     pub title: Option<String>,
+    /// The question that the study answers; it stands first in the report.
+    pub question: Option<String>,
+    /// Operating point at which the report shows forces, the balance of powers, and what losses rest on; absent, the greatest
+    /// torque and speed of the first grid.
+    pub report_at: Option<ReportAt>,
     /// Gearbox files by name, relative to the study.
     pub gearboxes: Ordered<String>,
     /// What every analysis starts from.
@@ -57,6 +62,19 @@ pub enum StudyFormat {
     /// The first format.
     #[serde(rename = "study/1")]
     One,
+}
+
+/// The operating point of a report.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ReportAt {
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Torque. [Nm]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub torque: f64,
+    /// Speed. [rpm]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub speed: f64,
 }
 
 /// What every analysis starts from.

@@ -187,6 +187,12 @@ impl Transmission {
     pub fn meshes(&self) -> impl Iterator<Item = (&str, &MeshPart)> {
         self.meshes.iter().map(|m| (m.seat.path.as_str(), m.part.as_ref()))
     }
+    /// Ids of both gears of a mesh by its path; none where there is no such mesh.
+    pub fn gears_of_mesh(&self, path: &str) -> Vec<&str> {
+        let mesh = self.meshes.iter().find(|m| m.seat.path == path);
+        let gears = mesh.into_iter().flat_map(|m| m.seat.gears);
+        gears.map(|g| self.gears[g].id.as_str()).collect()
+    }
     /// Path of the first mesh that a gear is part of.
     pub fn mesh_of_gear(&self, gear: &str) -> Option<&str> {
         let index = self.gears.iter().position(|g| g.id == gear)?;

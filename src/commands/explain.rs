@@ -72,6 +72,15 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
             }
             Err(undefined) => out.line(format!("  {undefined}"))?,
         }
+        out.line("  sees:")?;
+        for reading in solution.readings(part) {
+            let unit = if reading.unit.symbol == "-" {
+                ""
+            } else {
+                reading.unit.symbol
+            };
+            out.line(format!("    {} = {} {unit}", reading.name, significant(reading.value)).trim_end())?;
+        }
         out.line("  inputs (SI, temperatures in degC):")?;
         let base = base_path(info);
         if let Some(entry) = lookup(&resolved.value, base) {

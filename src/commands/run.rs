@@ -153,6 +153,13 @@ impl Runner<'_> {
         Ok(result)
     }
 
+    /// Prints a sentence that a reader must not miss, and puts it where the report begins to tell of the analysis.
+    fn verdict(&self, sentence: String, out: &mut Out) -> Result<(), Failure> {
+        out.line(&sentence)?;
+        self.report.borrow_mut().verdict(&sentence);
+        Ok(())
+    }
+
     /// A fault of the study at a path.
     fn wrong(&self, path: &str, message: impl Into<String>, mend: &str) -> Failure {
         self.study

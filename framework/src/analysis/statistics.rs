@@ -67,16 +67,16 @@ pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
 /// The most bands that values make of themselves.
 const MOST: usize = 8;
 
-/// Places of points by the value of a coordinate, ascending: those within half a percent of the first count as one value.
+/// Places of points by the value of a coordinate, ascending: those within two percent of the first count as one value,
+/// because what a rig holds scatters about what it was told.
 pub fn levels(coordinates: &[f64]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..coordinates.len()).collect();
     order.sort_by(|a, b| coordinates[*a].total_cmp(&coordinates[*b]));
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for i in order {
-        // Measured speeds scatter about what the rig was told.
         let near = |group: &Vec<usize>| {
             let first = coordinates[group[0]];
-            (coordinates[i] - first).abs() <= 0.005 * first.abs().max(1e-9)
+            (coordinates[i] - first).abs() <= 0.02 * first.abs().max(1e-9)
         };
         match groups.last_mut() {
             Some(group) if near(group) => group.push(i),

@@ -170,7 +170,7 @@ pub struct Work {
     /// Given torques on all columns, padded.
     pub(super) applied: Vec<f64>,
     /// Speeds of second and first gear of each mesh in the carrier's frame; zero where they are rounding.
-    pub(super) relative: Vec<[f64; 2]>,
+    pub(crate) relative: Vec<[f64; 2]>,
     pub(super) right: Vec<f64>,
     pub(super) residual: Vec<f64>,
     pub(super) unknown: Vec<f64>,

@@ -20,7 +20,7 @@ pub struct Fold {
 }
 
 /// Folds of neighbouring values of a coordinate, of torque as a rule: as many as asked for, or one for each value where there
-/// are fewer. Values within half a percent count as one.
+/// are fewer. Values within two percent count as one.
 ///
 /// # Errors
 /// If there are fewer than two values or folds, or a value is not finite.

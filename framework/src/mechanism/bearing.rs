@@ -160,6 +160,23 @@ impl BearingPart {
     pub fn mean_diameter(&self) -> f64 {
         0.5 * (self.bore + self.outside)
     }
+
+    /// Equivalent static load P0 after ISO 76:2006: X0 Fr + Y0 Fa, and never less than Fr. Absent for kinds whose factors
+    /// hang on an inner geometry that is not stated. \[N\]
+    pub fn static_load(&self, radial: f64, axial: f64) -> Option<f64> {
+        let (x0, y0) = match self.kind {
+            BearingKind::DeepGrooveBall | BearingKind::DeepGrooveBallDoubleRow => (0.6, 0.5),
+            BearingKind::CylindricalRoller
+            | BearingKind::CylindricalRollerFullComplement
+            | BearingKind::NeedleCage
+            | BearingKind::ToroidalRoller
+            | BearingKind::ToroidalRollerFullComplement => (1.0, 0.0),
+            BearingKind::TaperedRoller => (0.5, self.y0?),
+            BearingKind::SphericalRoller | BearingKind::SelfAligningBall => (1.0, self.y0?),
+            _ => return None,
+        };
+        Some((x0 * radial + y0 * axial).max(radial))
+    }
 }
 
 impl JsonSchema for BearingPart {

@@ -10,6 +10,7 @@ use super::build::Build;
 use super::{Slot, from_resolved};
 use crate::attach::{Attach, Names, Spot, State};
 use crate::document::Diagnostic;
+use crate::evaluate::{Reading, readings};
 use crate::loss::{Loss, NoteBase, Notes, Undefined};
 use crate::mechanism::Component;
 
@@ -36,6 +37,8 @@ fn one() -> u32 {
 pub trait Placed: Send + Sync {
     /// Loss of one copy, with the notes of its model.
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined>;
+    /// What the model sees at a state, one copy.
+    fn readings(&self, state: &State<'_>) -> Vec<Reading>;
     /// The two members that feel the reaction; absent for the housing.
     fn between(&self) -> [Option<u16>; 2];
     /// True where the loss may depend on torque or load.
@@ -59,6 +62,10 @@ impl<C: Component> Placed for PlacedAs<C> {
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
         C::answer(&self.model, &C::at(&self.part, site, notes))
+    }
+    fn readings(&self, state: &State<'_>) -> Vec<Reading> {
+        let site = C::Attachment::site(self.seat, &self.spot, state);
+        readings::<C>(&C::at(&self.part, site, Notes::MUTED))
     }
     fn between(&self) -> [Option<u16>; 2] {
         C::Attachment::between(self.seat)

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{By, SpeedAxis, TorqueAxis, Write};
 
-/// Losses and efficiency over the values of one path.
+/// Losses and efficiency over the values of one path, or of two.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SweepEntry {
     /// Gearbox; absent, the first.
@@ -21,6 +21,8 @@ pub struct SweepEntry {
     /// Values, each as in a gearbox: `[4 mm2/s, 6 mm2/s]`.
     #[schemars(length(min = 1))]
     pub values: Vec<Value>,
+    /// A second path whose values change too: every combination is solved.
+    pub second: Option<SecondEntry>,
     /// What the losses are summed by.
     #[serde(default)]
     pub by: By,
@@ -31,4 +33,14 @@ pub struct SweepEntry {
     /// Formats to write; absent, CSV, JSON and SVG.
     #[serde(default = "Write::all")]
     pub write: Vec<Write>,
+}
+
+/// The second path of a sweep.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct SecondEntry {
+    /// Resolved path whose value changes.
+    pub path: String,
+    /// Values, each as in a gearbox.
+    #[schemars(length(min = 1))]
+    pub values: Vec<Value>,
 }

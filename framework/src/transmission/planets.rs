@@ -9,6 +9,7 @@ use super::oils::OilNumbers;
 use crate::attach::{Places, Spot, State, dangling};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
+use crate::evaluate::{Reading, readings};
 use crate::loss::{Loss, NoteBase, Notes, Undefined};
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
@@ -82,13 +83,13 @@ struct PlacedDrag {
     spot: Spot,
 }
 
-impl Placed for PlacedDrag {
-    fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+impl PlacedDrag {
+    fn at<'a>(&'a self, state: &State<'_>, notes: Notes<'a>) -> PlanetaryDragAt<'a> {
         let [speed, carrier_speed, planet_speed] = self.members.map(|m| state.speed(Some(m)));
         let oil = state.oil(&self.spot);
         let part = &*self.part;
         // What the part does not state, no model may ask for: building it has refused that.
-        self.model.loss(&PlanetaryDragAt {
+        PlanetaryDragAt {
             part,
             speed,
             carrier_speed,
@@ -101,8 +102,17 @@ impl Placed for PlacedDrag {
             rho: oil.rho,
             size: part.size.unwrap_or(0.0),
             ratio: part.ratio.unwrap_or(0.0),
-            notes: notes.of(self.model.notes),
-        })
+            notes,
+        }
+    }
+}
+
+impl Placed for PlacedDrag {
+    fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+        self.model.loss(&self.at(state, notes.of(self.model.notes)))
+    }
+    fn readings(&self, state: &State<'_>) -> Vec<Reading> {
+        readings::<PlanetaryDrag>(&self.at(state, Notes::MUTED))
     }
     fn between(&self) -> [Option<u16>; 2] {
         [Some(self.members[0]), None]

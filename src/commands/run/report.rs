@@ -1,5 +1,7 @@
 //! The report of a run.
 
+mod point;
+
 use std::path::Path;
 
 use gearloss_framework::description::AssumedEntry;
@@ -24,12 +26,13 @@ pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure
         })?),
         None => None,
     };
-    for (name, gearbox) in &runner.study.gearboxes {
-        let page = page(runner, name, gearbox)?;
+    for (i, (name, gearbox)) in runner.study.gearboxes.iter().enumerate() {
+        let page = page(runner, name, gearbox, i == 0)?;
         runner.report.borrow_mut().gearbox(page);
     }
     let frame = Frame {
         title: runner.study.entry.title.clone().unwrap_or_else(|| "Study".to_owned()),
+        question: runner.study.entry.question.clone().unwrap_or_default(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         packages: runner
             .language
@@ -57,8 +60,9 @@ pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure
     whole(&file, html.as_bytes()).map_err(failed)
 }
 
-/// What the results of a gearbox rest on, under its own models.
-fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPage, Failure> {
+/// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that
+/// the analyses use.
+fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<GearboxPage, Failure> {
     let resolved = gearbox.resolve(runner.language, &runner.study.choice(None))?;
     let transmission = gearbox.build(runner.language, &resolved)?;
     let text = |key: &str| {
@@ -74,14 +78,39 @@ fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPag
         .get("assumed")
         .and_then(|list| serde_json::from_value(list.clone()).ok())
         .unwrap_or_default();
+    let sets = sets(runner, name, first);
+    let built = runner.built(gearbox, &sets)?;
+    let point = point::page(runner, &built, &assumed);
     Ok(GearboxPage {
         name: name.to_owned(),
+        point: point.as_ref().map(|p| p.words.clone()).unwrap_or_default(),
+        point_tables: point.map(|p| p.tables).unwrap_or_default(),
         title: text("title"),
         source: text("source"),
+        drawing: String::new(),
         tables: vec![gears(&transmission), meshes(&transmission), states(&transmission)],
         assumed,
         resolved: serde_saphyr::to_string(&resolved.value).unwrap_or_default(),
     })
+}
+
+/// Names of the sets that the analyses use for a gearbox, each once.
+fn sets(runner: &Runner<'_>, name: &str, first: bool) -> Vec<String> {
+    let mut sets: Vec<String> = Vec::new();
+    for (_, analysis) in runner.study.entry.analyses.iter() {
+        let uses = analysis.uses();
+        let of_analysis = uses.gearbox.map_or(first, |g| g == name);
+        for set in uses.sets {
+            let own = match set.split_once('/') {
+                Some((product, set)) => (product == name && set != "own").then(|| set.to_owned()),
+                None => of_analysis.then(|| set.clone()),
+            };
+            if let Some(set) = own.filter(|set| !sets.contains(set)) {
+                sets.push(set);
+            }
+        }
+    }
+    sets
 }
 
 fn table(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> PageTable {

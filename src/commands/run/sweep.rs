@@ -1,11 +1,11 @@
-//! Losses and efficiency over the values of one path.
+//! Losses and efficiency over the values of one path, or of two.
 
 use gearloss_framework::analysis::{PointResult, merge, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Extent;
-use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{By, SweepEntry};
+use gearloss_framework::report::{Figure, Map};
+use gearloss_framework::study::{By, SecondEntry, SweepEntry};
 use gearloss_framework::thermal::Outcome;
 use serde_json::{Value, json};
 
@@ -21,7 +21,8 @@ type Shown = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
 
 /// All points under one set at one value.
 struct At<'a> {
-    value: usize,
+    /// Number of the value, and of the second one.
+    value: [usize; 2],
     built: Built<'a>,
     points: Vec<PointResult>,
     seen: Vec<Extent>,
@@ -31,7 +32,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let words: Vec<String> = entry.values.iter().map(word).collect();
-    if entry.path == "thermal.oil" && runner.study.entry.conditions.oil_temperature.is_some() {
+    let second_words: Vec<String> = entry.second.iter().flat_map(|s| s.values.iter().map(word)).collect();
+    let paths = || std::iter::once(&entry.path).chain(entry.second.as_ref().map(|s| &s.path));
+    if paths().any(|path| path == "thermal.oil") && runner.study.entry.conditions.oil_temperature.is_some() {
         let error = Diagnostic::error(
             format!("{path}.path"),
             "the conditions fix the temperature, so it cannot change",
@@ -40,25 +43,33 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
         return Err(runner.study.findings(vec![error]).into());
     }
     let mut all: Vec<At<'_>> = Vec::new();
-    for (value, change) in entry.values.iter().enumerate() {
-        let change = [(entry.path.clone(), change.clone())];
-        for built in runner.built_with(gearbox, &entry.model_sets, &change)? {
-            let gear = gear_of(entry.gear.as_deref(), &built.transmission);
-            let torques = torques(runner, &format!("{path}.torque"), &entry.torque, &built.transmission)?;
-            let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &built.transmission)?;
-            let mut points = runner.points(&built.transmission, gear, torques, speeds);
-            points.terms = entry.by == By::Term;
-            let solved = runner.solve(&built, &points)?;
-            all.push(At {
-                value,
-                built,
-                points: solved.points,
-                seen: solved.seen,
-            });
+    let seconds: Vec<Option<(&String, &Value)>> = match &entry.second {
+        Some(second) => second.values.iter().map(|value| Some((&second.path, value))).collect(),
+        None => vec![None],
+    };
+    for (k, second) in seconds.iter().enumerate() {
+        for (i, change) in entry.values.iter().enumerate() {
+            let mut changes = vec![(entry.path.clone(), change.clone())];
+            changes.extend(second.map(|(path, value)| (path.clone(), value.clone())));
+            for built in runner.built_with(gearbox, &entry.model_sets, &changes)? {
+                let gear = gear_of(entry.gear.as_deref(), &built.transmission);
+                let torques = torques(runner, &format!("{path}.torque"), &entry.torque, &built.transmission)?;
+                let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &built.transmission)?;
+                let mut points = runner.points(&built.transmission, gear, torques, speeds);
+                points.terms = entry.by == By::Term;
+                let solved = runner.solve(&built, &points)?;
+                all.push(At {
+                    value: [i, k],
+                    built,
+                    points: solved.points,
+                    seen: solved.seen,
+                });
+            }
         }
     }
     let shares = together(all.iter().map(|at| &at.built.transmission), entry.by);
-    let mut header: Vec<String> = ["model_set", "gear", &entry.path].map(str::to_owned).to_vec();
+    let mut header: Vec<String> = ["model_set", "gear"].map(str::to_owned).to_vec();
+    header.extend(paths().cloned());
     header.extend(
         [
             "torque_nm",
@@ -79,7 +90,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
         let own = Shares::of(&at.built.transmission, entry.by).under(&shares);
         for p in &at.points {
             let stack = own.stack(p);
-            let mut row = vec![at.built.name.clone(), gear.to_owned(), words[at.value].clone()];
+            let mut row = vec![at.built.name.clone(), gear.to_owned(), words[at.value[0]].clone()];
+            row.extend(second_words.get(at.value[1]).cloned());
             row.extend([cell(Some(p.torque)), cell(Some(tidy(p.speed * RPM))), cell(p.oil)]);
             row.extend([
                 p.balance.map_or("", Outcome::name).to_owned(),
@@ -94,7 +106,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
             }));
         }
         results.push(json!({
-            "model_set": at.built.name, "gear": gear, "path": entry.path, "value": entry.values[at.value],
+            "model_set": at.built.name, "gear": gear, "path": entry.path, "value": entry.values[at.value[0]],
+            "second": entry.second.as_ref().map(|s| json!({ "path": s.path, "value": s.values[at.value[1]] })),
             "shares": shares, "points": points, "notes": notes(&at.built.transmission, &at.seen),
         }));
     }
@@ -107,29 +120,45 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
 
 /// Names of the sets in their order.
 fn sets<'a>(all: &'a [At<'_>]) -> Vec<&'a str> {
-    let first = all.iter().take_while(|at| at.value == 0);
+    let first = all.iter().take_while(|at| at.value == [0, 0]);
     first.map(|at| at.built.name.as_str()).collect()
 }
 
+/// What belongs to one set and one second value, in the order of the first values.
+fn of<'r, 'a>(all: &'r [At<'a>], set: &str, second: usize) -> Vec<&'r At<'a>> {
+    let own = all.iter().filter(|at| at.built.name == set && at.value[1] == second);
+    own.collect()
+}
+
+/// The second value in words, for headings; nothing without one.
+fn beside(entry: &SweepEntry, second: usize) -> String {
+    let named = |s: &SecondEntry| s.values.get(second).map(|v| format!(", {} {}", s.path, word(v)));
+    entry.second.as_ref().and_then(named).unwrap_or_default()
+}
+
 fn show(name: &str, entry: &SweepEntry, words: &[String], all: &[At<'_>], out: &mut Out) -> Result<(), Failure> {
+    let seconds = entry.second.as_ref().map_or(1, |s| s.values.len());
     for set in sets(all) {
-        let own: Vec<&At<'_>> = all.iter().filter(|at| at.built.name == set).collect();
-        out.line(format!("{name}: loss in W over {}, models {set}", entry.path))?;
-        let mut titles = vec!["torque Nm".to_owned(), "speed rpm".to_owned()];
-        titles.extend(words.iter().cloned());
-        let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
-        for (i, point) in own[0].points.iter().enumerate() {
-            let mut row = vec![format!("{}", point.torque), format!("{:.0}", point.speed * RPM)];
-            row.extend(own.iter().map(|at| number(at.points[i].loss, 2)));
-            table.row(row);
-        }
-        out.text(&table.render())?;
-        // The transmissions differ in one value, so their notes stand in the same order.
         let mut seen = Vec::new();
-        for at in &own {
-            merge(&mut seen, &at.seen);
+        for second in 0..seconds {
+            let own = of(all, set, second);
+            let more = beside(entry, second);
+            out.line(format!("{name}: loss in W over {}, models {set}{more}", entry.path))?;
+            let mut titles = vec!["torque Nm".to_owned(), "speed rpm".to_owned()];
+            titles.extend(words.iter().cloned());
+            let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+            for (i, point) in own[0].points.iter().enumerate() {
+                let mut row = vec![format!("{}", point.torque), format!("{:.0}", point.speed * RPM)];
+                row.extend(own.iter().map(|at| number(at.points[i].loss, 2)));
+                table.row(row);
+            }
+            out.text(&table.render())?;
+            // The transmissions differ in values only, so their notes stand in the same order.
+            for at in &own {
+                merge(&mut seen, &at.seen);
+            }
         }
-        out.line(outside(&notes(&own[0].built.transmission, &seen)))?;
+        out.line(outside(&notes(&of(all, set, 0)[0].built.transmission, &seen)))?;
     }
     Ok(())
 }
@@ -160,33 +189,66 @@ fn pictures(
         ("efficiency", "efficiency in %", |p| p.efficiency.map(|e| 100.0 * e)),
     ];
     for (short, y, quantity) in quantities {
-        let mut lines = Vec::new();
-        for set in sets(all) {
-            let own: Vec<&At<'_>> = all.iter().filter(|at| at.built.name == set).collect();
-            for (i, point) in own[0].points.iter().enumerate() {
-                let points: Vec<_> = own
-                    .iter()
-                    .map(|at| Some((places[at.value], quantity(&at.points[i])?)))
-                    .collect();
-                if points.iter().any(Option::is_some) {
-                    lines.push(Line {
-                        name: format!("{set}: {} Nm, {:.0} rpm", point.torque, point.speed * RPM),
-                        points,
-                        stroke: Stroke::Marked,
-                    });
-                }
-            }
+        for figure in figures(name, entry, words, all, (&places, &x), (y, quantity)) {
+            let file = match &figure {
+                Figure::Map(map) => format!("{name}-{short}-{}", map.title.replace([' ', ',', ':'], "")),
+                _ => format!("{name}-{short}"),
+            };
+            picture(runner, &file, figure, &entry.write)?;
         }
-        if lines.is_empty() {
-            continue;
-        }
-        let figure = Figure::Lines {
-            title: format!("{name}: {y}"),
-            x: x.clone(),
-            y: y.to_owned(),
-            lines,
-        };
-        picture(runner, &format!("{name}-{short}"), figure, &entry.write)?;
     }
     Ok(())
+}
+
+/// Lines over the values of one path; a map over both for each set, torque and speed where there are two.
+fn figures(
+    name: &str,
+    entry: &SweepEntry,
+    words: &[String],
+    all: &[At<'_>],
+    (places, x): (&[f64], &str),
+    (y, quantity): (&str, fn(&PointResult) -> Option<f64>),
+) -> Vec<Figure> {
+    let mut figures = Vec::new();
+    let mut lines = Vec::new();
+    for set in sets(all) {
+        let first = of(all, set, 0);
+        for (i, point) in first[0].points.iter().enumerate() {
+            let at_point = format!("{} Nm, {:.0} rpm", point.torque, point.speed * RPM);
+            if let Some(second) = &entry.second {
+                let rows = (0..second.values.len()).flat_map(|k| of(all, set, k));
+                let values: Vec<Option<f64>> = rows.map(|at| quantity(&at.points[i])).collect();
+                if values.iter().any(Option::is_some) {
+                    figures.push(Figure::Map(Map {
+                        title: format!("{name}: {y}, models {set}, {at_point}"),
+                        x: (entry.path.clone(), words.to_vec()),
+                        y: (second.path.clone(), second.values.iter().map(word).collect()),
+                        values,
+                        ..Map::default()
+                    }));
+                }
+                continue;
+            }
+            let points: Vec<_> = first
+                .iter()
+                .map(|at| Some((places[at.value[0]], quantity(&at.points[i])?)))
+                .collect();
+            if points.iter().any(Option::is_some) {
+                lines.push(Line {
+                    name: format!("{set}: {at_point}"),
+                    points,
+                    stroke: Stroke::Marked,
+                });
+            }
+        }
+    }
+    if !lines.is_empty() {
+        figures.push(Figure::Lines {
+            title: format!("{name}: {y}"),
+            x: x.to_owned(),
+            y: y.to_owned(),
+            lines,
+        });
+    }
+    figures
 }

@@ -211,7 +211,9 @@ fn field<'a>(
     if base.transmission.thermal_mode != gearloss_framework::description::ThermalMode::Fixed
         && let gearloss_framework::analysis::Field::List(list) = &mut points.field
     {
-        list.iter_mut().for_each(|given| given.oil = None);
+        for given in list {
+            given.oil = None;
+        }
     }
     let solved = runner.solve(&base, &points)?;
     let (slots, left_out) = candidates::slots(runner, path, entry, &base, (&points, &solved.points))?;

@@ -149,12 +149,13 @@ pub fn run(
                 },
             )
         };
-        out.line(format!(
+        let figures = format!(
             "least {}; greatest {}; mean {}",
             place(least),
             place(greatest),
             number(mean, 3)
-        ))?;
+        );
+        runner.verdict(format!("{} minus {base}, {words} in {label}: {figures}", b.name), out)?;
         out.line("")?;
         let at = |found: Option<(usize, f64)>| {
             found.map(|(i, gap)| {

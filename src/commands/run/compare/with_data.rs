@@ -1,6 +1,6 @@
 //! Models against measured points: the model minus the measurement.
 
-use gearloss_framework::analysis::{Note, PointResult, Statistics, bands, histogram};
+use gearloss_framework::analysis::{Note, PointResult, Statistics, bands, histogram, levels};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
 use gearloss_framework::report::plot::{Line, Stroke};
@@ -114,7 +114,7 @@ pub fn run(
         }
         results.push(show(name, entry, c, out)?);
     }
-    verdict(name, entry, &all, out)?;
+    verdict(runner, name, entry, &all, out)?;
     let built: Vec<&Built<'_>> = all.iter().flat_map(|c| &c.built).collect();
     let mut value = head(runner, name, &built);
     value["data"] = json!({ "file": data.file, "points": measured.rows.len(), "notes": measured.notes });
@@ -226,7 +226,13 @@ fn show(name: &str, entry: &CompareEntry, c: &Compared<'_>, out: &mut Out) -> Re
 }
 
 /// Which set meets the measurement best, and whether the measurement can tell.
-fn verdict(name: &str, entry: &CompareEntry, all: &[Compared<'_>], out: &mut Out) -> Result<(), Failure> {
+fn verdict(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &CompareEntry,
+    all: &[Compared<'_>],
+    out: &mut Out,
+) -> Result<(), Failure> {
     let rms = |c: &Compared<'_>| Statistics::of(c.pairs.iter().filter_map(|p| p.difference)).map(|s| s.rms);
     let mut ranked: Vec<(&str, f64)> = all.iter().filter_map(|c| Some((c.name.as_str(), rms(c)?))).collect();
     ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -239,12 +245,13 @@ fn verdict(name: &str, entry: &CompareEntry, all: &[Compared<'_>], out: &mut Out
         "{name}: `{}` meets the measurement best, {:.3} {unit} rms; next `{}`, {:.3}",
         first.0, first.1, second.0, second.1
     );
-    match accuracy {
-        Some(a) if second.1 - first.1 < a => out.line(format!(
-            "{words}; indistinguishable: the measurement is accurate to {a:.3} {unit}"
-        ))?,
-        _ => out.line(words)?,
-    }
+    let sentence = match accuracy {
+        Some(a) if second.1 - first.1 < a => {
+            format!("{words}; indistinguishable: the measurement is accurate to {a:.3} {unit}")
+        }
+        _ => words,
+    };
+    runner.verdict(sentence, out)?;
     out.line("")?;
     Ok(())
 }
@@ -335,7 +342,7 @@ fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compar
 /// The differences over speed and torque: as a map where the points lie on a grid, but for the scatter of a rig; else as dots.
 fn differences(entry: &CompareEntry, c: &Compared<'_>, title: String) -> Figure {
     let over = |f: fn(&Pair) -> f64| c.pairs.iter().map(f).collect::<Vec<_>>();
-    let (torques, speeds) = (lines_of(&over(|p| p.torque)), lines_of(&over(|p| p.speed * RPM)));
+    let (torques, speeds) = (levels(&over(|p| p.torque)), levels(&over(|p| p.speed * RPM)));
     let mut values = vec![None; torques.len() * speeds.len()];
     let mut on_grid = torques.len() > 1 && speeds.len() > 1 && values.len() == c.pairs.len();
     for (i, pair) in c.pairs.iter().enumerate() {
@@ -369,18 +376,4 @@ fn differences(entry: &CompareEntry, c: &Compared<'_>, title: String) -> Figure 
         unseen: accuracy(entry, c),
         ..Map::default()
     })
-}
-
-/// Places of points that share a value, but for the scatter of a rig: within 2 % of the first.
-fn lines_of(values: &[f64]) -> Vec<Vec<usize>> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-    let mut lines: Vec<Vec<usize>> = Vec::new();
-    for i in order {
-        match lines.last_mut() {
-            Some(line) if (values[i] - values[line[0]]).abs() <= 0.02 * values[line[0]].abs() => line.push(i),
-            _ => lines.push(vec![i]),
-        }
-    }
-    lines
 }

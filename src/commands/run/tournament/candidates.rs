@@ -16,8 +16,8 @@ pub struct Slot {
     /// Mechanism, with the slot of a drag.
     pub name: String,
     mechanism: String,
-    /// Slot of a drag.
-    slot: Option<String>,
+    /// Name among the drags of a gear.
+    drag: Option<String>,
     /// The models.
     pub candidates: Vec<Candidate>,
 }
@@ -37,7 +37,7 @@ pub struct Candidate {
 impl Slot {
     /// True for the parts of this mechanism, and slot.
     pub fn covers(&self, part: &PartInfo) -> bool {
-        let slot = self.slot.as_ref().map(|slot| format!(".drag.{slot}"));
+        let slot = self.drag.as_ref().map(|slot| format!(".drag.{slot}"));
         part.mechanism == self.mechanism && slot.is_none_or(|slot| part.path.ends_with(&slot))
     }
 
@@ -47,7 +47,7 @@ impl Slot {
         if model.is_null() {
             return Ok(changed);
         }
-        let Some(slot) = &self.slot else {
+        let Some(slot) = &self.drag else {
             let section = section(language, &self.mechanism).ok_or("its models sit in no section of the gearbox")?;
             for (id, record) in records(&mut changed.value, section) {
                 let path = format!("{section}.{id}.model");
@@ -183,7 +183,7 @@ fn slot(runner: &Runner<'_>, path: &str, entry: &CandidatesEntry) -> Result<Slot
             None => entry.mechanism.clone(),
         },
         mechanism: entry.mechanism.clone(),
-        slot,
+        drag: slot,
         candidates: Vec::new(),
     })
 }

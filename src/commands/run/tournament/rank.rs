@@ -1,5 +1,6 @@
 //! Combinations ranked by how well they predict measured points that they have not seen.
 
+use gearloss_framework::inference::folds;
 use gearloss_framework::least_squares::{Options, Parameter, Problem, solve};
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Bar, Line, Stroke};
@@ -30,22 +31,6 @@ struct Ranked {
     factors: Vec<f64>,
     /// Slots whose factor stands on a bound.
     on_bound: Vec<usize>,
-}
-
-/// Groups of neighbouring torques, at most as many as asked for.
-fn groups(rows: &[Measurement], folds: usize) -> Vec<Vec<usize>> {
-    let mut order: Vec<usize> = (0..rows.len()).collect();
-    order.sort_by(|a, b| rows[*a].given.torque.total_cmp(&rows[*b].given.torque));
-    let mut lines: Vec<Vec<usize>> = Vec::new();
-    for i in order {
-        let torque = rows[i].given.torque;
-        match lines.last_mut() {
-            Some(line) if (torque - rows[line[0]].given.torque).abs() <= 0.02 * torque.abs() => line.push(i),
-            _ => lines.push(vec![i]),
-        }
-    }
-    let size = lines.len().div_ceil(folds.max(1));
-    lines.chunks(size.max(1)).map(<[Vec<usize>]>::concat).collect()
 }
 
 fn rms(errors: &[f64]) -> f64 {
@@ -125,7 +110,12 @@ pub fn show(
     field: &Field<'_>,
     out: &mut Out,
 ) -> Result<(), Failure> {
-    let groups = groups(rows, entry.folds as usize);
+    let torques: Vec<f64> = rows.iter().map(|row| row.given.torque).collect();
+    let groups = folds(&torques, entry.folds as usize).map_err(|reason| {
+        let path = format!("analyses.{name}.data");
+        runner.wrong(&path, reason, "give points at two torques at least")
+    })?;
+    let groups: Vec<Vec<usize>> = groups.into_iter().map(|fold| fold.points).collect();
     let bar = runner.bar(field.count() as u64, name);
     let mut all: Vec<Ranked> = (0..field.count())
         .into_par_iter()
@@ -155,17 +145,25 @@ pub fn show(
         groups.len(),
         field.unit
     ))?;
-    match (accuracy, all.iter().filter(|r| alike(r)).count()) {
-        (Some(a), count) if count > 1 => out.line(format!(
+    let sentence = match (accuracy, all.iter().filter(|r| alike(r)).count()) {
+        (Some(a), count) if count > 1 => format!(
             "indistinguishable: {count} of {} combinations are within the accuracy of the measurement, {a:.3} {}, of the best",
             all.len(),
             field.unit
-        ))?,
-        (Some(a), _) => out.line(format!(
+        ),
+        (Some(a), _) => format!(
             "the best stands apart by more than the accuracy of the measurement, {a:.3} {}",
             field.unit
-        ))?,
-        (None, _) => out.line("the file states no accuracy, so nothing says which differences can be seen")?,
+        ),
+        (None, _) => "the file states no accuracy, so nothing says which differences can be seen".to_owned(),
+    };
+    if let Some(best) = all.first() {
+        let names = field.names(&best.places).join(", ");
+        let sentence = format!(
+            "best: {names}, predicted to {:.3} {} rms; {sentence}",
+            best.predicted, field.unit
+        );
+        runner.verdict(sentence, out)?;
     }
     if let Some(first) = all.first() {
         out.line(added_up(runner, field, first)?)?;

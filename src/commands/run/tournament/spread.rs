@@ -95,13 +95,14 @@ pub fn show(
         let of = |(r, scale): (&Range, &f64)| 0.5 * (r.greatest - r.least) * scale;
         ranges.iter().zip(&field.scale).map(of).fold(start, f)
     };
-    out.line(format!(
+    let sentence = format!(
         "half of the distance between the extremes: {:.3} to {:.3} {}; standard deviation {:.3} in the root mean square",
         half(f64::min, f64::INFINITY),
         half(f64::max, 0.0),
         field.unit,
         f64::sqrt(whole / field.points.len() as f64),
-    ))?;
+    );
+    runner.verdict(sentence, out)?;
     out.line("")?;
     let mut value = head(runner, name, &[&field.base]);
     value["tournament"] = json!({

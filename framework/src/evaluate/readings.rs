@@ -1,0 +1,120 @@
+//! What models saw at a solved point, and what balances on each member.
+
+use super::{PartLoss, Solution};
+use crate::attach::State;
+use crate::document::Unit;
+use crate::flow::Drive;
+use crate::loss::Notes;
+use crate::mechanism::Mechanism;
+use crate::mechanism::gear_drag::GearDrag;
+use crate::mechanism::gear_mesh::GearMesh;
+use crate::transmission::PartKind;
+
+/// One quantity of a context.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Name.
+    pub name: &'static str,
+    /// Unit of the value.
+    pub unit: &'static Unit,
+    /// Value in that unit.
+    pub value: f64,
+}
+
+/// All quantities of a context, in their documented units.
+pub(crate) fn readings<M: Mechanism>(at: &M::At<'_>) -> Vec<Reading> {
+    let of = |q: &crate::mechanism::Quantity<M>| Reading {
+        name: q.name,
+        unit: q.unit(),
+        value: q.unit().from_si((q.get)(at)),
+    };
+    M::QUANTITIES.iter().map(of).collect()
+}
+
+/// Torques on one member; they balance. \[Nm\]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MemberTorques {
+    /// From ports, and from supports that hold a member at rest.
+    pub ports: f64,
+    /// From meshes and differentials, friction of the teeth included.
+    pub meshes: f64,
+    /// From components and gears that brake.
+    pub drags: f64,
+}
+
+impl MemberTorques {
+    /// What is left over; zero to rounding. \[Nm\]
+    pub fn residual(&self) -> f64 {
+        self.ports + self.meshes + self.drags
+    }
+}
+
+impl Solution<'_> {
+    fn state(&self) -> State<'_> {
+        let s = &*self.scratch;
+        State {
+            speeds: &s.speeds,
+            oils: &s.oils,
+            surface: s.surface,
+            loads: &s.loads,
+            asked: &s.asked,
+        }
+    }
+
+    /// What the model of a part saw, one copy.
+    pub fn readings(&self, part: usize) -> Vec<Reading> {
+        let t = self.transmission;
+        let state = self.state();
+        match t.parts[part].kind {
+            PartKind::Component(i) => t.components[i].placed.readings(&state),
+            PartKind::Mesh(i) => readings::<GearMesh>(&self.mesh_at(i)),
+            PartKind::Drag(i) => readings::<GearDrag>(&t.drag_at(i, &state, Notes::MUTED)),
+        }
+    }
+
+    /// Loss of one part by number.
+    pub fn part(&self, part: usize) -> PartLoss {
+        self.transmission
+            .part_loss(&self.transmission.parts[part], self.scratch)
+    }
+
+    /// Torques on every member. With ideal flow losses change no torque, so friction and drags are zero.
+    pub fn member_torques(&self) -> Vec<MemberTorques> {
+        let (t, work) = (self.transmission, &self.scratch.work);
+        let state = &t.states[self.case.state];
+        let mut torques = vec![MemberTorques::default(); t.members.len()];
+        for (i, own) in torques.iter_mut().enumerate() {
+            own.ports = work.ports[i];
+            own.drags = work.drags[i];
+        }
+        for (row, multiplier) in state.train.rows.iter().zip(&work.multipliers) {
+            for (column, coefficient) in &row.terms {
+                if let Some(own) = torques.get_mut(*column) {
+                    own.meshes += coefficient * multiplier;
+                }
+            }
+        }
+        if self.ideal {
+            return torques;
+        }
+        for (k, mesh) in state.meshes.iter().enumerate() {
+            // The driven gear loses torque against its motion in the carrier's frame, which the carrier takes up.
+            let (driven, side) = match work.drives[k] {
+                Drive::Second => (mesh.first, 1),
+                Drive::First | Drive::Neither => (mesh.second, 0),
+            };
+            let relative = work.relative[k][side];
+            if relative == 0.0 || work.mesh_loss[k] == 0.0 {
+                continue;
+            }
+            let torque = work.mesh_loss[k] / relative;
+            if let Some(own) = driven.and_then(|d| torques.get_mut(d)) {
+                own.meshes -= torque;
+            }
+            if let Some(own) = mesh.carrier.and_then(|c| torques.get_mut(c)) {
+                own.meshes += torque;
+            }
+        }
+        torques
+    }
+}

@@ -1,0 +1,303 @@
+//! One operating point of a gearbox in the report: loads, balance of powers, and what its losses rest on.
+
+use gearloss_framework::analysis::{Given, OilTemperature, evidence};
+use gearloss_framework::description::AssumedEntry;
+use gearloss_framework::evaluate::{Point, Reading, Solution};
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::mechanism::bearing::BearingPart;
+use gearloss_framework::registry::Evidence;
+use gearloss_framework::transmission::Transmission;
+
+use super::super::super::solve::RPM;
+use super::super::{Built, Runner, gear_of, speeds, torques};
+use super::table;
+use crate::output::number;
+use crate::report::PageTable;
+
+/// Where the report looks: as the study says, or the greatest torque and speed of its first grid.
+pub fn place(runner: &Runner<'_>, t: &Transmission) -> Option<(String, Given)> {
+    let entry = &runner.study.entry;
+    let given = |torque, speed| Given {
+        torque,
+        speed,
+        oil: None,
+    };
+    if let Some(at) = &entry.report_at {
+        return Some((gear_of(at.gear.as_deref(), t).to_owned(), given(at.torque, at.speed)));
+    }
+    let (name, grid) = entry.grids.iter().next()?;
+    let path = format!("grids.{name}");
+    let greatest = |values: Vec<f64>| values.into_iter().reduce(|a, b| if b.abs() > a.abs() { b } else { a });
+    let torque = greatest(torques(runner, &path, &grid.torque, t).ok()?)?;
+    let speed = greatest(speeds(runner, &path, &grid.speed, t).ok()?)?;
+    let gear = grid.gear.names().first()?;
+    t.state(gear).ok()?;
+    Some((gear.clone(), given(torque, speed)))
+}
+
+/// What the report shows of one point.
+pub struct Page {
+    /// The point in words.
+    pub words: String,
+    /// Loads and balance under the first set, what losses rest on under every set.
+    pub tables: Vec<PageTable>,
+}
+
+/// Solves the point under every set.
+pub fn page(runner: &Runner<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -> Option<Page> {
+    let first = sets.first()?;
+    let (gear, given) = place(runner, &first.transmission)?;
+    let (mut tables, mut rests, mut words) = (Vec::new(), Vec::new(), String::new());
+    for (i, b) in sets.iter().enumerate() {
+        let t = &b.transmission;
+        let points = runner.listed(t, &gear, vec![given]);
+        let case = points.case(t).ok()?;
+        let (own_torques, own_speeds) = ([given.torque], [given.speed]);
+        let point = Point {
+            speeds: &own_speeds[..case.speed_ports.len().min(1)],
+            torques: &own_torques[..case.torque_ports.len().min(1)],
+            flow: points.flow,
+            tolerance: Tolerance::default(),
+        };
+        let mut scratch = t.scratch(&case);
+        let (oil, balance) = OilTemperature::find(points.oil, t, &case, &point, &mut scratch);
+        let solution = t.evaluate(&case, &point, &vec![oil; t.nodes()], &mut scratch);
+        if i == 0 {
+            let conditions = &runner.study.entry.conditions;
+            words = format!(
+                "gear {gear}, {} Nm at {}, {:.0} rpm at {}, oil {} °C{}, models {}",
+                given.torque,
+                conditions.torque_at,
+                given.speed * RPM,
+                conditions.speed_at,
+                number(Some(oil), 1),
+                if balance.is_some() { " by balance" } else { "" },
+                b.name
+            );
+            tables.push(bearings(b, &solution));
+            tables.push(dips(t, &solution));
+            tables.push(ports(t, &solution));
+            tables.push(members(t, &solution));
+        }
+        rests.push(rest_on(b, &solution, assumed));
+    }
+    tables.push(table(
+        "Share of the loss in % that rests on assumed inputs, recalled formulas, and models outside of their stated range",
+        &[
+            "models",
+            "loss W",
+            "assumed input of the component",
+            "recalled or assumed formula or default",
+            "outside of a stated range",
+            "any of them",
+        ],
+        rests,
+    ));
+    tables.retain(|t: &PageTable| !t.rows.is_empty());
+    Some(Page { words, tables })
+}
+
+fn read(readings: &[Reading], name: &str) -> Option<f64> {
+    readings.iter().find(|r| r.name == name).map(|r| r.value)
+}
+
+/// Loads of bearings, with static safety, speed factor and oil height.
+fn bearings(b: &Built<'_>, solution: &Solution<'_>) -> PageTable {
+    let t = &b.transmission;
+    let mut rows = Vec::new();
+    for (i, part) in t.parts().iter().enumerate().filter(|(_, p)| p.mechanism == "bearing") {
+        let readings = solution.readings(i);
+        let read = |name: &str| read(&readings, name);
+        let id = part.path.trim_start_matches("bearings.");
+        let described = &b.resolved.value["bearings"][id];
+        let bearing = gearloss_framework::registry::from_resolved::<BearingPart>(described).ok();
+        let (radial, axial) = (read("radial").unwrap_or(0.0), read("axial").unwrap_or(0.0));
+        let safety = bearing
+            .as_ref()
+            .and_then(|b| Some(b.c0? / b.static_load(radial, axial).filter(|p0| *p0 > 0.0)?));
+        let speed = read("speed").unwrap_or(0.0);
+        let factor = bearing.as_ref().map(|b| speed.abs() * b.mean_diameter() * 1e3);
+        let name = bearing.as_ref().and_then(|b| b.designation.clone());
+        rows.push(vec![
+            id.to_owned(),
+            name.unwrap_or_default(),
+            format!("{speed:.1}"),
+            format!("{radial:.1}"),
+            format!("{axial:.1}"),
+            number(read("tilting"), 2),
+            number(safety, 2),
+            number(factor.map(|f| f * 1e-6), 3),
+            number(read("oil_height"), 1),
+            number(Some(solution.part(i).watts()), 3),
+        ]);
+    }
+    table(
+        "Bearings",
+        &[
+            "bearing",
+            "designation",
+            "n rpm",
+            "F_r N",
+            "F_a N",
+            "M Nm",
+            "C0/P0",
+            "n d_m 1e6 mm/min",
+            "H mm",
+            "loss W",
+        ],
+        rows,
+    )
+}
+
+/// How deep gears dip, where a model asks for it.
+fn dips(t: &Transmission, solution: &Solution<'_>) -> PageTable {
+    let drags = t.parts().iter().enumerate().filter(|(_, p)| p.mechanism == "gear_drag");
+    let rows = drags.map(|(i, part)| {
+        let readings = solution.readings(i);
+        let read = |name: &str| number(read(&readings, name), 1);
+        vec![
+            part.path.clone(),
+            read("tip_dip"),
+            read("dip"),
+            read("tip_dip_2"),
+            read("dip_2"),
+            number(Some(solution.part(i).watts()), 3),
+        ]
+    });
+    table(
+        "Dip of gears below the oil: at the tip and at the reference circle, first and second gear",
+        &["drag", "tip mm", "reference mm", "tip 2 mm", "reference 2 mm", "loss W"],
+        rows.collect(),
+    )
+}
+
+fn ports(t: &Transmission, solution: &Solution<'_>) -> PageTable {
+    let mut rows: Vec<Vec<String>> = t
+        .ports()
+        .iter()
+        .enumerate()
+        .map(|(i, port)| {
+            let (speed, torque) = (solution.speed(port.member), solution.torque(i));
+            vec![
+                port.name.clone(),
+                format!("{:.2}", speed * RPM),
+                format!("{torque:.4}"),
+                format!("{:.3}", speed * torque),
+            ]
+        })
+        .collect();
+    let gap = solution.residual().map(|r| format!("{r:.1e}"));
+    for (name, value) in [
+        ("losses", number(solution.loss().map(|l| -l), 3)),
+        ("residual", gap.unwrap_or_else(|| "-".to_owned())),
+        ("efficiency %", number(solution.efficiency().map(|e| 100.0 * e), 3)),
+    ] {
+        rows.push(vec![name.to_owned(), String::new(), String::new(), value]);
+    }
+    table("Power at the ports", &["port", "n rpm", "T Nm", "P W"], rows)
+}
+
+/// Powers that each member takes and gives.
+fn members(t: &Transmission, solution: &Solution<'_>) -> PageTable {
+    let torques = solution.member_torques();
+    let rows = t.members().iter().zip(&torques).enumerate().map(|(i, (name, own))| {
+        let speed = solution.speed(i);
+        let watts = |torque: f64| format!("{:.3}", torque * speed);
+        vec![
+            name.clone(),
+            format!("{:.2}", speed * RPM),
+            watts(own.ports),
+            watts(own.meshes),
+            watts(own.drags),
+            format!("{:.1e}", own.residual() * speed),
+        ]
+    });
+    table(
+        "Balance of powers by member: what comes in is positive",
+        &["member", "n rpm", "ports W", "meshes W", "drags W", "residual W"],
+        rows.collect(),
+    )
+}
+
+/// Shares of the loss that rest on weak ground, in percent.
+fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> Vec<String> {
+    let t = &b.transmission;
+    let known = evidence(t, &b.resolved, &|path| b.gearbox.places.is_written(path));
+    let weak = |path: &str| {
+        let grades = known.iter().filter(|w| w.grade >= Evidence::Recalled);
+        grades
+            .flat_map(|w| &w.paths)
+            .any(|p| p == path || p.starts_with(&format!("{path}.")))
+    };
+    let patterns: Vec<&str> = assumed
+        .iter()
+        .flat_map(|a| a.paths.iter().map(String::as_str))
+        .collect();
+    let extents = solution.extents();
+    let mut sums = [0.0; 4];
+    for (i, (part, loss)) in solution.parts().enumerate() {
+        let watts = loss.watts();
+        let component = part.path.split(".drag.").next().unwrap_or(&part.path);
+        let instance = &t.instances()[part.notes.instance];
+        let own = |path: &str| path == instance.path || path.starts_with(&format!("{}.", instance.path));
+        let left = t.instances().iter().filter(|i| own(&i.path)).any(|i| {
+            let limits = i.entry.limits.iter();
+            limits
+                .into_iter()
+                .any(|l| extents[i.notes.limits + l.index].outside > 0)
+        });
+        let flags = [
+            gears_of(t, i)
+                .iter()
+                .map(String::as_str)
+                .chain([component])
+                .any(|c| is_assumed(&patterns, c)),
+            weak(&instance.path),
+            left,
+        ];
+        for (sum, flag) in sums.iter_mut().zip(flags) {
+            *sum += if flag { watts } else { 0.0 };
+        }
+        sums[3] += if flags.contains(&true) { watts } else { 0.0 };
+    }
+    let loss = solution.loss().filter(|loss| *loss > 0.0);
+    let share = |watts: f64| number(loss.map(|loss| 100.0 * watts / loss), 1);
+    let mut row = vec![b.name.clone(), number(loss, 3)];
+    row.extend(sums.map(share));
+    row
+}
+
+/// Paths of the gears of a mesh, whose inputs are those of its loss too.
+fn gears_of(t: &Transmission, part: usize) -> Vec<String> {
+    let path = t.parts()[part].path.as_str();
+    let path = path.split(".drag.").next().unwrap_or(path);
+    t.gears_of_mesh(path).iter().map(|id| format!("gears.{id}")).collect()
+}
+
+/// True where a pattern names the component, something of it, or what it belongs to.
+fn is_assumed(patterns: &[&str], component: &str) -> bool {
+    patterns.iter().any(|pattern| {
+        let mut keys = pattern.split('.');
+        component
+            .split('.')
+            .all(|key| keys.next().is_none_or(|p| p == "*" || p == key))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_assumed;
+
+    #[test]
+    fn a_pattern_names_a_component_its_values_or_its_section() {
+        for (pattern, named) in [
+            ("bearings.B3", true),
+            ("bearings.*.at", true),
+            ("bearings", true),
+            ("bearings.B4", false),
+            ("housing.oil", false),
+        ] {
+            assert_eq!(is_assumed(&[pattern], "bearings.B3"), named, "{pattern}");
+        }
+    }
+}
