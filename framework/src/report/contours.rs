@@ -13,7 +13,7 @@ pub fn levels(low: f64, high: f64, about: usize) -> Vec<f64> {
     let step = [1.0, 2.0, 2.5, 5.0, 10.0]
         .into_iter()
         .map(|s| s * decade)
-        .find(|s| *s >= raw)
+        .find(|s| *s >= raw / 1.4)
         .unwrap_or(raw);
     let first = (low / step).ceil() as i64;
     let last = (high / step).floor() as i64;
