@@ -143,12 +143,14 @@ pub fn slots(
                 .filter(|i| slot.covers(&base.transmission.parts()[*i]))
                 .collect();
             let of_own = |p: &PointResult| own.iter().map(|i| p.parts[*i]).sum();
+            let loss: Vec<f64> = solved.iter().map(of_own).collect();
+            slot.candidates.retain(|candidate| candidate.loss != loss);
             slot.candidates.insert(
                 0,
                 Candidate {
                     name: format!("as in {}", base.name),
                     model: Value::Null,
-                    loss: solved.iter().map(of_own).collect(),
+                    loss,
                     time: 1.0,
                 },
             );
