@@ -255,6 +255,10 @@ pub enum KindArg {
     Study,
     /// Input of `eval`.
     Eval,
+    /// What `run` writes for an analysis.
+    Result,
+    /// What `solve --format json` prints.
+    Point,
 }
 
 impl AxisArg {

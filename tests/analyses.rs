@@ -59,7 +59,7 @@ fn the_loss_along_the_path_is_that_of_the_mesh() {
     let breakdown = &whole["breakdowns"][0];
     let shares = breakdown["shares"].as_array().unwrap();
     let place = shares.iter().position(|s| s == "meshes.M1").unwrap();
-    let mesh = breakdown["points"][0]["loss"][place].as_f64().unwrap();
+    let mesh = breakdown["points"][0]["losses_w"][place].as_f64().unwrap();
     // The trapezium crosses four jumps of the share.
     assert!((mean / mesh - 1.0).abs() < 3e-3, "{mean} {mesh}");
 }
@@ -73,7 +73,7 @@ fn models_of_one_component_stand_beside_measured_points() {
         analyses,
         &[("measured.csv", "torque [Nm],speed [rpm],loss [W]\n10,5000,1\n")],
     );
-    let compared = json(&first.0, "b1");
+    let compared = json(&first.0, "b1")["component_comparison"].clone();
     let loss = |model: usize, point: usize| compared["models"][model]["points"][point]["loss_w"].as_f64().unwrap();
     let term = |model: usize, name: &str| {
         compared["models"][model]["points"][0]["terms_w"][name]

@@ -62,8 +62,8 @@ fn solve_prints_a_table_and_json_with_the_same_numbers() {
     assert_eq!(json["format"], "gearloss-point/1");
     let loss = json["loss_w"].as_f64().unwrap();
     assert!(table.contains(&format!("loss {loss:.4} W")), "{table}");
-    let residual = json["balance"]["residual_w"].as_f64().unwrap();
-    assert!(residual.abs() < 1e-11 * json["balance"]["largest_internal_power_w"].as_f64().unwrap());
+    let residual = json["power"]["residual_w"].as_f64().unwrap();
+    assert!(residual.abs() < 1e-11 * json["power"]["largest_internal_power_w"].as_f64().unwrap());
     let parts: f64 = json["parts"]
         .as_array()
         .unwrap()

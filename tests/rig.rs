@@ -180,7 +180,7 @@ fn models_are_compared_with_the_file_in_points_and_in_percent_of_loss() {
         let (saw, model) = (number(&point["measured"]), number(&point["model"]));
         assert!((number(&point["difference"]) - 100.0 * (model - saw)).abs() < 1e-12);
         let of_loss = 100.0 * ((1.0 - model) / (1.0 - saw) - 1.0);
-        assert!((number(&point["loss_percent_of_loss"]) - of_loss).abs() < 1e-6 * of_loss.abs().max(1.0));
+        assert!((number(&point["loss_difference_percent_of_loss"]) - of_loss).abs() < 1e-6 * of_loss.abs().max(1.0));
     }
     // The second is the same product by another name: no measurement tells them apart.
     assert_eq!(first["difference"], comparisons[1]["difference"]);

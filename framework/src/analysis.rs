@@ -7,7 +7,7 @@ mod sums;
 mod temperature;
 
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
-pub use notes::{Note, WeakPoint, evidence, notes};
+pub use notes::{Note, Stated, WeakPoint, evidence, notes};
 pub use statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use sums::{SUMS, sum_of};
 pub use temperature::OilTemperature;

@@ -18,6 +18,8 @@ mod tournament;
 mod uncertainty;
 mod write;
 
+pub(super) use map::tidy;
+
 use std::cell::{Cell, RefCell};
 use std::path::{Path, PathBuf};
 
@@ -64,6 +66,8 @@ pub(super) struct Runner<'a> {
     report: RefCell<Report>,
     /// Limits that were left at any point, counted over all analyses.
     left: Cell<usize>,
+    /// Files of points that the analysis at hand has read, with their hashes.
+    read: RefCell<Vec<(String, String)>>,
 }
 
 impl Runner<'_> {
@@ -193,6 +197,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
         progress: out.is_terminal(),
         report: RefCell::default(),
         left: Cell::new(0),
+        read: RefCell::default(),
     };
     if let Some(title) = &study.entry.title {
         out.line(title)?;
@@ -202,6 +207,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
         runner.report.borrow_mut().begin(name, about(analysis));
+        runner.read.borrow_mut().clear();
         out.begin_copy();
         let done = match analysis {
             Analysis::Map(entry) => map::run(&runner, name, entry, out),

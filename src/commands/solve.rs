@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use super::check::grade;
 use super::point::{Prepared, prepare};
+use super::run::tidy;
 use super::{choice, language, warn};
 use crate::args::{Format, SolveArgs};
 use crate::output::{End, Failure, Out, Table, number, significant};
@@ -44,7 +45,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             let found = balance.as_ref().is_none_or(|b| b.oil().is_some());
             value["oil_temperature_degc"] = json!(found.then_some(oil));
             value["evaluated_at_degc"] = json!(oil);
-            value["thermal"] = json!(balance.as_ref().map(|b| json_of_balance(&transmission, b)));
+            value["balance"] = json!(balance.as_ref().map(|b| json_of_balance(&transmission, b)));
             value["notes"] = json!(seen);
             value["evidence"] = json!(known);
             value["unreached"] = json!(resolved.unreached);
@@ -318,6 +319,14 @@ fn multiplied(solution: &Solution<'_>) -> Option<f64> {
     Some(solution.largest_power() / input)
 }
 
+/// The usual sums by their names.
+pub fn by_name(sums: [f64; 6]) -> Value {
+    let named = SUMS.iter().zip(sums);
+    named
+        .map(|((name, _), watts)| ((*name).to_owned(), json!(watts)))
+        .collect()
+}
+
 fn sums(transmission: &Transmission, solution: &Solution<'_>) -> [f64; 6] {
     let mut sums = [0.0; 6];
     for (part, loss) in solution.parts() {
@@ -340,7 +349,7 @@ pub fn outside(notes: &[Note]) -> String {
     }
     let mut text = String::new();
     for (note, group) in groups {
-        let Some((least, greatest, origin)) = note.range else {
+        let Some(stated) = note.range else {
             continue;
         };
         let unit = if note.unit == "-" {
@@ -353,13 +362,14 @@ pub fn outside(notes: &[Note]) -> String {
         let outside: u32 = group.iter().map(|n| n.outside).sum();
         let points: u32 = group.iter().map(|n| n.points).sum();
         text.push_str(&format!(
-            "outside: {}: {} {} to {}{unit} is outside of {} to {} at {outside} of {points} points ({origin})\n",
+            "outside: {}: {} {} to {}{unit} is outside of {} to {} at {outside} of {points} points ({})\n",
             paths.join(", "),
             note.name,
             significant(seen(f64::min, |n| n.least)),
             significant(seen(f64::max, |n| n.greatest)),
-            significant(least),
-            significant(greatest),
+            significant(stated.least),
+            significant(stated.greatest),
+            stated.origin,
         ));
     }
     text
@@ -372,14 +382,14 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
         .enumerate()
         .map(|(i, port)| {
             let (speed, torque) = (solution.speed(port.member), solution.torque(i));
-            json!({ "port": port.name, "speed_rad_s": speed, "torque_nm": torque, "power_w": speed * torque })
+            json!({ "port": port.name, "speed_rpm": tidy(speed * RPM), "torque_nm": torque, "power_w": speed * torque })
         })
         .collect();
     let members: Vec<Value> = transmission
         .members()
         .iter()
         .enumerate()
-        .map(|(i, name)| json!({ "member": name, "speed_rad_s": solution.speed(i) }))
+        .map(|(i, name)| json!({ "member": name, "speed_rpm": tidy(solution.speed(i) * RPM) }))
         .collect();
     let loads: Vec<Value> = transmission
         .supports()
@@ -410,8 +420,8 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
                 "mechanism": part.mechanism,
                 "model": entry.name,
                 "count": part.count,
-                "relative_speed_rad_s": loss.speed,
-                "moment_nm": loss.moment(),
+                "relative_speed_rpm": tidy(loss.speed * RPM),
+                "moment_of_one_nm": loss.moment(),
                 "loss_w": loss.result.is_ok().then(|| loss.watts()),
                 "undefined": loss.result.err().map(|e| e.to_string()),
                 "terms": terms,
@@ -427,7 +437,7 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
         "efficiency": solution.efficiency(),
         "loss_w": solution.loss(),
         "loss_torque_nm": solution.loss_torque(),
-        "balance": {
+        "power": {
             "input_w": solution.input_power(),
             "output_w": solution.output_power(),
             "loss_w": solution.loss(),
@@ -435,7 +445,7 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
             "largest_internal_power_w": solution.largest_power(),
             "largest_internal_over_input": multiplied(solution),
         },
-        "sums_w": SUMS.iter().zip(sums(transmission, solution)).map(|((name, _), w)| ((*name).to_owned(), json!(w))).collect::<serde_json::Map<_, _>>(),
+        "sums_w": by_name(sums(transmission, solution)),
         "ports": ports,
         "members": members,
         "supports": loads,

@@ -25,8 +25,19 @@ pub struct Note {
     pub points: u32,
     /// At how many points it was outside of the stated range; zero for an observed quantity.
     pub outside: u32,
-    /// The stated range with its origin; absent for an observed quantity.
-    pub range: Option<(f64, f64, &'static str)>,
+    /// The stated range; absent for an observed quantity.
+    pub range: Option<Stated>,
+}
+
+/// The range in which a model is stated to hold, in the unit of the note.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Stated {
+    /// Lower end.
+    pub least: f64,
+    /// Upper end.
+    pub greatest: f64,
+    /// Where it comes from.
+    pub origin: &'static str,
 }
 
 /// All limits and observed quantities that were seen.
@@ -35,13 +46,12 @@ pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
     for instance in transmission.instances() {
         for limit in instance.entry.limits {
             let extent = seen[instance.notes.limits + limit.index];
-            notes.extend(note(
-                instance,
-                limit.name,
-                limit.unit,
-                extent,
-                Some((limit.least, limit.greatest, limit.origin)),
-            ));
+            let stated = Stated {
+                least: limit.least,
+                greatest: limit.greatest,
+                origin: limit.origin,
+            };
+            notes.extend(note(instance, limit.name, limit.unit, extent, Some(stated)));
         }
         for observed in instance.entry.observed {
             notes.extend(note(
@@ -61,7 +71,7 @@ fn note(
     name: &'static str,
     unit: &'static str,
     extent: Extent,
-    range: Option<(f64, f64, &'static str)>,
+    range: Option<Stated>,
 ) -> Option<Note> {
     (extent.seen > 0).then(|| Note {
         path: instance.path.clone(),

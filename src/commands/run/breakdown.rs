@@ -234,6 +234,10 @@ pub fn spin_loss(runner: &Runner<'_>, name: &str, entry: &SpinLossEntry, out: &m
             let seen = notes(t, &solved.seen);
             out.line(outside(&seen))?;
             bars.close(b, gear, &seen);
+            // Not the port of the conditions, at which the other analyses give their speeds.
+            if let Some(result) = bars.results.last_mut() {
+                result["turned_at"] = turned.clone().into();
+            }
         }
     }
     finish(runner, name, &built, &bars)

@@ -1,5 +1,6 @@
 //! Several models of one component over speed, term by term, with measured points beside them.
 
+use gearloss_framework::analysis::{Note, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{PartLoss, Point};
 use gearloss_framework::flow::Tolerance;
@@ -32,6 +33,7 @@ struct Model<'a> {
     gear: String,
     terms: &'static [Term],
     answers: Vec<Answer>,
+    notes: Vec<Note>,
 }
 
 /// One measured point. \[Nm, rad/s, W\]
@@ -101,25 +103,20 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
     ]
     .map(str::to_owned);
     let mut value = head(runner, name, &models.iter().map(|m| &m.built).collect::<Vec<_>>());
-    let conditions = &runner.study.entry.conditions;
     let given = runner.points(&models[0].built.transmission, "", Vec::new(), Vec::new());
-    value["component"] = entry.component.clone().into();
-    value["gear"] = models[0].gear.clone().into();
-    value["oil_temperature_degc"] = json!(given.oil.given());
-    value["power_flow"] = json!(given.flow);
-    value["torque_at"] = conditions.torque_at.clone().into();
-    value["speed_at"] = conditions.speed_at.clone().into();
-    value["models"] = models.iter().map(|m| json_of(m, points.len())).collect();
-    value["measured"] = measured
-        .iter()
-        .map(|m| json!({ "torque_nm": m.torque, "speed_rpm": tidy(m.speed * RPM), "loss_w": m.watts }))
-        .collect();
-    value["deviations"] = deviations
-        .iter()
-        .map(|(model, mean, rms, count)| {
-            json!({ "model": model, "mean_percent": mean, "rms_percent": rms, "points": count })
-        })
-        .collect();
+    value["component_comparison"] = json!({
+        "component": entry.component,
+        "model_set": entry.model_set,
+        "gear": models[0].gear,
+        "oil_temperature_degc": given.oil.given(),
+        "models": models.iter().map(|m| json_of(m, points.len())).collect::<Vec<_>>(),
+        "measured": measured.iter().map(|m| json!({
+            "torque_nm": m.torque, "speed_rpm": tidy(m.speed * RPM), "loss_w": m.watts,
+        })).collect::<Vec<_>>(),
+        "deviations": deviations.iter().map(|(model, mean, rms, count)| json!({
+            "model": model, "count": count, "mean_percent": mean, "rms_percent": rms,
+        })).collect::<Vec<_>>(),
+    });
     write(runner, name, &entry.write, &header, &rows, &value)?;
     if failed.is_empty() {
         Ok(())
@@ -178,11 +175,12 @@ fn answered<'a>(
         .copied()
         .chain(measured.iter().map(|m| (m.torque, m.speed)))
         .collect();
-    let answers =
+    let (answers, seen) =
         answers(runner, &transmission, &gear, part, &all).map_err(|list| Failure::from(gearbox.findings(list)))?;
-    let notes = transmission.parts()[part].notes;
+    let instance = transmission.parts()[part].notes.instance;
     Ok(Model {
-        terms: transmission.instances()[notes.instance].entry.terms,
+        terms: transmission.instances()[instance].entry.terms,
+        notes: seen,
         gear,
         built: Built {
             name: model.to_owned(),
@@ -206,7 +204,7 @@ fn answers(
     gear: &str,
     part: usize,
     points: &[(f64, f64)],
-) -> Result<Vec<Answer>, Vec<Diagnostic>> {
+) -> Result<(Vec<Answer>, Vec<Note>), Vec<Diagnostic>> {
     let given = runner.points(transmission, gear, Vec::new(), Vec::new());
     let case = given.case(transmission)?;
     let mut scratch = transmission.scratch(&case);
@@ -231,7 +229,7 @@ fn answers(
         })
         .collect();
     runner.seen(transmission, &scratch.totals);
-    Ok(answers)
+    Ok((answers, notes(transmission, &scratch.totals)))
 }
 
 /// Loss of all copies, where it has a value.
@@ -296,6 +294,7 @@ fn json_of(model: &Model<'_>, points: usize) -> Value {
         "model": model.built.name,
         "points": describe(&model.answers[..points]),
         "at_measured": describe(&model.answers[points..]),
+        "notes": model.notes,
     })
 }
 

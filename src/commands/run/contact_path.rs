@@ -127,10 +127,12 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut 
             "model_set": b.name,
             "mesh": entry.mesh,
             "gear": found.gear,
+            "torque_nm": entry.torque,
+            "speed_rpm": tidy(entry.speed * RPM),
             "oil_temperature_degc": found.temperature,
             "load_sharing": found.sharing,
             "mesh_torque_nm": found.torque,
-            "no_friction": found.silent,
+            "no_friction": Some(&found.silent).filter(|why| !why.is_empty()),
             "places": found.places.iter().map(|p| json!({
                 "from_pitch_point_mm": p.from_pitch, "load_share": p.share, "sliding_speed_m_s": p.sliding,
                 "sum_speed_m_s": p.sum_speed, "radius_mm": p.radius, "hertz_pressure_gpa": p.pressure,
@@ -139,8 +141,6 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut 
         }));
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
-    value["torque_nm"] = json!(entry.torque);
-    value["speed_rpm"] = json!(tidy(entry.speed * RPM));
     value["paths"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &rows, &value)?;
     Ok(())

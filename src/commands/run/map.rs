@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 use self::over_bound::over_bound;
 use self::pictures::pictures;
-use super::super::solve::{RPM, outside};
+use super::super::solve::{RPM, by_name, outside};
 use super::write::{cell, head, write};
 use super::{Built, Runner, speeds, torques};
 use crate::output::{Failure, Out, Table, number};
@@ -322,8 +322,7 @@ impl Map<'_> {
         let own = self.built.transmission.parts();
         let columns: Vec<Option<usize>> = parts.iter().map(|p| own.iter().position(|o| o.path == *p)).collect();
         let row = |point: &PointResult| {
-            let undefined = point.undefined.map(|(part, _)| part);
-            let known = point.oil.is_some();
+            let (sums, parts) = (sums(point), parts_of(point));
             let mut row = vec![self.built.name.clone(), self.gear.clone()];
             row.extend(self.bound.iter().map(|(_, value)| word(value)));
             row.extend([
@@ -339,11 +338,8 @@ impl Map<'_> {
                 cell(point.input),
                 cell(point.output),
             ]);
-            row.extend(point.sums.iter().map(|s| cell(known.then_some(*s))));
-            row.extend(columns.iter().map(|c| {
-                let part = c.filter(|c| known && undefined != Some(*c));
-                cell(part.map(|c| point.parts[c]))
-            }));
+            row.extend((0..SUMS.len()).map(|i| cell(sums.map(|s| s[i]))));
+            row.extend(columns.iter().map(|c| cell(c.and_then(|c| parts[c]))));
             row
         };
         self.points.iter().map(row).collect()
@@ -416,6 +412,19 @@ pub fn spread(count: usize) -> Vec<usize> {
     places
 }
 
+/// The usual sums of a point; absent without a temperature. \[W\]
+fn sums(point: &PointResult) -> Option<[f64; 6]> {
+    point.oil.map(|_| point.sums)
+}
+
+/// Losses of the parts of a point; absent without a temperature, and where a model has no value. \[W\]
+fn parts_of(point: &PointResult) -> Vec<Option<f64>> {
+    let undefined = point.undefined.map(|(part, _)| part);
+    let known = |i: usize| point.oil.is_some() && undefined != Some(i);
+    let parts = point.parts.iter().enumerate();
+    parts.map(|(i, watts)| known(i).then_some(*watts)).collect()
+}
+
 impl Map<'_> {
     fn result(&self) -> Value {
         let built = &self.built;
@@ -435,8 +444,8 @@ impl Map<'_> {
                     "loss_torque_nm": p.loss_torque,
                     "input_w": p.input,
                     "output_w": p.output,
-                    "sums_w": p.sums,
-                    "parts_w": p.parts,
+                    "sums_w": sums(p).map(by_name),
+                    "parts_w": parts_of(p),
                     "undefined": p.undefined.map(|(part, reason)| json!({ "part": built.transmission.parts()[part].path, "reason": reason.to_string() })),
                 })
             })
@@ -444,7 +453,7 @@ impl Map<'_> {
         json!({
             "model_set": built.name,
             "gear": self.gear,
-            "bound": self.bound.iter().map(|(path, value)| json!({ "path": path, "value": value })).collect::<Vec<_>>(),
+            "bound": self.bound.iter().cloned().collect::<serde_json::Map<_, _>>(),
             "oil_temperature_degc": self.oil.given(),
             "sums": SUMS.map(|(name, meaning)| json!({ "sum": name, "meaning": meaning })),
             "parts": built.transmission.parts().iter().map(|p| json!({

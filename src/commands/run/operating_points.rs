@@ -143,7 +143,7 @@ fn cells(set: &str, gear: &str, shares: usize, at: &At<'_>) -> Vec<String> {
 }
 
 fn result(entry: &OperatingPointsEntry, solved: &Solved<'_>, names: &[String], points: &[At<'_>]) -> Value {
-    let list = points.iter().map(|at| {
+    let list = points.iter().zip(&solved.rows).map(|(at, (_, gear, _))| {
         let p = at.point;
         let bound: Map<String, Value> = entry
             .bind
@@ -157,7 +157,7 @@ fn result(entry: &OperatingPointsEntry, solved: &Solved<'_>, names: &[String], p
             .map(|((quantity, unit), v)| (format!("{quantity}_{unit}"), json!(v)))
             .collect();
         json!({
-            "name": at.name, "bound": bound,
+            "name": at.name, "gear": gear, "bound": bound,
             "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "oil_temperature_degc": p.oil,
             "surface_temperature_degc": p.surface, "balance": p.balance, "status": p.status,
             "efficiency": p.efficiency, "loss_w": p.loss, "losses_w": at.stack, "measured": measured,
@@ -165,7 +165,6 @@ fn result(entry: &OperatingPointsEntry, solved: &Solved<'_>, names: &[String], p
     });
     json!({
         "model_set": solved.name,
-        "gear": solved.rows.first().map(|(_, gear, _)| gear),
         "shares": names,
         "notes": solved.notes,
         "points": list.collect::<Vec<_>>(),

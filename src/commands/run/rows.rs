@@ -8,6 +8,7 @@ use gearloss_framework::loss::Extent;
 use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
 use serde_json::Value;
 
+use super::write::hash;
 use super::{Built, Runner, gear_of};
 use crate::output::Failure;
 
@@ -36,6 +37,10 @@ impl Runner<'_> {
                 "file names are relative to the study".to_owned(),
             )
         })?;
+        let known = (entry.file.clone(), hash(&bytes));
+        if !self.read.borrow().contains(&known) {
+            self.read.borrow_mut().push(known);
+        }
         entry
             .read(&bytes, bind)
             .map_err(|fault| wrong(fault.message, fault.mend))

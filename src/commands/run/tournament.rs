@@ -6,7 +6,7 @@ mod spread;
 
 use gearloss_framework::analysis::{Given, PointResult};
 use gearloss_framework::measured::Measured;
-use gearloss_framework::study::{Quantity, TournamentEntry};
+use gearloss_framework::study::{Difference, Quantity, TournamentEntry};
 use serde_json::{Value, json};
 
 use self::candidates::Slot;
@@ -237,7 +237,7 @@ fn field<'a>(
         Quantity::LossTorque => 1.0 / p.speed.abs(),
         Quantity::Loss | Quantity::Temperature => 1.0,
     };
-    let unit = entry.quantity.words(gearloss_framework::study::Difference::Points).1;
+    let unit = entry.quantity.words(Difference::Points).1;
     let field = Field {
         scale: solved.points.iter().map(scale).collect(),
         gear: points.gear,
@@ -285,13 +285,18 @@ fn field<'a>(
     Ok(field)
 }
 
+/// Unit of errors, as in comparisons.
+fn unit(entry: &TournamentEntry) -> &'static str {
+    entry.quantity.unit(Difference::Points)
+}
+
 /// The slots with their candidates, for JSON.
 fn json_of(field: &Field<'_>) -> Value {
     let slot = |s: &Slot| {
         let candidates = s
             .candidates
             .iter()
-            .map(|c| json!({ "name": c.name, "model": c.model, "loss_w": c.loss }));
+            .map(|c| json!({ "name": c.name, "model": c.model, "losses_w": c.loss }));
         json!({ "mechanism": s.name, "candidates": candidates.collect::<Vec<_>>() })
     };
     Value::Array(field.slots.iter().map(slot).collect())

@@ -302,7 +302,7 @@ impl Sampled<'_> {
         };
         json!({
             "model_set": self.built.name, "gear": gear, "samples": self.samples.len(), "failed": self.failed.len(),
-            "shares": SHARES, "inputs": ranked.iter().map(input).collect::<Vec<_>>(),
+            "quantiles": SHARES, "inputs": ranked.iter().map(input).collect::<Vec<_>>(),
             "points": self.nominal.iter().enumerate().map(point).collect::<Vec<_>>(),
         })
     }

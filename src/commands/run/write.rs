@@ -13,19 +13,22 @@ use crate::output::Failure;
 
 /// What stands at the head of every JSON result.
 pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value {
-    let mut inputs = vec![json!({ "file": "study", "fnv1a_64": hash(&runner.study.text) })];
+    let mut inputs = vec![json!({ "gearbox": null, "file": "study", "fnv1a_64": hash(runner.study.text.as_bytes()) })];
     for (name, gearbox) in &runner.study.gearboxes {
         for source in 0.. {
             let Some((file, text)) = gearbox.sources.get(source) else {
                 break;
             };
             let file = Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file));
-            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text) }));
+            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
         }
         for (file, text) in gearbox.files.all() {
             let file = file.file_name().and_then(|f| f.to_str()).unwrap_or_default().to_owned();
-            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(&text) }));
+            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
         }
+    }
+    for (file, hash) in runner.read.borrow().iter() {
+        inputs.push(json!({ "gearbox": null, "file": file, "fnv1a_64": hash }));
     }
     let conditions = &runner.study.entry.conditions;
     json!({
@@ -39,9 +42,10 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
             "speed_at": conditions.speed_at,
             "oil_temperature_degc": conditions.oil_temperature,
             "power_flow": conditions.power_flow,
+            "set": conditions.set,
         },
         "inputs": inputs,
-        "unreached": built.iter().map(|b| json!({ "model_set": b.name, "notes": b.resolved.unreached })).collect::<Vec<_>>(),
+        "unreached": built.iter().map(|b| json!({ "model_set": b.name, "lines": b.resolved.unreached })).collect::<Vec<_>>(),
     })
 }
 
@@ -117,9 +121,9 @@ pub fn cell(value: Option<f64>) -> String {
 }
 
 /// FNV-1a, 64 bit: tells whether an input changed, no more.
-fn hash(text: &str) -> String {
-    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+pub fn hash(bytes: &[u8]) -> String {
+    let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     });
     format!("{hash:016x}")
 }

@@ -144,10 +144,13 @@ impl<'a> Bars<'a> {
             if let Some((loss, _)) = seen {
                 self.rows.push(line("measured", Some(*loss)));
             }
-            self.points.push(json!({
-                "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "oil_temperature_degc": p.oil, "loss": stack,
-                "measured": seen.map(|s| s.0),
-            }));
+            let mut point = json!({
+                "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "oil_temperature_degc": p.oil,
+            });
+            let unit = self.unit().0;
+            point[format!("losses_{unit}")] = json!(stack);
+            point[format!("measured_loss_{unit}")] = json!(seen.map(|s| s.0));
+            self.points.push(point);
         }
         let bars = row.bars.iter().zip(&stacks).zip(&measured);
         let figure = Figure::Bars {

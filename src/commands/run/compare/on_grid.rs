@@ -167,14 +167,16 @@ pub fn run(
         results.push(json!({
             "model_set": b.name,
             "base": base,
+            "gear": gear,
             "quantity": entry.quantity,
             "unit": unit,
             "least": at(least),
             "greatest": at(greatest),
             "mean": mean,
             "notes": seen,
-            "points": differences.iter().zip(&other.points).map(|(gap, p)| json!({
-                "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "difference": gap,
+            "points": differences.iter().zip(&other.points).zip(&solved[0].points).map(|((gap, p), first)| json!({
+                "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "base_model": quantity(first),
+                "model": quantity(p), "difference": gap,
             })).collect::<Vec<_>>(),
         }));
         gaps.push(differences);

@@ -20,6 +20,7 @@ use crate::output::{Failure, Out, Table, number};
 /// One measured point beside one model.
 struct Pair {
     row: usize,
+    gear: String,
     torque: f64,
     speed: f64,
     oil: Option<f64>,
@@ -97,7 +98,7 @@ pub fn run(
             let row = &measured.rows[pair.row];
             let mut cells = vec![c.name.clone(), row.line.to_string()];
             cells.push(row.name.clone().unwrap_or_default());
-            cells.push(row.gear.clone().unwrap_or_default());
+            cells.push(pair.gear.clone());
             cells.extend([cell(Some(pair.torque)), cell(Some(tidy(pair.speed * RPM)))]);
             cells.extend(
                 [
@@ -112,7 +113,7 @@ pub fn run(
             );
             rows.push(cells);
         }
-        results.push(show(name, entry, c, out)?);
+        results.push(show(name, entry, &measured, c, out)?);
     }
     verdict(runner, name, entry, &all, out)?;
     let built: Vec<&Built<'_>> = all.iter().flat_map(|c| &c.built).collect();
@@ -133,7 +134,10 @@ fn compared<'a>(entry: &CompareEntry, measured: &Measured, solved: Solved<'a>) -
     let pairs = measured.rows.iter().zip(&solved.rows).enumerate();
     Compared {
         pairs: pairs
-            .map(|(i, (row, (_, _, point)))| pair(entry, measured, (i, row), point, measured.value(row, accuracy)))
+            .map(|(i, (row, (_, gear, point)))| {
+                let accuracy = measured.value(row, accuracy);
+                pair(entry, measured, (i, row, gear), point, accuracy)
+            })
             .collect(),
         notes: solved.notes,
         built: solved.built,
@@ -144,7 +148,7 @@ fn compared<'a>(entry: &CompareEntry, measured: &Measured, solved: Solved<'a>) -
 fn pair(
     entry: &CompareEntry,
     measured: &Measured,
-    (i, row): (usize, &Row),
+    (i, row, gear): (usize, &Row, &str),
     point: &PointResult,
     accuracy: Option<f64>,
 ) -> Pair {
@@ -153,6 +157,7 @@ fn pair(
     let (saw, model) = (seen.quantity(entry.quantity), of(point, entry.quantity));
     Pair {
         row: i,
+        gear: gear.to_owned(),
         torque: point.torque,
         speed: point.speed,
         oil: point.oil,
@@ -169,7 +174,13 @@ fn pair(
     }
 }
 
-fn show(name: &str, entry: &CompareEntry, c: &Compared<'_>, out: &mut Out) -> Result<Value, Failure> {
+fn show(
+    name: &str,
+    entry: &CompareEntry,
+    measured: &Measured,
+    c: &Compared<'_>,
+    out: &mut Out,
+) -> Result<Value, Failure> {
     let unit = entry.quantity.unit(entry.difference);
     let differences = || c.pairs.iter().filter_map(|p| p.difference);
     let of_all = Statistics::of(differences());
@@ -204,7 +215,9 @@ fn show(name: &str, entry: &CompareEntry, c: &Compared<'_>, out: &mut Out) -> Re
                 format!("{from:.1} to {to:.1}")
             };
             line(format!("{what} {range} {unit_of}"), of_band);
-            groups.push(json!({ "over": what, "unit": unit_of, "from": from, "to": to, "difference": of_band }));
+            groups.push(
+                json!({ "over": what, "unit": unit_of.to_lowercase(), "from": from, "to": to, "difference": of_band }),
+            );
         }
     }
     out.text(&table.render())?;
@@ -214,12 +227,14 @@ fn show(name: &str, entry: &CompareEntry, c: &Compared<'_>, out: &mut Out) -> Re
         "quantity": entry.quantity,
         "unit": unit,
         "difference": of_all,
-        "loss_percent_of_loss": of_loss,
+        "loss_difference_percent_of_loss": of_loss,
         "bands": groups,
         "notes": c.notes,
         "points": c.pairs.iter().map(|p| json!({
+            "line": measured.rows[p.row].line, "name": measured.rows[p.row].name, "gear": p.gear,
             "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "oil_temperature_degc": p.oil,
-            "measured": p.measured, "model": p.model, "difference": p.difference, "loss_percent_of_loss": p.of_loss,
+            "measured": p.measured, "model": p.model, "difference": p.difference,
+            "loss_difference_percent_of_loss": p.of_loss,
             "accuracy": p.accuracy,
         })).collect::<Vec<_>>(),
     }))

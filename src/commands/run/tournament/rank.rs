@@ -12,7 +12,7 @@ use super::super::super::solve::RPM;
 use super::super::Runner;
 use super::super::map::tidy;
 use super::super::write::{cell, head, picture, write};
-use super::{Field, Measurement, json_of};
+use super::{Field, Measurement, json_of, unit};
 use crate::interrupt;
 use crate::output::{Failure, Out, Table, number};
 
@@ -169,7 +169,7 @@ pub fn show(
         out.line(added_up(runner, field, first)?)?;
     }
     out.line("")?;
-    results(runner, name, entry, gear, field, &all, accuracy)?;
+    results(runner, name, entry, gear, field, (&all, rows), accuracy)?;
     pictures(runner, name, entry, rows, field, &all)
 }
 
@@ -244,7 +244,7 @@ fn results(
     entry: &TournamentEntry,
     gear: &str,
     field: &Field<'_>,
-    all: &[Ranked],
+    (all, measured): (&[Ranked], &[Measurement]),
     accuracy: Option<f64>,
 ) -> Result<(), Failure> {
     let mut header = vec!["rank".to_owned()];
@@ -261,7 +261,12 @@ fn results(
     let rows: Vec<Vec<String>> = all.iter().enumerate().map(row).collect();
     let mut value = head(runner, name, &[&field.base]);
     value["tournament"] = json!({
-        "gear": gear, "unit": field.unit, "combinations": all.len(), "accuracy": accuracy, "mechanisms": json_of(field),
+        "model_set": field.base.name, "gear": gear, "unit": unit(entry), "combinations": all.len(), "accuracy": accuracy,
+        "mechanisms": json_of(field),
+        "points": measured.iter().map(|m| json!({
+            "torque_nm": m.given.torque, "speed_rpm": tidy(m.given.speed * RPM), "measured_loss_w": m.loss,
+            "loss_accuracy_w": m.accuracy,
+        })).collect::<Vec<_>>(),
         "ranking": all.iter().map(|r| json!({
             "models": field.names(&r.places), "predicted_rms": r.predicted, "worst_group_rms": r.worst,
             "fitted_rms": r.rms, "mean": r.mean, "factors": r.factors,

@@ -8,7 +8,7 @@ use super::super::super::solve::RPM;
 use super::super::Runner;
 use super::super::map::tidy;
 use super::super::write::{cell, head, picture, write};
-use super::{Field, json_of};
+use super::{Field, json_of, unit};
 use crate::output::{Failure, Out, Table, number};
 
 /// Of all combinations at one point, in the unit of errors about the set that the tournament starts from.
@@ -106,7 +106,7 @@ pub fn show(
     out.line("")?;
     let mut value = head(runner, name, &[&field.base]);
     value["tournament"] = json!({
-        "gear": gear, "unit": field.unit, "combinations": field.count(), "mechanisms": json_of(field),
+        "model_set": field.base.name, "gear": gear, "unit": unit(entry), "combinations": field.count(), "mechanisms": json_of(field),
         "shares_of_spread": field.slots.iter().zip(&shares).map(|(slot, share)| json!({
             "mechanism": slot.name, "share": (whole > 0.0).then(|| share / whole),
         })).collect::<Vec<_>>(),
