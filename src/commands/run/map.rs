@@ -3,21 +3,23 @@
 mod export;
 mod over_bound;
 mod pictures;
+mod results;
 
 use std::rc::Rc;
 
-use gearloss_framework::analysis::{Given, Note, OilTemperature, PointResult, SUMS, evidence, notes};
+use gearloss_framework::analysis::{Given, Note, OilTemperature, PointResult, SUMS, notes};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::measured::{Measured, Row};
 use gearloss_framework::study::{Envelope, Grid, MapEntry};
 use gearloss_framework::thermal::Outcome;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use self::over_bound::over_bound;
 use self::pictures::pictures;
-use super::super::solve::{RPM, by_name, outside};
-use super::write::{cell, head, write};
+use self::results::Results;
+use super::super::solve::{RPM, outside};
+use super::write::{TableFile, cell, head, write_json};
 use super::{Built, Runner, speeds, torques};
 use crate::output::{Failure, Out, Table, number};
 
@@ -66,21 +68,23 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
         }
     }
     let header = header(&bound, &parts);
-    let (mut rows, mut results) = (Vec::new(), Vec::new());
+    let mut table = TableFile::new(runner, name, &entry.write, &header)?;
     let one_table = over_bound::fits(&maps);
     if one_table {
         over_bound(name, &maps, out)?;
     }
     for map in &maps {
-        rows.extend(map.rows(&parts));
+        map.rows(&parts).try_for_each(|row| table.push(&row))?;
         if !one_table {
             map.show(name, out)?;
         }
-        results.push(map.result());
     }
-    let mut value = head(runner, name, &maps.iter().map(|m| &*m.built).collect::<Vec<_>>());
-    value["maps"] = Value::Array(results);
-    write(runner, name, &entry.write, &header, &rows, &value)?;
+    table.finish()?;
+    let results = Results {
+        head: head(runner, name, &maps.iter().map(|m| &*m.built).collect::<Vec<_>>()),
+        maps: maps.iter().map(Map::result).collect(),
+    };
+    write_json(runner, name, &entry.write, &results)?;
     for export in &entry.export {
         for line in export::write(runner, name, *export, &maps)? {
             out.line(format!("{name}: {line}"))?;
@@ -318,10 +322,11 @@ impl Map<'_> {
         words.collect()
     }
 
-    fn rows(&self, parts: &[String]) -> Vec<Vec<String>> {
+    /// Rows of the table, one at a time.
+    fn rows(&self, parts: &[String]) -> impl Iterator<Item = Vec<String>> + '_ {
         let own = self.built.transmission.parts();
         let columns: Vec<Option<usize>> = parts.iter().map(|p| own.iter().position(|o| o.path == *p)).collect();
-        let row = |point: &PointResult| {
+        let row = move |point: &PointResult| {
             let (sums, parts) = (sums(point), parts_of(point));
             let mut row = vec![self.built.name.clone(), self.gear.clone()];
             row.extend(self.bound.iter().map(|(_, value)| word(value)));
@@ -342,7 +347,7 @@ impl Map<'_> {
             row.extend(columns.iter().map(|c| cell(c.and_then(|c| parts[c]))));
             row
         };
-        self.points.iter().map(row).collect()
+        self.points.iter().map(row)
     }
 
     /// Prints the map.
@@ -423,48 +428,4 @@ fn parts_of(point: &PointResult) -> Vec<Option<f64>> {
     let known = |i: usize| point.oil.is_some() && undefined != Some(i);
     let parts = point.parts.iter().enumerate();
     parts.map(|(i, watts)| known(i).then_some(*watts)).collect()
-}
-
-impl Map<'_> {
-    fn result(&self) -> Value {
-        let built = &self.built;
-        let list: Vec<Value> = self
-            .points
-            .iter()
-            .map(|p| {
-                json!({
-                    "torque_nm": p.torque,
-                    "speed_rpm": tidy(p.speed * RPM),
-                    "oil_temperature_degc": p.oil,
-                    "surface_temperature_degc": p.surface,
-                    "balance": p.balance,
-                    "status": p.status,
-                    "efficiency": p.efficiency,
-                    "loss_w": p.loss,
-                    "loss_torque_nm": p.loss_torque,
-                    "input_w": p.input,
-                    "output_w": p.output,
-                    "sums_w": sums(p).map(by_name),
-                    "parts_w": parts_of(p),
-                    "undefined": p.undefined.map(|(part, reason)| json!({ "part": built.transmission.parts()[part].path, "reason": reason.to_string() })),
-                })
-            })
-            .collect();
-        json!({
-            "model_set": built.name,
-            "gear": self.gear,
-            "bound": self.bound.iter().cloned().collect::<serde_json::Map<_, _>>(),
-            "oil_temperature_degc": self.oil.given(),
-            "sums": SUMS.map(|(name, meaning)| json!({ "sum": name, "meaning": meaning })),
-            "parts": built.transmission.parts().iter().map(|p| json!({
-                "part": p.path,
-                "mechanism": p.mechanism,
-                "model": built.transmission.instances()[p.notes.instance].entry.name,
-            })).collect::<Vec<_>>(),
-            "passes": self.passes,
-            "notes": self.notes,
-            "evidence": evidence(&built.transmission, &built.resolved, &|path| built.gearbox.places.is_written(path)),
-            "points": list,
-        })
-    }
 }

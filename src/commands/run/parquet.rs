@@ -1,5 +1,6 @@
 //! Tables as Parquet: the columns of the CSV, numbers as double precision with gaps, everything else as text.
 
+use std::io::Write;
 use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
@@ -22,17 +23,75 @@ const NAMES: [&str; 9] = [
     "path",
 ];
 
-/// The bytes of a file.
-///
-/// # Errors
-/// What the writer says.
-pub fn parquet(header: &[String], rows: &[Vec<String>]) -> Result<Vec<u8>, String> {
-    written(header, rows).map_err(|e| e.to_string())
+/// Rows of one row group.
+const GROUP: usize = 65_536;
+
+/// A table that is written in groups of rows.
+pub struct ParquetTable<W: Write + Send> {
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+    state: State<W>,
 }
 
-fn written(header: &[String], rows: &[Vec<String>]) -> Result<Vec<u8>, ParquetError> {
-    let texts: Vec<bool> = (0..header.len()).map(|i| is_text(&header[i], i, rows)).collect();
-    let fields = header.iter().zip(&texts).map(|(name, text)| {
+/// Which columns are texts is told by the first group.
+enum State<W: Write + Send> {
+    Waiting(Option<W>),
+    Begun(SerializedFileWriter<W>, Vec<bool>),
+}
+
+impl<W: Write + Send> ParquetTable<W> {
+    /// A table with its columns.
+    pub fn new(header: &[String], to: W) -> Self {
+        Self {
+            header: header.to_vec(),
+            rows: Vec::new(),
+            state: State::Waiting(Some(to)),
+        }
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// What the writer says; a text in a column that held numbers before.
+    pub fn push(&mut self, row: &[String]) -> Result<(), String> {
+        self.rows.push(row.to_vec());
+        if self.rows.len() < GROUP {
+            return Ok(());
+        }
+        self.group()
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// As [`ParquetTable::push`].
+    pub fn finish(mut self) -> Result<(), String> {
+        self.group()?;
+        match self.state {
+            State::Begun(writer, _) => writer.close().map(|_| ()).map_err(|e| e.to_string()),
+            State::Waiting(_) => Ok(()),
+        }
+    }
+
+    fn group(&mut self) -> Result<(), String> {
+        let rows = std::mem::take(&mut self.rows);
+        if let State::Waiting(to) = &mut self.state {
+            let texts: Vec<bool> = (0..self.header.len())
+                .map(|i| is_text(&self.header[i], i, &rows))
+                .collect();
+            let to = to.take().ok_or("the file was begun twice")?;
+            let writer = begun(&self.header, &texts, to).map_err(|e| e.to_string())?;
+            self.state = State::Begun(writer, texts);
+        }
+        match &mut self.state {
+            State::Begun(writer, texts) => written(writer, texts, &rows).map_err(|e| e.to_string()),
+            State::Waiting(_) => Ok(()),
+        }
+    }
+}
+
+fn begun<W: Write + Send>(header: &[String], texts: &[bool], to: W) -> Result<SerializedFileWriter<W>, ParquetError> {
+    let fields = header.iter().zip(texts).map(|(name, text)| {
         let field = if *text {
             Type::primitive_type_builder(name, Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String))
         } else {
@@ -46,26 +105,36 @@ fn written(header: &[String], rows: &[Vec<String>]) -> Result<Vec<u8>, ParquetEr
         .set_compression(Compression::SNAPPY)
         .set_created_by(concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned())
         .build();
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
+    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))
+}
+
+fn written<W: Write + Send>(
+    writer: &mut SerializedFileWriter<W>,
+    texts: &[bool],
+    rows: &[Vec<String>],
+) -> Result<(), ParquetError> {
     let mut group = writer.next_row_group()?;
     for (i, text) in texts.iter().enumerate() {
-        let cells = || rows.iter().map(|row| row[i].as_str());
+        let cells = || rows.iter().map(|row| row[i].as_str()).filter(|c| !c.is_empty());
         // A gap is a cell without a value; level one stands for a value.
-        let levels: Vec<i16> = cells().map(|cell| i16::from(!cell.is_empty())).collect();
+        let levels: Vec<i16> = rows.iter().map(|row| i16::from(!row[i].is_empty())).collect();
         let Some(mut column) = group.next_column()? else { break };
         if *text {
-            let values: Vec<ByteArray> = cells().filter(|c| !c.is_empty()).map(ByteArray::from).collect();
+            let values: Vec<ByteArray> = cells().map(ByteArray::from).collect();
             column
                 .typed::<ByteArrayType>()
                 .write_batch(&values, Some(&levels), None)?;
         } else {
-            let values: Vec<f64> = cells().filter_map(|c| c.parse().ok()).collect();
+            let number = |c: &str| {
+                c.parse()
+                    .map_err(|_| ParquetError::General(format!("`{c}` is no number")))
+            };
+            let values = cells().map(number).collect::<Result<Vec<f64>, _>>()?;
             column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
         }
         column.close()?;
     }
-    group.close()?;
-    writer.into_inner()
+    group.close().map(|_| ())
 }
 
 /// True for a column of names, and for one with a cell that is no number.
@@ -84,6 +153,16 @@ mod tests {
 
     use super::*;
 
+    fn parquet(header: &[String], rows: &[Vec<String>]) -> Vec<u8> {
+        let path = std::env::temp_dir().join(format!("gearloss-parquet-{}-{}", std::process::id(), rows.len()));
+        let mut table = ParquetTable::new(header, std::fs::File::create(&path).unwrap());
+        for row in rows {
+            table.push(row).unwrap();
+        }
+        table.finish().unwrap();
+        std::fs::read(path).unwrap()
+    }
+
     #[test]
     fn every_cell_comes_back_with_all_its_digits() {
         let header = ["name", "torque_nm", "loss_w"].map(str::to_owned);
@@ -93,7 +172,7 @@ mod tests {
             ["", "7", "0.30000000000000004"],
         ];
         let rows: Vec<Vec<String>> = rows.iter().map(|r| r.map(str::to_owned).to_vec()).collect();
-        let bytes = bytes::Bytes::from(parquet(&header, &rows).unwrap());
+        let bytes = bytes::Bytes::from(parquet(&header, &rows));
         let read: Vec<_> = SerializedFileReader::new(bytes)
             .unwrap()
             .get_row_iter(None)
@@ -110,6 +189,23 @@ mod tests {
 
     #[test]
     fn a_table_without_rows_is_a_file() {
-        assert!(parquet(&["torque_nm".to_owned()], &[]).is_ok());
+        assert!(!parquet(&["torque_nm".to_owned()], &[]).is_empty());
+    }
+
+    #[test]
+    fn groups_of_rows_make_one_table_and_a_late_text_is_refused() {
+        let rows: Vec<Vec<String>> = (0..GROUP + 3).map(|i| vec![i.to_string()]).collect();
+        let bytes = bytes::Bytes::from(parquet(&["loss_w".to_owned()], &rows));
+        let reader = SerializedFileReader::new(bytes).unwrap();
+        assert_eq!(
+            (reader.num_row_groups(), reader.metadata().file_metadata().num_rows()),
+            (2, (GROUP + 3) as i64)
+        );
+        let mut table = ParquetTable::new(&["loss_w".to_owned()], Vec::new());
+        for row in &rows[..GROUP] {
+            table.push(row).unwrap();
+        }
+        table.push(&["none".to_owned()]).unwrap();
+        assert!(table.finish().unwrap_err().contains("`none` is no number"));
     }
 }

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use super::super::solve::RPM;
 use super::Runner;
-use super::write::whole;
+use super::write::keep;
 use crate::output::Failure;
 use crate::report::{Frame, GearboxPage, PageTable};
 
@@ -49,15 +49,7 @@ pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure
             "correct it, or leave --template out",
         )
     })?;
-    let file = runner.folder.join("report.html");
-    let failed = |e: std::io::Error| {
-        Failure::input(
-            format!("cannot write {}: {e}", file.display()),
-            "name another folder with -o",
-        )
-    };
-    std::fs::create_dir_all(&runner.folder).map_err(failed)?;
-    whole(&file, html.as_bytes()).map_err(failed)
+    keep(runner, "report.html", Ok(html.into_bytes()))
 }
 
 /// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that

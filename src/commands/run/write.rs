@@ -1,13 +1,15 @@
 //! Files of results.
 
 use std::fs;
-use std::path::Path;
+use std::io::{BufWriter, Write as _};
+use std::path::{Path, PathBuf};
 
 use gearloss_framework::report::Figure;
 use gearloss_framework::study::Write;
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::parquet::parquet;
+use super::parquet::ParquetTable;
 use super::{Built, Runner};
 use crate::output::Failure;
 
@@ -49,14 +51,6 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
     })
 }
 
-/// Writes a file beside its place and moves it there, so that nobody finds half of it.
-pub fn whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    fs::write(&part, bytes)?;
-    fs::rename(&part, path)
-}
-
 /// Writes a table as CSV and Parquet and a value as JSON, as asked.
 pub fn write(
     runner: &Runner<'_>,
@@ -64,21 +58,108 @@ pub fn write(
     formats: &[Write],
     header: &[String],
     rows: &[Vec<String>],
-    value: &Value,
+    value: &impl Serialize,
 ) -> Result<(), Failure> {
-    for format in formats {
-        let (kind, bytes) = match format {
-            Write::Csv => ("csv", csv(header, rows)),
-            Write::Parquet => ("parquet", parquet(header, rows)),
-            Write::Json => {
-                let text = serde_json::to_string_pretty(value).map_err(|e| e.to_string());
-                ("json", text.map(|text| (text + "\n").into_bytes()))
-            }
-            Write::Svg => continue,
-        };
-        keep(runner, &format!("{name}.{kind}"), bytes)?;
+    let mut table = TableFile::new(runner, name, formats, header)?;
+    for row in rows {
+        table.push(row)?;
     }
-    Ok(())
+    table.finish()?;
+    write_json(runner, name, formats, value)
+}
+
+/// Writes a value as JSON, where that is asked for.
+pub fn write_json(runner: &Runner<'_>, name: &str, formats: &[Write], value: &impl Serialize) -> Result<(), Failure> {
+    if !formats.contains(&Write::Json) {
+        return Ok(());
+    }
+    let (place, mut file) = Place::new(runner, &format!("{name}.json"))?;
+    let written = serde_json::to_writer_pretty(&mut file, value).map_err(std::io::Error::from);
+    let written = written.and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush());
+    place.done(written.map_err(|e| e.to_string()))
+}
+
+/// A file that is written beside its place and moved there when it is whole.
+struct Place {
+    part: PathBuf,
+    path: PathBuf,
+}
+
+impl Place {
+    fn new(runner: &Runner<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
+        let path = runner.folder.join(name);
+        let place = Self {
+            part: path.with_file_name(format!("{name}.part")),
+            path,
+        };
+        let made = fs::create_dir_all(&runner.folder).and_then(|()| fs::File::create(&place.part));
+        match made {
+            Ok(file) => Ok((place, BufWriter::new(file))),
+            Err(e) => Err(place.cannot(&e)),
+        }
+    }
+
+    fn cannot(&self, e: &dyn std::fmt::Display) -> Failure {
+        Failure::input(
+            format!("cannot write {}: {e}", self.path.display()),
+            "name another folder with -o",
+        )
+    }
+
+    /// Moves the file to its place, or takes it away where it was not written whole.
+    fn done(&self, written: Result<(), String>) -> Result<(), Failure> {
+        let moved = written.and_then(|()| fs::rename(&self.part, &self.path).map_err(|e| e.to_string()));
+        moved.map_err(|e| {
+            let _ = fs::remove_file(&self.part);
+            self.cannot(&e)
+        })
+    }
+}
+
+/// A table that is written row by row, so that it never stands in memory as a whole.
+pub struct TableFile {
+    csv: Option<(Place, csv::Writer<BufWriter<fs::File>>)>,
+    parquet: Option<(Place, ParquetTable<BufWriter<fs::File>>)>,
+}
+
+impl TableFile {
+    pub fn new(runner: &Runner<'_>, name: &str, formats: &[Write], header: &[String]) -> Result<Self, Failure> {
+        let mut table = Self {
+            csv: None,
+            parquet: None,
+        };
+        if formats.contains(&Write::Csv) {
+            let (place, file) = Place::new(runner, &format!("{name}.csv"))?;
+            let mut writer = csv::Writer::from_writer(file);
+            writer.write_record(header).map_err(|e| place.cannot(&e))?;
+            table.csv = Some((place, writer));
+        }
+        if formats.contains(&Write::Parquet) {
+            let (place, file) = Place::new(runner, &format!("{name}.parquet"))?;
+            table.parquet = Some((place, ParquetTable::new(header, file)));
+        }
+        Ok(table)
+    }
+
+    pub fn push(&mut self, row: &[String]) -> Result<(), Failure> {
+        if let Some((place, writer)) = &mut self.csv {
+            writer.write_record(row).map_err(|e| place.cannot(&e))?;
+        }
+        if let Some((place, table)) = &mut self.parquet {
+            table.push(row).map_err(|e| place.cannot(&e))?;
+        }
+        Ok(())
+    }
+
+    pub fn finish(self) -> Result<(), Failure> {
+        if let Some((place, mut writer)) = self.csv {
+            place.done(writer.flush().map_err(|e| e.to_string()))?;
+        }
+        if let Some((place, table)) = self.parquet {
+            place.done(table.finish())?;
+        }
+        Ok(())
+    }
 }
 
 /// Puts a picture into the report, and writes it as a file where that is asked for.
@@ -94,25 +175,13 @@ pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, formats: &[Write
 
 /// Writes a file of results whole, or says why it could not.
 pub fn keep(runner: &Runner<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Result<(), Failure> {
-    let path = runner.folder.join(file);
-    let failed = |e: String| {
-        Failure::input(
-            format!("cannot write {}: {e}", path.display()),
-            "name another folder with -o",
-        )
-    };
-    let bytes = bytes.map_err(failed)?;
-    fs::create_dir_all(&runner.folder).map_err(|e| failed(e.to_string()))?;
-    whole(&path, &bytes).map_err(|e| failed(e.to_string()))
-}
-
-fn csv(header: &[String], rows: &[Vec<String>]) -> Result<Vec<u8>, String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(header).map_err(|e| e.to_string())?;
-    for row in rows {
-        writer.write_record(row).map_err(|e| e.to_string())?;
-    }
-    writer.into_inner().map_err(|e| e.to_string())
+    let (place, mut to) = Place::new(runner, file)?;
+    let written = bytes.and_then(|bytes| {
+        to.write_all(&bytes)
+            .and_then(|()| to.flush())
+            .map_err(|e| e.to_string())
+    });
+    place.done(written)
 }
 
 /// A cell: the number with all its digits, or nothing.
