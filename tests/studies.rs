@@ -87,7 +87,10 @@ fn stacks_add_up_to_the_loss_of_the_map() {
     let loss = number(&points(&map["maps"][0])[4]["loss_w"]);
     let stack = |name: &str, point: usize| -> f64 {
         let result = json(&folder, name);
-        let list = points(&result["breakdowns"][0])[point]["loss"].as_array().cloned();
+        let unit = result["breakdowns"][0]["unit"].as_str().unwrap();
+        let list = points(&result["breakdowns"][0])[point][format!("losses_{unit}")]
+            .as_array()
+            .cloned();
         list.unwrap_or_else(|| panic!("{name}: {text}"))
             .iter()
             .map(number)
@@ -127,8 +130,8 @@ fn one_power_at_every_speed_and_a_measured_total_beside_the_bars() {
         );
     }
     let seen = json(&folder, "seen")["breakdowns"][0].clone();
-    same(number(&points(&seen)[0]["measured"]), 155.0, 1e-12);
-    assert!(points(&seen)[1]["measured"].is_null());
+    same(number(&points(&seen)[0]["measured_loss_w"]), 155.0, 1e-12);
+    assert!(points(&seen)[1]["measured_loss_w"].is_null());
     assert!(text.contains("no torque gives a power at standstill"), "{text}");
     assert!(text.contains("a breakdown needs either `torque` or `power`"), "{text}");
 }
@@ -145,7 +148,14 @@ fn losses_without_load_in_every_gear_state_and_towed() {
     let spin = json(&folder, "spin");
     let states = spin["breakdowns"].as_array().unwrap();
     assert_eq!(states.len(), 3);
-    let loss = |state: &Value| -> f64 { points(state)[0]["loss"].as_array().unwrap().iter().map(number).sum() };
+    let loss = |state: &Value| -> f64 {
+        points(state)[0]["losses_w"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(number)
+            .sum()
+    };
     assert!(loss(&states[2]) < loss(&states[0]), "in neutral the loaded stage rests");
     assert!(text.contains("output at rest"), "{text}");
     let towed = json(&folder, "towed")["breakdowns"][0].clone();
