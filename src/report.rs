@@ -79,6 +79,8 @@ pub struct Frame {
     pub title: String,
     /// The question that it answers.
     pub question: String,
+    /// What every analysis starts from, as a sentence.
+    pub conditions: String,
     /// Version of the program.
     pub version: String,
     /// Crates that brought models.
@@ -192,6 +194,7 @@ mod tests {
         Frame {
             title: "A & B".to_owned(),
             question: String::new(),
+            conditions: String::new(),
             version: "0".to_owned(),
             packages: Vec::new(),
             study: String::new(),

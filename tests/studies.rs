@@ -426,7 +426,7 @@ analyses:
     quantity: loss
     mechanisms:
       - { mechanism: bearing, models: { skf: { type: skf }, schaeffler: { type: schaeffler }, iso: { type: iso14179_2 } } }
-      - { mechanism: gear_drag, slot: churning }
+      - { mechanism: gear_drag, slot: churning, models: { diab: { type: diab }, mauz: { type: mauz }, changenet: { type: changenet_2011 } } }
   fitted:
     type: tournament
     model_set: joint
@@ -434,7 +434,7 @@ analyses:
     quantity: loss
     factors: { least: 0.5, greatest: 2 }
     mechanisms: [{ mechanism: bearing, models: { schaeffler: { type: schaeffler } } }, { mechanism: gear_mesh }, { mechanism: gear_drag, models: { diab: { type: diab } } }]
-  spread: { type: tournament, model_set: joint, grid: rig, mechanisms: [{ mechanism: bearing }, { mechanism: gear_drag }] }
+  spread: { type: tournament, model_set: joint, grid: rig, mechanisms: [{ mechanism: bearing }, { mechanism: seal }] }
   wrong: { type: tournament, model_set: joint, grid: rig, mechanisms: [{ mechanism: bearings }] }
   twice: { type: tournament, model_set: joint, grid: rig, mechanisms: [{ mechanism: bearing }, { mechanism: bearing }] }
 ";
@@ -445,7 +445,7 @@ analyses:
     // Losses are added at the torques of the set, so a small difference is left.
     assert!(number(&best["predicted_rms"]) < 0.5, "{best}");
     assert!(
-        text.contains("left out: gear_drag.churning shore: `fill` is missing"),
+        text.contains("left out: gear_mesh ohlendorf: `mean_friction` is missing"),
         "{text}"
     );
     let fitted = json(&folder, "fitted")["tournament"]["ranking"].clone();

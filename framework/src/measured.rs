@@ -17,6 +17,8 @@ pub use text::{Decimal, Encoding, Separator};
 pub struct MeasuredEntry {
     /// CSV file beside the study.
     pub file: String,
+    /// What a reader of the report has to know of these data: where they come from, or that they are synthetic.
+    pub about: Option<String>,
     /// Column of each quantity, where it is not named as the quantity: `torque: T_in`. Quantities: `torque` and `speed` at the
     /// ports of the conditions, `torque_out`, `speed_out`, `efficiency`, `loss`, `loss_torque`, `oil_temperature`,
     /// `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as `efficiency_accuracy`.
@@ -351,6 +353,10 @@ fn row(
                     let at = format!("line {line}, column {} `{}`", column.place + 1, column.header);
                     return Err(format!("{at}: {value} is below zero"));
                 }
+                if name == "efficiency" && !(-0.2..=1.2).contains(&value) {
+                    let at = format!("line {line}, column {} `{}`", column.place + 1, column.header);
+                    return Err(format!("{at}: an efficiency of {value}; state its unit, `%` or `-`"));
+                }
                 row.values.push(Some(value));
             }
             (None, "gear") => row.gear = text(),
@@ -372,6 +378,7 @@ mod tests {
         let list =
             |pairs: &[(&str, &str)]| Ordered(pairs.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect());
         MeasuredEntry {
+            about: None,
             file: "rig.csv".to_owned(),
             columns: list(columns),
             units: list(units),

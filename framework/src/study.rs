@@ -30,6 +30,7 @@ pub use write::{Export, Write};
 
 use crate::description::Ordered;
 use crate::evaluate::PowerFlow;
+use crate::transmission::Transmission;
 
 /// A study.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -116,7 +117,8 @@ fn input() -> String {
 /// A grid of operating points: every torque at every speed.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct Grid {
-    /// Gear state, or several.
+    /// Gear state, or several; absent, the first.
+    #[serde(default)]
     pub gear: Gears,
     /// Torques: one, a list, or from, to and step; or shares of the rating of the gearbox.
     pub torque: TorqueAxis,
@@ -140,12 +142,26 @@ pub enum Gears {
     List(#[schemars(length(min = 1))] Vec<String>),
 }
 
+impl Default for Gears {
+    fn default() -> Self {
+        Self::List(Vec::new())
+    }
+}
+
 impl Gears {
-    /// The names.
+    /// The names as written; none for the first of the gearbox.
     pub fn names(&self) -> &[String] {
         match self {
             Self::One(name) => std::slice::from_ref(name),
             Self::List(names) => names,
+        }
+    }
+
+    /// The names for a gearbox: its first gear state where none is written.
+    pub fn of(&self, transmission: &Transmission) -> Vec<String> {
+        match (self.names(), transmission.states()) {
+            ([], [first, ..]) => vec![first.name.clone()],
+            (names, _) => names.to_vec(),
         }
     }
 }
@@ -218,6 +234,8 @@ pub struct Uses<'a> {
     pub grid: Option<&'a String>,
     /// Sets of models.
     pub sets: Vec<&'a String>,
+    /// Gear states, beside those of the grid.
+    pub gears: Vec<&'a String>,
 }
 
 impl<'a> Uses<'a> {
@@ -226,7 +244,13 @@ impl<'a> Uses<'a> {
             gearbox,
             grid: None,
             sets: sets.into_iter().collect(),
+            gears: Vec::new(),
         }
+    }
+
+    fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
+        let gears = gears.into_iter().collect();
+        Self { gears, ..self }
     }
 }
 
@@ -236,24 +260,24 @@ impl Analysis {
         match self {
             Self::Map(e) => Uses {
                 grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear)
             },
             Self::Compare(e) => Uses {
                 grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against))
+                ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against)).at(&e.gear)
             },
-            Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
-            Self::SpinLoss(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
-            Self::TemperatureSweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
-            Self::ComponentCompare(e) => Uses::new(e.gearbox.as_ref(), &e.model_set),
-            Self::ContactPath(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
-            Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
-            Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
-            Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
-            Self::Sweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets),
+            Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::SpinLoss(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gears),
+            Self::TemperatureSweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::ComponentCompare(e) => Uses::new(e.gearbox.as_ref(), &e.model_set).at(&e.gear),
+            Self::ContactPath(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::Sweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
             Self::Tournament(e) => Uses {
                 grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), &e.model_set)
+                ..Uses::new(e.gearbox.as_ref(), &e.model_set).at(&e.gear)
             },
             Self::Uncertainty(e) => Uses {
                 grid: Some(&e.grid),

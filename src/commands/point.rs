@@ -33,6 +33,12 @@ impl Prepared {
 
 fn quantity(option: &str, text: &str, unit: &'static str) -> Result<f64, Failure> {
     let unit = Unit::of_symbol(unit).unwrap_or(Unit::ONE);
+    // A bare number is one in the documented unit, as in a file.
+    if let Ok(bare) = text.trim().parse::<f64>()
+        && bare.is_finite()
+    {
+        return Ok(unit.to_si(bare));
+    }
     parse_quantity(text.trim(), unit).map_err(|fault| {
         Failure::input(
             format!("{option} \"{text}\": {}", fault.message),
@@ -107,7 +113,14 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
         .case(&gear, &speed_names, &torque_names)
         .map_err(|list| Failure::from(gearbox.findings(list)))?;
     let given = match &args.oil_temperature {
-        Some(text) => Some(quantity("--oil-temperature", text, "degC")?),
+        Some(text) => {
+            let given = quantity("--oil-temperature", text, "degC")?;
+            if !(-60.0..=250.0).contains(&given) {
+                let message = format!("--oil-temperature \"{text}\" is no temperature of an oil");
+                return Err(Failure::input(message, "write one from -60 to 250 degC"));
+            }
+            Some(given)
+        }
         None => None,
     };
     Ok(Prepared {

@@ -29,7 +29,7 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::study::{Analysis, SpeedAxis, TorqueAxis};
+use gearloss_framework::study::{Analysis, Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
@@ -164,6 +164,18 @@ impl Runner<'_> {
         Ok(())
     }
 
+    /// The one gear state of a grid.
+    fn one_gear(&self, path: &str, grid: &Grid, t: &Transmission) -> Result<String, Failure> {
+        match &grid.gear.of(t)[..] {
+            [gear] => Ok(gear.clone()),
+            several => Err(self.wrong(
+                path,
+                format!("this analysis takes a grid of one gear state, not of {}", several.len()),
+                "give it a grid of its own",
+            )),
+        }
+    }
+
     /// A fault of the study at a path.
     fn wrong(&self, path: &str, message: impl Into<String>, mend: &str) -> Failure {
         self.study
@@ -203,6 +215,9 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
         out.line(title)?;
         out.line("")?;
     }
+    overridden(&study, out)?;
+    // A folder that cannot be written is told before anything is computed.
+    write::folder(&runner)?;
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
@@ -231,6 +246,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             // What was computed before and what comes after is kept.
             Err(Failure::Input(text)) => {
                 failed += 1;
+                write::remove(&runner, name);
                 out.line(format!("{name}: failed"))?;
                 runner.report.borrow_mut().text(&format!("failed\n{text}"));
                 Out::error().text(&text)?;
@@ -316,6 +332,26 @@ fn about(analysis: &Analysis) -> &'static str {
         Analysis::SpinLoss(_) => "Losses without load.",
         Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",
     }
+}
+
+/// Says where the conditions take the place of a temperature that a gearbox states.
+fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
+    let Some(oil) = study.entry.conditions.oil_temperature else {
+        return Ok(());
+    };
+    for (name, gearbox) in &study.gearboxes {
+        let thermal = &gearbox.value["thermal"];
+        let own = thermal["oil"].as_f64().filter(|own| (own - oil).abs() > 1e-9);
+        let words = match (own, thermal["mode"].as_str()) {
+            (_, Some("balance")) => "the balance of".to_owned(),
+            (Some(own), _) if gearbox.places.is_written("thermal.oil") => format!("{own} degC of"),
+            _ => continue,
+        };
+        out.line(format!(
+            "note: `conditions.oil_temperature`, {oil} degC, takes the place of {words} gearbox `{name}`"
+        ))?;
+    }
+    Ok(())
 }
 
 /// A folder that holds something else than earlier results is not written into unasked; earlier results are replaced, which

@@ -136,27 +136,57 @@ impl Study {
         let grids: Vec<&str> = self.entry.grids.ids().collect();
         for (name, analysis) in self.entry.analyses.iter() {
             let path = format!("analyses.{name}");
-            let Uses { gearbox, grid, sets } = analysis.uses();
+            let Uses {
+                gearbox,
+                grid,
+                sets,
+                gears,
+            } = analysis.uses();
             if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
                 found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));
             }
             let (_, gearbox) = self.gearbox(&path, gearbox)?;
+            let mut built = Vec::new();
             for set in sets {
                 let (gearbox, set) = self.reference(&path, set, gearbox)?;
-                let Some(set) = set else {
-                    gearbox.transmission(language, &self.choice(None))?;
-                    continue;
-                };
                 let at_hand = sets_of(language, &gearbox.value, &self.sets);
-                match expand_set(&at_hand, set) {
-                    Ok(_) => {
-                        gearbox.transmission(language, &self.choice(Some(set)))?;
-                    }
-                    Err(error) => found.push(Diagnostic {
+                match set.map(|set| expand_set(&at_hand, set)) {
+                    Some(Err(error)) => found.push(Diagnostic {
                         path: path.clone(),
                         ..error
                     }),
+                    _ => built.push(gearbox.transmission(language, &self.choice(set))?),
                 }
+            }
+            if built.is_empty() {
+                built.push(gearbox.transmission(language, &self.choice(None))?);
+            }
+            let of_grid = grid.and_then(|name| Some((name, self.entry.grids.get(name)?)));
+            for t in &built {
+                let names: Vec<&str> = t.states().iter().map(|s| s.name.as_str()).collect();
+                let mut unknown = |place: String, gear: &str| {
+                    let error = dangling(&place, "gear state", gear, &names);
+                    if !names.contains(&gear) && !found.iter().any(|e: &Diagnostic| e.path == place) {
+                        found.push(error);
+                    }
+                };
+                for gear in &gears {
+                    unknown(format!("{path}.gear"), gear);
+                }
+                for gear in of_grid.iter().flat_map(|(_, grid)| grid.gear.names()) {
+                    let name = of_grid.map_or("", |(name, _)| name.as_str());
+                    unknown(format!("grids.{name}.gear"), gear);
+                }
+            }
+        }
+        if let Some(gear) = self.entry.report_at.as_ref().and_then(|at| at.gear.as_ref()) {
+            let (_, gearbox) = self.gearbox("report_at", None)?;
+            let t = gearbox.transmission(language, &self.choice(None))?;
+            if let Err(error) = t.state(gear) {
+                found.push(Diagnostic {
+                    path: "report_at.gear".to_owned(),
+                    ..error
+                });
             }
         }
         if found.is_empty() {

@@ -240,7 +240,7 @@ impl<'a> Walker<'a> {
                     self.report(
                         node,
                         format!("`{text}` is a boolean to many YAML readers"),
-                        "choose another name",
+                        "choose another name, or write it in quotes",
                     );
                     return None;
                 }

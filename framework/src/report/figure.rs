@@ -11,6 +11,8 @@ pub enum Figure {
     Bars {
         /// Title.
         title: String,
+        /// What the bars stand over, with its unit; empty where their labels tell it.
+        over: String,
         /// What the height is, with its unit.
         height: String,
         /// Names of the shares.
@@ -48,6 +50,8 @@ pub struct Map {
     pub values: Vec<Option<f64>>,
     /// Differences: zero in the middle of the colours.
     pub diverging: bool,
+    /// Ends of the colours, where several maps share them; absent, those of the values.
+    pub ends: Option<(f64, f64)>,
     /// Cells at which a model left its stated range; empty, none.
     pub hatched: Vec<bool>,
     /// Points that are marked, in the coordinates.
@@ -70,6 +74,17 @@ pub struct Cloud {
 }
 
 impl Map {
+    /// True where every cell with a value left a stated range: said in words, because hatching all of it would tell nothing.
+    pub(super) fn is_hatched_all_over(&self) -> bool {
+        let cells = || {
+            self.values
+                .iter()
+                .zip(&self.hatched)
+                .filter(|(value, _)| value.is_some())
+        };
+        cells().next().is_some() && cells().all(|(_, outside)| *outside)
+    }
+
     /// Coordinates as numbers; absent where they are words.
     pub(super) fn numbers(&self) -> Option<(Vec<f64>, Vec<f64>)> {
         let number = |label: &String| label.split(' ').next().and_then(|n| n.parse::<f64>().ok());
@@ -97,10 +112,11 @@ impl Figure {
         match self {
             Self::Bars {
                 title,
+                over,
                 height,
                 names,
                 bars,
-            } => plot::bars(title, height, names, bars),
+            } => plot::bars(title, (over, height), names, bars),
             Self::Map(map) => plot::map(map),
             Self::Cloud(cloud) => plot::cloud(cloud),
             Self::Lines { title, x, y, lines } => plot::lines(title, x, y, lines),
@@ -111,13 +127,18 @@ impl Figure {
     pub fn plotly(&self) -> Value {
         let (data, mut layout) = match self {
             Self::Bars {
-                height, names, bars, ..
-            } => stack(height, names, bars),
+                over,
+                height,
+                names,
+                bars,
+                ..
+            } => stack((over, height), names, bars),
             Self::Map(map) => contours(map),
             Self::Cloud(cloud) => scattered(cloud),
             Self::Lines { x, y, lines, .. } => traces(x, y, lines),
         };
-        layout["title"] = json!({ "text": self.title() });
+        layout["title"] =
+            json!({ "text": self.title(), "x": 0, "xref": "paper", "xanchor": "left", "font": { "size": 15 } });
         json!({ "data": data, "layout": layout })
     }
 }
@@ -131,14 +152,19 @@ fn axis(name: &str) -> Value {
     json!({ "title": { "text": name }, "automargin": true })
 }
 
-fn stack(height: &str, names: &[String], bars: &[Bar]) -> (Vec<Value>, Value) {
+fn stack((over, height): (&str, &str), names: &[String], bars: &[Bar]) -> (Vec<Value>, Value) {
     let labels: Vec<String> = bars.iter().map(|b| b.label.replace('\n', "<br>")).collect();
     let mut data: Vec<Value> = names
         .iter()
         .enumerate()
         .map(|(i, name)| {
             let share: Vec<Option<f64>> = bars.iter().map(|b| b.shares.get(i).copied()).collect();
-            json!({ "type": "bar", "name": name, "x": labels, "y": share, "marker": { "color": css(i) } })
+            // Colours that come again carry a pattern.
+            let pattern = ["", "/", ".", "x"][(i / COLOURS.len()) % 4];
+            json!({
+                "type": "bar", "name": name, "x": labels, "y": share,
+                "marker": { "color": css(i), "pattern": { "shape": pattern } },
+            })
         })
         .collect();
     let tops: Vec<f64> = bars.iter().map(|b| b.shares.iter().sum()).collect();
@@ -160,7 +186,10 @@ fn stack(height: &str, names: &[String], bars: &[Bar]) -> (Vec<Value>, Value) {
     }
     (
         data,
-        json!({ "barmode": "stack", "xaxis": { "type": "category", "automargin": true }, "yaxis": axis(height) }),
+        json!({
+            "barmode": "stack", "yaxis": axis(height),
+            "xaxis": { "type": "category", "automargin": true, "title": { "text": over } },
+        }),
     )
 }
 
@@ -197,6 +226,10 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
     trace["z"] = json!(rows);
     trace["colorscale"] = json!(colours);
     trace["zmid"] = middle;
+    if let Some((low, high)) = map.ends {
+        trace["zmin"] = json!(low);
+        trace["zmax"] = json!(high);
+    }
     trace["name"] = json!("");
     let mut data = vec![trace];
     if let (Some(level), true) = (map.unseen.filter(|l| *l > 0.0), numbers.is_some()) {
@@ -214,12 +247,13 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
         .filter(|(_, outside)| **outside)
         .map(|(i, _)| i);
     let places: Vec<usize> = hatched.collect();
-    if !places.is_empty() {
+    let all_over = map.is_hatched_all_over();
+    if !places.is_empty() && !all_over {
         let every = places.len().div_ceil(MOST_HATCHED);
         let at = |axis: &Value, i: usize| axis[i].clone();
         let shown = || places.iter().step_by(every);
         data.push(json!({
-            "type": "scatter", "mode": "markers", "name": "outside of a stated range", "hoverinfo": "skip",
+            "type": "scatter", "mode": "markers", "name": "outside of a stated range", "hoverinfo": "skip", "showlegend": true,
             "x": shown().map(|i| at(&x, i % xs.len())).collect::<Vec<_>>(),
             "y": shown().map(|i| at(&y, i / xs.len())).collect::<Vec<_>>(),
             "marker": { "symbol": "line-ne-open", "size": 9, "color": "rgba(0, 0, 0, 0.35)" },
@@ -227,7 +261,7 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
     }
     if !map.marks.is_empty() {
         data.push(json!({
-            "type": "scatter", "mode": "markers", "name": "measured",
+            "type": "scatter", "mode": "markers", "name": "measured", "showlegend": true,
             "x": map.marks.iter().map(|m| m.0).collect::<Vec<_>>(), "y": map.marks.iter().map(|m| m.1).collect::<Vec<_>>(),
             "marker": { "symbol": "circle-open", "size": 7, "color": "black" },
         }));
@@ -239,6 +273,12 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
     };
     let mut layout = json!({ "xaxis": axis(&named(x_name, xs)), "yaxis": axis(&named(y_name, ys)) });
     layout["legend"] = json!({ "orientation": "h", "y": -0.18 });
+    if all_over {
+        layout["annotations"] = json!([{
+            "text": "outside of a model's stated range all over", "xref": "paper", "yref": "paper", "x": 0, "y": 1.0,
+            "xanchor": "left", "yanchor": "bottom", "showarrow": false, "font": { "size": 11, "color": "#666" },
+        }]);
+    }
     (data, layout)
 }
 
@@ -323,6 +363,7 @@ mod tests {
         };
         let told = Figure::Bars {
             title: "Tests".to_owned(),
+            over: String::new(),
             height: "loss".to_owned(),
             names: vec!["mesh".to_owned(), "seals".to_owned()],
             bars: vec![bar],

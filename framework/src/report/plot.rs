@@ -166,7 +166,12 @@ fn legend(root: &DrawingArea<SVGBackend<'_>, Shift>, names: &[String], solid: bo
 ///
 /// # Errors
 /// If drawing fails.
-pub(super) fn bars(title: &str, height: &str, names: &[String], bars: &[Bar]) -> Result<String, PlotFault> {
+pub(super) fn bars(
+    title: &str,
+    (over, height): (&str, &str),
+    names: &[String],
+    bars: &[Bar],
+) -> Result<String, PlotFault> {
     drawn(title, |root| {
         let measured = bars.iter().any(|b| b.measured.is_some());
         let tallest = bars
@@ -234,6 +239,12 @@ pub(super) fn bars(title: &str, height: &str, names: &[String], bars: &[Bar]) ->
                 .map_err(fault)?;
             }
         }
+        let middle = ("sans-serif", TEXT)
+            .into_font()
+            .color(&BLACK)
+            .pos(Pos::new(HPos::Center, VPos::Bottom));
+        let below = ((SIZE.0 / 2) as i32 - 60, SIZE.1 as i32 - 6);
+        root.draw(&Text::new(over.to_owned(), below, middle)).map_err(fault)?;
         let mut names = names.to_vec();
         if measured {
             names.push("measured: outline".to_owned());
@@ -300,7 +311,7 @@ mod tests {
             above_measured: "60 degC".to_owned(),
         };
         let names = ["mesh".to_owned(), "seals".to_owned()];
-        let svg = bars("Twelve tests", "loss W", &names, &[bar.clone(), bar]).unwrap();
+        let svg = bars("Twelve tests", ("", "loss W"), &names, &[bar.clone(), bar]).unwrap();
         for word in [
             "Twelve tests",
             "loss W",
@@ -323,7 +334,7 @@ mod tests {
 
     #[test]
     fn nothing_to_draw_is_no_fault() {
-        assert!(bars("a", "b", &[], &[]).is_ok() && lines("a", "b", "c", &[]).is_ok());
+        assert!(bars("a", ("", "b"), &[], &[]).is_ok() && lines("a", "b", "c", &[]).is_ok());
         assert!(map(&Map::default()).is_ok() && cloud(&Cloud::default()).is_ok());
     }
 }

@@ -58,7 +58,8 @@ pub struct CandidatesEntry {
     pub mechanism: String,
     /// Slot of a mechanism of which a gear has several models: `churning` of `gear_drag`.
     pub slot: Option<String>,
-    /// Models by name, each as in a gearbox: `{ type: skf }`; absent, all that this gearbox has the inputs for, with their defaults.
+    /// Models by name, each as in a gearbox: `{ type: skf }`; absent, all that this gearbox has the inputs
+    /// for, with their defaults. Those of drags are named always, because laws for churning, injection and windage are one mechanism.
     #[serde(default)]
     pub models: Ordered<Value>,
 }

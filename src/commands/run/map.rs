@@ -168,11 +168,11 @@ fn on_grid<'s>(
                     "correct one of them",
                 ));
             }
-            for gear in grid.gear.names() {
+            for gear in grid.gear.of(t) {
                 let points = if inside.len() == whole.len() {
-                    runner.field(t, gear, whole.clone())
+                    runner.field(t, &gear, whole.clone())
                 } else {
-                    runner.listed(t, gear, inside.clone())
+                    runner.listed(t, &gear, inside.clone())
                 };
                 let solved = runner.solve(&built, &points)?;
                 maps.push(Map {
@@ -378,9 +378,28 @@ impl Map<'_> {
             }
             out.text(&table.render())?;
         }
+        if let Some(thinned) = self.thinned() {
+            out.line(thinned)?;
+        }
         out.text(&outside(&self.notes))?;
         out.line("")?;
         Ok(())
+    }
+
+    /// Says where the table shows fewer points than there are.
+    fn thinned(&self) -> Option<String> {
+        let (torques, speeds) = match &self.grid {
+            Some((axes, _)) => (axes.torques.len(), axes.speeds.len()),
+            None => (self.points.len(), 1),
+        };
+        let shown = |count: usize| spread(count).len();
+        (shown(torques) * shown(speeds) < torques * speeds).then(|| {
+            format!(
+                "shown: {} of {} points, both ends among them; the files hold all",
+                shown(torques) * shown(speeds),
+                torques * speeds
+            )
+        })
     }
 
     fn table(

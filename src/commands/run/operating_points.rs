@@ -65,6 +65,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
         let title = format!("{name}: losses, models {}, oil temperature above each bar", solved.name);
         let figure = Figure::Bars {
             title,
+            over: String::new(),
             height: "loss in W".to_owned(),
             names: names.clone(),
             bars: points.iter().map(bar).collect(),

@@ -5,6 +5,7 @@ mod point;
 use std::path::Path;
 
 use gearloss_framework::description::AssumedEntry;
+use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
@@ -33,6 +34,7 @@ pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure
     let frame = Frame {
         title: runner.study.entry.title.clone().unwrap_or_else(|| "Study".to_owned()),
         question: runner.study.entry.question.clone().unwrap_or_default(),
+        conditions: conditions(runner),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         packages: runner
             .language
@@ -50,6 +52,23 @@ pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure
         )
     })?;
     keep(runner, "report.html", Ok(html.into_bytes()))
+}
+
+/// What every analysis starts from, as a sentence.
+fn conditions(runner: &Runner<'_>) -> String {
+    let given = &runner.study.entry.conditions;
+    let oil = given.oil_temperature.map_or_else(
+        || "oil at the temperature of the gearbox".to_owned(),
+        |oil| format!("oil at {oil} °C"),
+    );
+    let flow = match given.power_flow {
+        PowerFlow::Real => "losses change the torques of what comes after them",
+        PowerFlow::Ideal => "torques without losses",
+    };
+    format!(
+        "Torque at `{}`, speed at `{}`, {oil}; {flow}. Sets of models stand in the study at the end of this page.",
+        given.torque_at, given.speed_at
+    )
 }
 
 /// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that
@@ -123,7 +142,11 @@ fn gears(t: &Transmission) -> PageTable {
             let kind = if g.ring { "ring" } else { "external" };
             vec![
                 g.id.clone(),
-                t.members()[g.member].clone(),
+                if t.members()[g.member] == g.id {
+                    "loose".to_owned()
+                } else {
+                    t.members()[g.member].clone()
+                },
                 g.z.to_string(),
                 kind.to_owned(),
                 mm(g.facewidth),

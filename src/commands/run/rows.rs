@@ -31,6 +31,9 @@ impl Runner<'_> {
             let error = Diagnostic::error(path, format!("{}: {message}", entry.file)).mend(mend);
             self.study.findings(vec![error]).into()
         };
+        if let Some(about) = &entry.about {
+            self.report.borrow_mut().verdict(&format!("{}: {about}", entry.file));
+        }
         let bytes = std::fs::read(self.study.folder.join(&entry.file)).map_err(|e| {
             wrong(
                 format!("cannot read: {e}"),

@@ -109,10 +109,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
                 return Err(runner.wrong(&path, message, "leave them out, or give `data`"));
             }
             let grid = runner.study.grid(&path, grid_name)?;
-            let [gear] = grid.gear.names() else {
-                let message = "a tournament takes a grid of one gear state";
-                return Err(runner.wrong(&path, message, "give it a grid of its own"));
-            };
+            let gear = &runner.one_gear(&path, grid, t)?;
             if !grid.bind.is_empty() || grid.envelope.is_some() {
                 let message = "a tournament takes a grid without bound values and envelope";
                 return Err(runner.wrong(&path, message, "give it a grid of its own"));

@@ -126,19 +126,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let grid = runner.study.grid(&path, &entry.grid)?;
-    let [gear] = grid.gear.names() else {
-        return Err(runner.wrong(
-            &path,
-            "a band takes a grid of one gear state",
-            "give it a grid of its own",
-        ));
-    };
     if !grid.bind.is_empty() || grid.envelope.is_some() {
         let message = "a band takes a grid without bound values and envelope";
         return Err(runner.wrong(&path, message, "give it a grid of its own"));
     }
     let mut all = Vec::new();
-    for built in runner.built(gearbox, &entry.model_sets)? {
+    let built = runner.built(gearbox, &entry.model_sets)?;
+    let gear = &runner.one_gear(&path, grid, &built[0].transmission)?;
+    for built in built {
         let torques = torques(
             runner,
             &format!("grids.{}.torque", entry.grid),

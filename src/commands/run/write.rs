@@ -51,6 +51,20 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
     })
 }
 
+/// Makes the folder of the results, or says why it cannot.
+pub fn folder(runner: &Runner<'_>) -> Result<(), Failure> {
+    let (place, _) = Place::new(runner, "report.html")?;
+    let _ = fs::remove_file(&place.part);
+    Ok(())
+}
+
+/// Takes away what an earlier run of an analysis left, because it would pass for the results of this one.
+pub fn remove(runner: &Runner<'_>, name: &str) {
+    for kind in ["csv", "json", "parquet"] {
+        let _ = fs::remove_file(runner.folder.join(format!("{name}.{kind}")));
+    }
+}
+
 /// Writes a table as CSV and Parquet and a value as JSON, as asked.
 pub fn write(
     runner: &Runner<'_>,

@@ -76,7 +76,8 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
     drawn(&map.title, |root| {
         let (xs, ys) = (&map.x.1, &map.y.1);
         let (columns, rows) = (xs.len().max(1) as i32, ys.len().max(1) as i32);
-        let Some(range) = range(map.values.iter().flatten().copied(), map.diverging) else {
+        let own = range(map.values.iter().flatten().copied(), map.diverging);
+        let Some(range) = map.ends.filter(|_| own.is_some()).or(own) else {
             return names(root, &map.x.0, &map.y.0);
         };
         let x_at = |i: i32| LEFT + WIDTH * i / columns;
@@ -86,13 +87,14 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
         // Numbers in cells that are too small for them would be a blur.
         let numbered = !lined && WIDTH / columns >= 34 && HEIGHT / rows >= 14;
         let middle = Pos::new(HPos::Center, VPos::Center);
+        let all_over = map.is_hatched_all_over();
         for (k, value) in map.values.iter().enumerate() {
             let Some(value) = *value else { continue };
             let (i, j) = (k as i32 % columns, k as i32 / columns);
             let cell = [(x_at(i), y_at(j + 1)), (x_at(i + 1), y_at(j))];
             let colour = tone(value, range, map.diverging);
             root.draw(&Rectangle::new(cell, colour.filled())).map_err(fault)?;
-            if map.hatched.get(k).copied().unwrap_or(false) {
+            if !all_over && map.hatched.get(k).copied().unwrap_or(false) {
                 let stroke = vec![(cell[0].0, cell[1].1), (cell[1].0, cell[0].1)];
                 root.draw(&PathElement::new(stroke, BLACK.mix(0.25))).map_err(fault)?;
             }
@@ -152,7 +154,9 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
             root.draw(&Text::new(y.clone(), at, beside)).map_err(fault)?;
         }
         let mut words = map.x.0.clone();
-        if map.hatched.contains(&true) {
+        if all_over {
+            words.push_str("; outside of a stated range all over");
+        } else if map.hatched.contains(&true) {
             words.push_str("; hatched: outside of a stated range");
         }
         if let Some(level) = map.unseen.filter(|_| lined) {

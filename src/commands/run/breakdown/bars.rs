@@ -152,18 +152,19 @@ impl<'a> Bars<'a> {
             point[format!("measured_loss_{unit}")] = json!(seen.map(|s| s.0));
             self.points.push(point);
         }
+        // What loses nothing at any bar needs no colour.
+        let lost = |k: &usize| stacks.iter().flatten().any(|s| s[*k] != 0.0);
+        let shown: Vec<usize> = (0..self.names.len()).filter(lost).collect();
         let bars = row.bars.iter().zip(&stacks).zip(&measured);
         let figure = Figure::Bars {
-            title: format!(
-                "{name}: loss in {label} over {}, gear {gear}, {}, models {}",
-                row.over, row.title, b.name
-            ),
+            title: format!("{name}: loss, gear {gear}, {}, models {}", row.title, b.name),
+            over: row.over.to_owned(),
             height: format!("loss in {label}"),
-            names: self.names.clone(),
+            names: shown.iter().map(|k| self.names[*k].clone()).collect(),
             bars: bars
                 .map(|(((label, _, _), stack), measured)| Bar {
                     label: label.clone(),
-                    shares: stack.clone().unwrap_or_default(),
+                    shares: stack.iter().flat_map(|s| shown.iter().map(|k| s[*k])).collect(),
                     measured: *measured,
                     ..Bar::default()
                 })

@@ -37,17 +37,11 @@ pub fn run(
             "give it a grid of its own",
         ));
     }
-    let [gear] = grid.gear.names() else {
-        return Err(wrong(
-            "gear",
-            "a comparison takes a grid of one gear state",
-            "give it a grid of its own",
-        ));
-    };
     let sets: Vec<String> = std::iter::once(base.to_owned())
         .chain(entry.against.iter().cloned())
         .collect();
     let built = runner.built(gearbox, &sets)?;
+    let gear = &runner.one_gear(&path, grid, &built[0].transmission)?;
     let mut solved: Vec<GridResult> = Vec::new();
     // Axes that count in shares of a rating have other values for each product; tables and pictures show those of the base.
     let (mut torques, mut speeds) = (Vec::new(), Vec::new());
@@ -203,6 +197,7 @@ pub fn run(
                 .collect(),
             marks: Vec::new(),
             unseen: entry.accuracy,
+            ends: None,
         });
         picture(runner, &format!("{name}-{}", b.name), figure, &entry.write)?;
     }

@@ -30,9 +30,9 @@ pub fn place(runner: &Runner<'_>, t: &Transmission) -> Option<(String, Given)> {
     let greatest = |values: Vec<f64>| values.into_iter().reduce(|a, b| if b.abs() > a.abs() { b } else { a });
     let torque = greatest(torques(runner, &path, &grid.torque, t).ok()?)?;
     let speed = greatest(speeds(runner, &path, &grid.speed, t).ok()?)?;
-    let gear = grid.gear.names().first()?;
-    t.state(gear).ok()?;
-    Some((gear.clone(), given(torque, speed)))
+    let gear = grid.gear.of(t).into_iter().next()?;
+    t.state(&gear).ok()?;
+    Some((gear, given(torque, speed)))
 }
 
 /// What the report shows of one point.

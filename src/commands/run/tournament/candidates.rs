@@ -202,6 +202,17 @@ fn filled(
     left_out: &mut Vec<String>,
 ) -> Result<Slot, Failure> {
     let named = !entry.models.is_empty();
+    if slot.drag.is_some() && !named {
+        let message = format!(
+            "laws for churning, injection and windage stand side by side in `{}`",
+            entry.mechanism
+        );
+        return Err(runner.wrong(
+            path,
+            message,
+            "name those that take part: `models: { a: { type: diab } }`",
+        ));
+    }
     let models: Vec<(String, Value)> = if named {
         entry
             .models

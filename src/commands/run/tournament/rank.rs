@@ -301,6 +301,7 @@ fn pictures(
             "{name}: error of the best combination with each model, in {}",
             field.unit
         ),
+        over: String::new(),
         height: format!("predicted rms in {}", field.unit),
         names: vec!["predicted rms".to_owned()],
         bars,
