@@ -3,5 +3,7 @@
 mod contours;
 pub mod figure;
 pub mod plot;
+mod schematic;
 
 pub use figure::{Cloud, Figure, Map};
+pub use schematic::schematic;
