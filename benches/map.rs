@@ -19,7 +19,7 @@ analyses:
   maps: { type: map, grid: fine, model_sets: [iso, joint], write: [csv, json] }
 ";
     let path = folder.join("study.yaml");
-    std::fs::write(&path, head.to_owned() + fine).unwrap();
+    std::fs::write(&path, head + fine).unwrap();
     path
 }
 

@@ -293,8 +293,8 @@ analyses:
         "{text}"
     );
 
-    // Modelica: drive loss = (1 - eta) T + eta f, coast loss = (1 / eta - 1) |T| + f / eta.
-    let modelica = std::fs::read_to_string(folder.join("wide-joint-first.mo")).unwrap();
+    // The equations of the Modelica Standard Library: (1 - eta1) T + f1 where a drives, (1 - 1 / eta2) T + f2 where b does.
+    let modelica = std::fs::read_to_string(folder.join("losses_wide_joint_first.mo")).unwrap();
     let said: f64 = modelica
         .split("miss the loss torque by ")
         .nth(1)
@@ -309,11 +309,8 @@ analyses:
     for point in points(&wide["maps"][0]) {
         let (torque, speed) = (number(&point["torque_nm"]), number(&point["speed_rpm"]) * common::RPM);
         let row = table.iter().find(|r| (r[0] - speed).abs() < 1e-5).unwrap();
-        let gaps = [
-            (1.0 - row[1]) * torque + row[1] * row[3],
-            (1.0 / row[2] - 1.0) * -torque + row[4] / row[2],
-        ]
-        .map(|loss| (loss - number(&point["loss_torque_nm"])).abs());
+        let gaps = [(1.0 - row[1]) * torque + row[3], (1.0 - 1.0 / row[2]) * torque + row[4]]
+            .map(|loss| (loss - number(&point["loss_torque_nm"])).abs());
         // At no torque both sides end.
         let gap = if torque > 0.0 {
             gaps[0]

@@ -201,12 +201,13 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             "write --deny extrapolation, or `check --deny GRADE` for evidence",
         ));
     }
+    let template = report::template(args.template.as_deref())?;
     replaced(&folder, args.force, out)?;
     let runner = Runner {
         language: &language,
         study: &study,
         folder,
-        progress: out.is_terminal(),
+        progress: Out::error().is_terminal(),
         report: RefCell::default(),
         left: Cell::new(0),
         read: RefCell::default(),
@@ -259,7 +260,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
         }
         done_so_far += 1;
     }
-    report::write(&runner, args.template.as_deref())?;
+    report::write(&runner, template.as_deref())?;
     out.line(format!("results in {}, report in report.html", runner.folder.display()))?;
     if let Some(finished) = finished {
         let all = study.entry.analyses.len();
@@ -293,6 +294,30 @@ fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -> Re
         };
         runner.wrong(path, reason, mend)
     })
+}
+
+/// The most points of one grid.
+const MOST_POINTS: usize = 20_000_000;
+
+/// Torques and speeds of a grid for a gearbox; each rises or falls all along.
+fn grid_axes(runner: &Runner<'_>, name: &str, grid: &Grid, t: &Transmission) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    let path = format!("grids.{name}");
+    let own = (
+        torques(runner, &format!("{path}.torque"), &grid.torque, t)?,
+        speeds(runner, &format!("{path}.speed"), &grid.speed, t)?,
+    );
+    for (list, key) in [(&own.0, "torque"), (&own.1, "speed")] {
+        let along = |rises: bool| list.windows(2).all(|w| if rises { w[0] < w[1] } else { w[0] > w[1] });
+        if !along(true) && !along(false) {
+            let message = "the values of a grid's axis neither rise nor fall all along";
+            return Err(runner.wrong(&format!("{path}.{key}"), message, "sort them, and name each once"));
+        }
+    }
+    if own.0.len().saturating_mul(own.1.len()) > MOST_POINTS {
+        let message = format!("the grid has more than {MOST_POINTS} points");
+        return Err(runner.wrong(&path, message, "take wider steps"));
+    }
+    Ok(own)
 }
 
 /// Torques of an axis for a gearbox.
@@ -368,10 +393,14 @@ fn replaced(folder: &Path, force: bool, out: &mut Out) -> Result<(), Failure> {
         let kind = file.extension().and_then(|kind| kind.to_str());
         matches!(
             kind,
-            Some("csv" | "json" | "svg" | "html" | "parquet" | "vtlm" | "m" | "mo")
+            Some("csv" | "json" | "svg" | "html" | "parquet" | "vtlm" | "m" | "mo" | "part")
         )
     };
-    if files.iter().all(written) {
+    // Every run leaves a report, so a folder without one is the user's own.
+    let ours = files
+        .iter()
+        .any(|file| file.file_name().is_some_and(|name| name == "report.html"));
+    if ours && files.iter().all(written) {
         out.line(format!("replacing the results in {}", folder.display()))?;
         return Ok(());
     }

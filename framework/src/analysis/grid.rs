@@ -97,6 +97,10 @@ pub struct PointResult {
     pub torque: f64,
     /// Given speed. \[rad/s\]
     pub speed: f64,
+    /// Speed of the port at which the torque is given; zero where none is. \[rad/s\]
+    pub torque_speed: f64,
+    /// Speed of the reference port. \[rad/s\]
+    pub reference_speed: f64,
     /// Temperature of the oil; absent where no balance was found, and with it everything that hangs on it. \[degC\]
     pub oil: Option<f64>,
     /// Temperature of the surface, where it was found by balance. \[degC\]
@@ -196,6 +200,9 @@ pub fn run_grid(
             let chunk = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
             let mut scratch = transmission.scratch(&case);
             let mut temperatures = vec![0.0; transmission.nodes()];
+            let member = |port: usize| transmission.ports()[port].member;
+            let at_torque = case.torque_ports.first().map(|port| member(*port));
+            let reference = member(transmission.reference_port());
             let mut torques = vec![0.0; case.torque_ports.len()];
             let mut speeds = vec![0.0; case.speed_ports.len()];
             let solved = chunk.len();
@@ -229,6 +236,8 @@ pub fn run_grid(
                     let result = PointResult {
                         torque,
                         speed,
+                        torque_speed: at_torque.map_or(0.0, |member| solution.speed(member)),
+                        reference_speed: solution.speed(reference),
                         oil: Some(oil),
                         surface: balance.as_ref().and_then(|b| b.surface),
                         balance: balance.as_ref().map(|b| b.outcome),

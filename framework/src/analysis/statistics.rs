@@ -20,12 +20,19 @@ pub struct Statistics {
 impl Statistics {
     /// Of a list; absent where it is empty.
     pub fn of(list: impl IntoIterator<Item = f64>) -> Option<Self> {
-        let (mut count, mut sum, mut squares) = (0_usize, 0.0, 0.0);
+        Self::weighted(list.into_iter().map(|x| (x, 1.0)))
+    }
+
+    /// Of values with their weights, which count in the mean and the root of the mean square; what is no number, or has no
+    /// weight, is left out.
+    pub fn weighted(list: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
+        let (mut count, mut whole, mut sum, mut squares) = (0_usize, 0.0, 0.0, 0.0);
         let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
-        for x in list {
+        for (x, weight) in list.into_iter().filter(|(x, weight)| x.is_finite() && *weight > 0.0) {
             count += 1;
-            sum += x;
-            squares += x * x;
+            whole += weight;
+            sum += weight * x;
+            squares += weight * x * x;
             least = least.min(x);
             greatest = greatest.max(x);
         }
@@ -33,8 +40,8 @@ impl Statistics {
             count,
             least,
             greatest,
-            mean: sum / count as f64,
-            rms: (squares / count as f64).sqrt(),
+            mean: sum / whole,
+            rms: (squares / whole).sqrt(),
         })
     }
 }

@@ -282,6 +282,9 @@ impl Envelope {
                 self.torque.len()
             ));
         }
+        if self.speed.first().is_some_and(|first| *first > 0.0) {
+            return Err("the envelope does not begin at 0 rpm".to_owned());
+        }
         if self.speed.windows(2).all(|w| w[0] < w[1]) {
             Ok(())
         } else {
@@ -297,7 +300,6 @@ impl Envelope {
         let right = self.speed.iter().position(|s| speed <= s + near);
         let most = match right {
             None => return false,
-            Some(0) if speed < self.speed[0] - near => return false,
             Some(0) => self.torque[0],
             Some(i) => {
                 let share = (speed - self.speed[i - 1]) / (self.speed[i] - self.speed[i - 1]);

@@ -28,11 +28,12 @@ pub struct BreakdownEntry {
     pub over: Over,
     /// Torques; not with `power`.
     pub torque: Option<TorqueAxis>,
-    /// Powers at the port of the conditions, in place of torques: the torque falls as the speed rises.
+    /// Powers at the port with given torque, in place of torques: the torque falls as the speed rises.
     pub power: Option<PowerAxis>,
     /// Speeds.
     pub speed: SpeedAxis,
-    /// Measured points. Those within 2 % of torque and speed of a bar are drawn beside it, their mean where there are several.
+    /// Measured points. Those within 2 % of torque and speed and 5 K of the oil of a bar are drawn
+    /// beside it, their mean where there are several.
     pub measured: Option<MeasuredEntry>,
     /// Formats to write; absent, CSV and JSON.
     #[serde(default = "Write::data")]

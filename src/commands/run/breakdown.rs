@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use self::bars::{Bars, Kind, Row};
 use super::super::solve::{RPM, outside};
+use super::map::tidy;
 use super::seen::Seen;
 use super::write::{head, write};
 use super::{Built, Runner, axis, gear_of, speeds, torques};
@@ -30,8 +31,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
         let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &b.transmission)?;
         let loads = loads(runner, &path, entry, b)?;
         let gear = gear_of(entry.gear.as_deref(), &b.transmission);
+        let ratio = ratio(runner, b, gear)?;
         let at = |load: &Load, speed: f64| Given {
-            torque: load.torque(speed),
+            torque: load.torque(ratio * speed),
             speed,
             oil: None,
         };
@@ -62,6 +64,18 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
     finish(runner, name, &built, &bars)
 }
 
+/// Speed of the port with given torque over that of the port with given speed.
+fn ratio(runner: &Runner<'_>, b: &Built<'_>, gear: &str) -> Result<f64, Failure> {
+    let t = &b.transmission;
+    let case = runner
+        .points(t, gear, Vec::new(), Vec::new())
+        .case(t)
+        .map_err(|list| Failure::from(b.gearbox.findings(list)))?;
+    let port = |ports: &[usize]| ports.first().map(|p| t.ports()[*p].member);
+    let speeds = t.speeds(&case, &vec![1.0; case.speed_ports.len()]);
+    Ok(port(&case.torque_ports).map_or(1.0, |member| speeds[member]))
+}
+
 /// What stays the same while the speed changes.
 enum Load {
     Torque(f64),
@@ -78,14 +92,14 @@ impl Load {
 
     fn words(&self) -> String {
         match self {
-            Self::Torque(torque) => format!("{torque} Nm"),
-            Self::Power(power) => format!("{power} W"),
+            Self::Torque(torque) => format!("{} Nm", tidy(*torque)),
+            Self::Power(power) => format!("{} W", tidy(*power)),
         }
     }
 
     fn number(&self) -> String {
         match self {
-            Self::Torque(x) | Self::Power(x) => format!("{x}"),
+            Self::Torque(x) | Self::Power(x) => format!("{}", tidy(*x)),
         }
     }
 }
@@ -113,32 +127,26 @@ fn loads(runner: &Runner<'_>, path: &str, entry: &BreakdownEntry, b: &Built<'_>)
     }
 }
 
-/// Mean measured loss of the points within 2 % of torque and speed, and its accuracy. \[W\]
+/// Mean measured loss of the points within 2 % of torque and speed and 5 K of the oil, and the greatest of their accuracies. \[W\]
 fn beside(measured: &Measured, point: &PointResult, gear: &str) -> Option<(f64, f64)> {
     let near = |a: Option<f64>, b: f64| a.is_some_and(|a| (a - b).abs() <= 0.02 * b.abs().max(1e-9));
     let (mut sum, mut accuracy, mut count) = (0.0, 0.0_f64, 0.0);
     for row in &measured.rows {
         let value = |quantity: &str| measured.value(row, quantity);
         let same = row.gear.as_deref().is_none_or(|g| g == gear);
-        if !(same && near(value("torque"), point.torque) && near(value("speed"), point.speed)) {
+        let warm = value("oil_temperature")
+            .zip(point.oil)
+            .is_none_or(|(a, b)| (a - b).abs() <= 5.0);
+        if !(same && warm && near(value("torque"), point.torque) && near(value("speed"), point.speed)) {
             continue;
         }
-        let seen = Seen::of(
-            measured,
-            row,
-            value("torque").unwrap_or(0.0),
-            value("speed").unwrap_or(0.0),
-            point.speed,
-        );
+        let seen = Seen::of(measured, row, point);
         let Some(loss) = seen.quantity(Quantity::Loss) else {
             continue;
         };
         sum += loss;
         count += 1.0;
-        let own = value("loss_accuracy")
-            .or_else(|| Some(value("loss_torque_accuracy")? * point.speed.abs()))
-            .or_else(|| Some(value("efficiency_accuracy")? * point.input?));
-        accuracy = accuracy.max(own.unwrap_or(0.0));
+        accuracy = accuracy.max(seen.accuracy(Quantity::Loss).unwrap_or(0.0));
     }
     (count > 0.0).then(|| (sum / count, accuracy))
 }
@@ -275,7 +283,7 @@ pub fn temperature_sweep(
                     };
                     (format!("{oil}"), given)
                 });
-                rows.push((format!("{torque} Nm, {:.0} rpm", speed * RPM), bars.collect()));
+                rows.push((format!("{} Nm, {:.0} rpm", tidy(*torque), speed * RPM), bars.collect()));
             }
         }
         solve(

@@ -20,7 +20,7 @@ use self::pictures::pictures;
 use self::results::Results;
 use super::super::solve::{RPM, outside};
 use super::write::{TableFile, cell, head, write_json};
-use super::{Built, Runner, speeds, torques};
+use super::{Built, Runner, grid_axes};
 use crate::output::{Failure, Out, Table, number};
 
 /// The most rows and columns of a table on the terminal.
@@ -94,6 +94,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
         Some(data) => runner.read(&format!("{path}.measured"), data, &[])?,
         None => Measured::default(),
     };
+    for note in &measured.notes {
+        out.line(format!("{name}: measured: {note}"))?;
+    }
     let marks: Vec<Mark> = measured.rows.iter().map(|row| Mark::of(&measured, row)).collect();
     pictures(runner, name, &maps, &marks, &entry.write)
 }
@@ -137,9 +140,10 @@ fn on_grid<'s>(
         for built in runner.built_with(gearbox, sets, &bound)? {
             let built = Rc::new(built);
             let t = &built.transmission;
+            let (torques, speeds) = grid_axes(runner, name, grid, t)?;
             let axes = Axes {
-                torques: torques(runner, &format!("{path}.torque"), &grid.torque, t)?,
-                speeds: speeds(runner, &format!("{path}.speed"), &grid.speed, t)?,
+                torques,
+                speeds,
                 shares: [
                     t.rating.filter(|_| grid.speed.is_rated()).map(|r| r.speed),
                     t.rating.filter(|_| grid.torque.is_rated()).map(|r| r.torque),

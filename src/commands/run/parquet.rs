@@ -36,7 +36,7 @@ pub struct ParquetTable<W: Write + Send> {
 /// Which columns are texts is told by the first group.
 enum State<W: Write + Send> {
     Waiting(Option<W>),
-    Begun(SerializedFileWriter<W>, Vec<bool>),
+    Begun(Box<SerializedFileWriter<W>>, Vec<bool>),
 }
 
 impl<W: Write + Send> ParquetTable<W> {
@@ -68,7 +68,7 @@ impl<W: Write + Send> ParquetTable<W> {
     pub fn finish(mut self) -> Result<(), String> {
         self.group()?;
         match self.state {
-            State::Begun(writer, _) => writer.close().map(|_| ()).map_err(|e| e.to_string()),
+            State::Begun(writer, _) => (*writer).close().map(|_| ()).map_err(|e| e.to_string()),
             State::Waiting(_) => Ok(()),
         }
     }
@@ -81,7 +81,7 @@ impl<W: Write + Send> ParquetTable<W> {
                 .collect();
             let to = to.take().ok_or("the file was begun twice")?;
             let writer = begun(&self.header, &texts, to).map_err(|e| e.to_string())?;
-            self.state = State::Begun(writer, texts);
+            self.state = State::Begun(Box::new(writer), texts);
         }
         match &mut self.state {
             State::Begun(writer, texts) => written(writer, texts, &rows).map_err(|e| e.to_string()),
@@ -199,7 +199,7 @@ mod tests {
         let reader = SerializedFileReader::new(bytes).unwrap();
         assert_eq!(
             (reader.num_row_groups(), reader.metadata().file_metadata().num_rows()),
-            (2, (GROUP + 3) as i64)
+            (2, i64::try_from(GROUP + 3).unwrap())
         );
         let mut table = ParquetTable::new(&["loss_w".to_owned()], Vec::new());
         for row in &rows[..GROUP] {

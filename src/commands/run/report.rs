@@ -7,6 +7,7 @@ use std::path::Path;
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::report::schematic;
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
@@ -16,17 +17,21 @@ use super::write::keep;
 use crate::output::Failure;
 use crate::report::{Frame, GearboxPage, PageTable};
 
-/// Writes `report.html` beside the results.
-pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure> {
-    let template = match template {
-        Some(file) => Some(std::fs::read_to_string(file).map_err(|e| {
+/// The user's template, where there is one.
+pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
+    let read = |file: &Path| {
+        std::fs::read_to_string(file).map_err(|e| {
             Failure::input(
                 format!("cannot read {}: {e}", file.display()),
                 "name a template with --template",
             )
-        })?),
-        None => None,
+        })
     };
+    file.map(read).transpose()
+}
+
+/// Writes `report.html` beside the results.
+pub fn write(runner: &Runner<'_>, template: Option<&str>) -> Result<(), Failure> {
     for (i, (name, gearbox)) in runner.study.gearboxes.iter().enumerate() {
         let page = page(runner, name, gearbox, i == 0)?;
         runner.report.borrow_mut().gearbox(page);
@@ -45,7 +50,7 @@ pub fn write(runner: &Runner<'_>, template: Option<&Path>) -> Result<(), Failure
             .collect(),
         study: runner.study.text.clone(),
     };
-    let html = runner.report.borrow().html(&frame, template.as_deref()).map_err(|e| {
+    let html = runner.report.borrow().html(&frame, template).map_err(|e| {
         Failure::input(
             format!("the template of the report: {e}"),
             "correct it, or leave --template out",
@@ -98,7 +103,7 @@ fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Resu
         point_tables: point.map(|p| p.tables).unwrap_or_default(),
         title: text("title"),
         source: text("source"),
-        drawing: String::new(),
+        drawing: schematic(&transmission, &resolved.value),
         tables: vec![gears(&transmission), meshes(&transmission), states(&transmission)],
         assumed,
         resolved: serde_saphyr::to_string(&resolved.value).unwrap_or_default(),

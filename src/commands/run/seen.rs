@@ -1,5 +1,6 @@
 //! What was measured at a point, from whichever columns give it.
 
+use gearloss_framework::analysis::PointResult;
 use gearloss_framework::measured::{Measured, Row};
 use gearloss_framework::study::Quantity;
 
@@ -13,20 +14,27 @@ pub struct Seen {
     pub loss_torque: Option<f64>,
     /// \[degC\]
     pub oil: Option<f64>,
+    /// Power at the port with given torque: positive where it goes in. \[W\]
+    here: f64,
+    /// Speed of the reference port. \[rad/s\]
+    reference: f64,
+    /// Standard accuracies of efficiency, loss, loss torque and temperature, as far as columns tell them.
+    accuracies: [Option<f64>; 4],
 }
 
 impl Seen {
-    /// Torque and speed are those at the ports of the conditions; `out` columns those at the other port. Power counts as it
-    /// flows: what goes in is positive.
-    pub fn of(measured: &Measured, row: &Row, torque: f64, speed: f64, reference: f64) -> Self {
+    /// Torque and speed are those at the ports of the conditions, `out` columns those at the other port. The solved point tells
+    /// the speeds of the ports, which follow from the gear state alone.
+    pub fn of(measured: &Measured, row: &Row, point: &PointResult) -> Self {
         let value = |quantity: &str| measured.value(row, quantity);
-        let here = torque * speed;
-        let there = value("torque_out").zip(value("speed_out")).map(|(t, w)| t * w);
-        // Rigs write the torque of the brake with either sign: power comes in at one port and out at the other.
-        let both = there.map(|there| (here.abs().max(there.abs()), here.abs().min(there.abs())));
+        let here = value("torque").unwrap_or(0.0) * point.torque_speed;
+        let reference = point.reference_speed.abs();
+        let there = value("torque_out").zip(value("speed_out")).map(|(t, w)| (t * w).abs());
         let loss = value("loss")
-            .or_else(|| value("loss_torque").map(|t| t * reference.abs()))
-            .or_else(|| both.map(|(more, less)| more - less))
+            .or_else(|| value("loss_torque").map(|t| t * reference))
+            // Rigs write the torque of the brake with either sign; where power goes in, the sign here tells. Noise may make the
+            // difference negative.
+            .or_else(|| there.map(|there| if here > 0.0 { here - there } else { there + here }))
             .or_else(|| {
                 let eta = value("efficiency")?;
                 if here > 0.0 {
@@ -35,22 +43,28 @@ impl Seen {
                     (eta > 0.0).then(|| -here * (1.0 / eta - 1.0))
                 }
             });
-        let efficiency = value("efficiency")
-            .or_else(|| both.map(|(more, less)| less / more))
-            .or_else(|| {
-                let loss = loss?;
-                if here > 0.0 {
-                    Some((here - loss) / here)
-                } else {
-                    (here < 0.0).then(|| -here / (loss - here))
-                }
-            })
-            .filter(|eta| eta.is_finite());
+        let efficiency = value("efficiency").or_else(|| {
+            let loss = loss?;
+            if here > 0.0 {
+                Some((here - loss) / here)
+            } else {
+                (here < 0.0).then(|| -here / (loss - here))
+            }
+        });
+        let loss_torque = value("loss_torque").or_else(|| Some(loss? / reference));
         Self {
-            efficiency,
+            efficiency: efficiency.filter(|eta| eta.is_finite()),
             loss,
-            loss_torque: value("loss_torque").or_else(|| Some(loss? / reference.abs()).filter(|t| t.is_finite())),
+            loss_torque: loss_torque.filter(|t| t.is_finite()),
             oil: value("oil_temperature"),
+            here,
+            reference,
+            accuracies: [
+                value("efficiency_accuracy"),
+                value("loss_accuracy"),
+                value("loss_torque_accuracy"),
+                value("oil_temperature_accuracy"),
+            ],
         }
     }
 
@@ -62,5 +76,99 @@ impl Seen {
             Quantity::LossTorque => self.loss_torque,
             Quantity::Temperature => self.oil,
         }
+    }
+
+    /// Watts of loss for a change of the efficiency by one: the power in where it goes in here, else its square over what comes
+    /// out here. \[W\]
+    fn watts_per_efficiency(&self) -> Option<f64> {
+        if self.here > 0.0 {
+            return Some(self.here);
+        }
+        let input = self.loss? - self.here;
+        (self.here < 0.0).then(|| input * input / -self.here)
+    }
+
+    /// Accuracy of a quantity: its own column, or what follows from that of another one.
+    pub fn accuracy(&self, quantity: Quantity) -> Option<f64> {
+        let [efficiency, loss, loss_torque, temperature] = self.accuracies;
+        let watts = loss
+            .or_else(|| Some(loss_torque? * self.reference))
+            .or_else(|| Some(efficiency? * self.watts_per_efficiency()?));
+        let found = match quantity {
+            Quantity::Efficiency => efficiency.or_else(|| Some(watts? / self.watts_per_efficiency()?)),
+            Quantity::Loss => watts,
+            Quantity::LossTorque => loss_torque.or_else(|| Some(watts? / self.reference)),
+            Quantity::Temperature => temperature,
+        };
+        found.filter(|a| a.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use gearloss_framework::description::Ordered;
+    use gearloss_framework::flow::Status;
+    use gearloss_framework::measured::{FaultyRows, MeasuredEntry};
+
+    use super::*;
+
+    /// A point with given torque at a port that turns at 10 rad/s while the reference port turns at 100 rad/s.
+    fn seen(text: &str) -> Seen {
+        let entry = MeasuredEntry {
+            about: None,
+            file: String::new(),
+            columns: Ordered::default(),
+            units: Ordered::default(),
+            separator: None,
+            decimal: None,
+            encoding: None,
+            faulty_rows: FaultyRows::Refuse,
+        };
+        let measured = entry.read(text.as_bytes(), &[]).unwrap();
+        let point = PointResult {
+            torque: measured.value(&measured.rows[0], "torque").unwrap(),
+            speed: 100.0,
+            torque_speed: 10.0,
+            reference_speed: 100.0,
+            oil: None,
+            surface: None,
+            balance: None,
+            status: Status::Standstill,
+            efficiency: None,
+            loss: None,
+            loss_torque: None,
+            input: None,
+            output: None,
+            sums: [0.0; 6],
+            parts: Vec::new(),
+            terms: Vec::new(),
+            outside: false,
+            undefined: None,
+            passes: 0,
+            evaluations: 0,
+        };
+        Seen::of(&measured, &measured.rows[0], &point)
+    }
+
+    #[test]
+    fn power_counts_at_the_port_of_the_torque() {
+        // 100 Nm at 10 rad/s brake the output: 1000 W come out at 95 %.
+        let coast = seen("torque [Nm],speed [rpm],efficiency [%],efficiency_accuracy [%]\n-100,955,95,0.5\n");
+        assert!((coast.loss.unwrap() - 1000.0 * (1.0 / 0.95 - 1.0)).abs() < 1e-9);
+        assert!((coast.loss_torque.unwrap() - coast.loss.unwrap() / 100.0).abs() < 1e-12);
+        // P_in = 1000 / eta, so dP = 1000 / eta^2 d eta.
+        assert!((coast.accuracy(Quantity::Loss).unwrap() - 0.005 * 1000.0 / (0.95 * 0.95)).abs() < 1e-9);
+        let drive = seen("torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n100,955,50,5\n");
+        assert!((drive.efficiency.unwrap() - 0.95).abs() < 1e-12);
+        assert!((drive.accuracy(Quantity::Efficiency).unwrap() - 0.005).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_loss_below_zero_keeps_its_sign() {
+        let noisy = seen("torque [Nm],speed [rpm],torque_out [Nm],speed_out [rad/s]\n100,955,1010,1\n");
+        assert!((noisy.loss.unwrap() + 10.0).abs() < 1e-9);
+        let coast = seen("torque [Nm],speed [rpm],torque_out [Nm],speed_out [rad/s]\n-100,955,1040,1\n");
+        assert!((coast.loss.unwrap() - 40.0).abs() < 1e-9);
     }
 }

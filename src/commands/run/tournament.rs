@@ -5,14 +5,14 @@ mod rank;
 mod spread;
 
 use gearloss_framework::analysis::{Given, PointResult};
-use gearloss_framework::measured::Measured;
+use gearloss_framework::measured::{Measured, Row};
 use gearloss_framework::study::{Difference, Quantity, TournamentEntry};
 use serde_json::{Value, json};
 
 use self::candidates::Slot;
 use super::super::solve::RPM;
 use super::seen::Seen;
-use super::{Built, Runner, gear_of, speeds, torques};
+use super::{Built, Runner, gear_of, grid_axes};
 use crate::output::{Failure, Out, Table, number};
 
 /// The most combinations.
@@ -114,10 +114,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
                 let message = "a tournament takes a grid without bound values and envelope";
                 return Err(runner.wrong(&path, message, "give it a grid of its own"));
             }
-            let own = (
-                torques(runner, &format!("grids.{grid_name}.torque"), &grid.torque, t)?,
-                speeds(runner, &format!("grids.{grid_name}.speed"), &grid.speed, t)?,
-            );
+            let own = grid_axes(runner, grid_name, grid, t)?;
             let points = runner.points(t, gear, own.0.clone(), own.1.clone());
             let field = field(runner, &path, entry, base, &points, out, name)?;
             spread::show(runner, name, entry, gear, &own, &field, out)
@@ -128,11 +125,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
                 out.line(format!("{name}: {}: {note}", data.file))?;
             }
             let gear = gear_of(entry.gear.as_deref(), t).to_owned();
-            let rows = rows(runner, &path, &measured, &gear, out)?;
-            let list: Vec<Given> = rows.iter().map(|row| row.given).collect();
+            let (rows, list) = rows(runner, &path, &measured, &gear, out)?;
             let points = runner.listed(t, &gear, list);
             let field = field(runner, &path, entry, base, &points, out, name)?;
-            rank::show(runner, name, entry, &gear, &rows, &field, out)
+            let seen = measurements(runner, &path, entry, &measured, &rows, &field)?;
+            rank::show(runner, name, entry, &gear, &seen, &field, out)
         }
         _ => Err(runner.wrong(
             &path,
@@ -144,46 +141,29 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
 
 /// A measured point.
 struct Measurement {
-    given: Given,
+    /// \[Nm\]
+    torque: f64,
+    /// \[rad/s\]
+    speed: f64,
     /// \[W\]
     loss: f64,
-    /// \[W\]
+    /// In the unit of errors.
     accuracy: Option<f64>,
+    /// How much it counts.
+    weight: f64,
 }
 
-/// Measured losses in the gear state of the analysis.
-fn rows(
+/// The rows in the gear state of the analysis.
+fn rows<'r>(
     runner: &Runner<'_>,
     path: &str,
-    measured: &Measured,
+    measured: &'r Measured,
     gear: &str,
     out: &mut Out,
-) -> Result<Vec<Measurement>, Failure> {
-    let mut rows = Vec::new();
-    let mut others = 0;
-    for row in &measured.rows {
-        let value = |quantity: &str| measured.value(row, quantity);
-        if row.gear.as_deref().is_some_and(|g| g != gear) {
-            others += 1;
-            continue;
-        }
-        let (torque, speed) = (value("torque").unwrap_or(0.0), value("speed").unwrap_or(0.0));
-        let seen = Seen::of(measured, row, torque, speed, speed);
-        let Some(loss) = seen.loss.filter(|_| torque * speed != 0.0) else {
-            let message = format!("line {}: no measured loss follows, or nothing is driven", row.line);
-            let mend = "give the loss, the loss torque, the efficiency, or torque and speed at both ports";
-            return Err(runner.wrong(&format!("{path}.data"), message, mend));
-        };
-        let accuracy = value("loss_accuracy")
-            .or_else(|| Some(value("loss_torque_accuracy")? * speed.abs()))
-            .or_else(|| Some(value("efficiency_accuracy")? * (torque * speed).abs()));
-        let oil = value("oil_temperature");
-        rows.push(Measurement {
-            given: Given { torque, speed, oil },
-            loss,
-            accuracy,
-        });
-    }
+) -> Result<(Vec<&'r Row>, Vec<Given>), Failure> {
+    let own = |row: &&Row| row.gear.as_deref().is_none_or(|g| g == gear);
+    let rows: Vec<&Row> = measured.rows.iter().filter(own).collect();
+    let others = measured.rows.len() - rows.len();
     if others > 0 {
         out.line(format!("{others} points of other gear states are left out"))?;
     }
@@ -191,7 +171,46 @@ fn rows(
         let message = format!("{} points in gear `{gear}` rank nothing", rows.len());
         return Err(runner.wrong(&format!("{path}.data"), message, "name the gear state under `gear`"));
     }
-    Ok(rows)
+    let given = |row: &&Row| Given {
+        torque: measured.value(row, "torque").unwrap_or(0.0),
+        speed: measured.value(row, "speed").unwrap_or(0.0),
+        oil: measured.value(row, "oil_temperature"),
+    };
+    let list = rows.iter().map(given).collect();
+    Ok((rows, list))
+}
+
+/// Measured losses beside the solved points.
+fn measurements(
+    runner: &Runner<'_>,
+    path: &str,
+    entry: &TournamentEntry,
+    measured: &Measured,
+    rows: &[&Row],
+    field: &Field<'_>,
+) -> Result<Vec<Measurement>, Failure> {
+    let points = rows.iter().zip(&field.points);
+    let seen = points.map(|(row, point)| {
+        let seen = Seen::of(measured, row, point);
+        let Some(loss) = seen.loss else {
+            let message = format!("line {}: no measured loss follows", row.line);
+            let mend = "give the loss, the loss torque, the efficiency, or torque and speed at both ports";
+            return Err(runner.wrong(&format!("{path}.data"), message, mend));
+        };
+        let points = if entry.quantity == Quantity::Efficiency {
+            100.0
+        } else {
+            1.0
+        };
+        Ok(Measurement {
+            torque: point.torque,
+            speed: point.speed,
+            loss,
+            accuracy: seen.accuracy(entry.quantity).map(|a| points * a),
+            weight: measured.value(row, "weight").unwrap_or(1.0),
+        })
+    });
+    seen.collect()
 }
 
 fn field<'a>(
@@ -213,6 +232,18 @@ fn field<'a>(
         }
     }
     let solved = runner.solve(&base, &points)?;
+    // Every model loses at the temperatures of the set, else losses could not be added.
+    points.field = gearloss_framework::analysis::Field::List(
+        solved
+            .points
+            .iter()
+            .map(|p| Given {
+                torque: p.torque,
+                speed: p.speed,
+                oil: p.oil,
+            })
+            .collect(),
+    );
     let (slots, left_out) = candidates::slots(runner, path, entry, &base, (&points, &solved.points))?;
     if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {
         let message = format!(
@@ -230,8 +261,8 @@ fn field<'a>(
     });
     let rest: Vec<f64> = rest.collect();
     let scale = |p: &PointResult| match entry.quantity {
-        Quantity::Efficiency => 100.0 / (p.torque * p.speed).abs(),
-        Quantity::LossTorque => 1.0 / p.speed.abs(),
+        Quantity::Efficiency => 100.0 / (p.torque * p.torque_speed).abs(),
+        Quantity::LossTorque => 1.0 / p.reference_speed.abs(),
         Quantity::Loss | Quantity::Temperature => 1.0,
     };
     let unit = entry.quantity.words(Difference::Points).1;

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::super::solve::RPM;
 use super::map::{spread, tidy};
 use super::write::{cell, head, picture, write};
-use super::{Built, Runner, speeds, torques};
+use super::{Built, Runner, grid_axes};
 use crate::interrupt;
 use crate::output::{Failure, Out, Table, number};
 
@@ -134,18 +134,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
     let built = runner.built(gearbox, &entry.model_sets)?;
     let gear = &runner.one_gear(&path, grid, &built[0].transmission)?;
     for built in built {
-        let torques = torques(
-            runner,
-            &format!("grids.{}.torque", entry.grid),
-            &grid.torque,
-            &built.transmission,
-        )?;
-        let speeds = speeds(
-            runner,
-            &format!("grids.{}.speed", entry.grid),
-            &grid.speed,
-            &built.transmission,
-        )?;
+        let (torques, speeds) = grid_axes(runner, &entry.grid, grid, &built.transmission)?;
         let points = runner.points(&built.transmission, gear, torques.clone(), speeds.clone());
         let nominal = runner.solve(&built, &points)?.points;
         let inputs: Vec<Input> = entry

@@ -7,9 +7,9 @@ use gearloss_framework::study::CompareEntry;
 use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, outside};
-use super::super::Runner;
 use super::super::map::{spread, tidy};
 use super::super::write::{cell, head, picture, write};
+use super::super::{Runner, grid_axes};
 use super::of;
 use crate::output::{Failure, Out, Table, number};
 
@@ -46,18 +46,7 @@ pub fn run(
     // Axes that count in shares of a rating have other values for each product; tables and pictures show those of the base.
     let (mut torques, mut speeds) = (Vec::new(), Vec::new());
     for b in built.iter().rev() {
-        torques = super::super::torques(
-            runner,
-            &format!("grids.{grid_name}.torque"),
-            &grid.torque,
-            &b.transmission,
-        )?;
-        speeds = super::super::speeds(
-            runner,
-            &format!("grids.{grid_name}.speed"),
-            &grid.speed,
-            &b.transmission,
-        )?;
+        (torques, speeds) = grid_axes(runner, grid_name, grid, &b.transmission)?;
         let points = runner.points(&b.transmission, gear, torques.clone(), speeds.clone());
         solved.insert(0, runner.solve(b, &points)?);
     }

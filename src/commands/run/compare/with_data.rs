@@ -31,6 +31,8 @@ struct Pair {
     of_loss: Option<f64>,
     /// Accuracy of the measured quantity, where a column tells it.
     accuracy: Option<f64>,
+    /// How much the point counts; one where no column says it.
+    weight: f64,
 }
 
 /// One set of models at all measured points.
@@ -125,19 +127,10 @@ pub fn run(
 }
 
 fn compared<'a>(entry: &CompareEntry, measured: &Measured, solved: Solved<'a>) -> Compared<'a> {
-    let accuracy = match entry.quantity {
-        Quantity::Efficiency => "efficiency_accuracy",
-        Quantity::Loss => "loss_accuracy",
-        Quantity::LossTorque => "loss_torque_accuracy",
-        Quantity::Temperature => "oil_temperature_accuracy",
-    };
     let pairs = measured.rows.iter().zip(&solved.rows).enumerate();
     Compared {
         pairs: pairs
-            .map(|(i, (row, (_, gear, point)))| {
-                let accuracy = measured.value(row, accuracy);
-                pair(entry, measured, (i, row, gear), point, accuracy)
-            })
+            .map(|(i, (row, (_, gear, point)))| pair(entry, measured, (i, row, gear), point))
             .collect(),
         notes: solved.notes,
         built: solved.built,
@@ -145,15 +138,8 @@ fn compared<'a>(entry: &CompareEntry, measured: &Measured, solved: Solved<'a>) -
     }
 }
 
-fn pair(
-    entry: &CompareEntry,
-    measured: &Measured,
-    (i, row, gear): (usize, &Row, &str),
-    point: &PointResult,
-    accuracy: Option<f64>,
-) -> Pair {
-    let reference = point.loss.zip(point.loss_torque).map_or(point.speed, |(p, t)| p / t);
-    let seen = Seen::of(measured, row, point.torque, point.speed, reference);
+fn pair(entry: &CompareEntry, measured: &Measured, (i, row, gear): (usize, &Row, &str), point: &PointResult) -> Pair {
+    let seen = Seen::of(measured, row, point);
     let (saw, model) = (seen.quantity(entry.quantity), of(point, entry.quantity));
     Pair {
         row: i,
@@ -170,7 +156,8 @@ fn pair(
             .loss
             .zip(point.loss)
             .and_then(|(saw, model)| (saw != 0.0).then(|| 100.0 * (model - saw) / saw)),
-        accuracy,
+        accuracy: seen.accuracy(entry.quantity),
+        weight: measured.value(row, "weight").unwrap_or(1.0),
     }
 }
 
@@ -182,9 +169,8 @@ fn show(
     out: &mut Out,
 ) -> Result<Value, Failure> {
     let unit = entry.quantity.unit(entry.difference);
-    let differences = || c.pairs.iter().filter_map(|p| p.difference);
-    let of_all = Statistics::of(differences());
-    let of_loss = Statistics::of(c.pairs.iter().filter_map(|p| p.of_loss));
+    let of_all = Statistics::weighted(c.pairs.iter().filter_map(|p| Some((p.difference?, p.weight))));
+    let of_loss = Statistics::weighted(c.pairs.iter().filter_map(|p| Some((p.of_loss?, p.weight))));
     let (words, label) = entry.quantity.words(entry.difference);
     out.line(format!("{name}: {} minus measurement, {words} in {label}", c.name))?;
     let figures = |s: &Statistics| {
@@ -208,7 +194,11 @@ fn show(
             .map(|p| if what == "torque" { p.torque } else { p.speed * factor })
             .collect();
         for ([from, to], places) in bands(&at) {
-            let of_band = Statistics::of(places.iter().filter_map(|i| c.pairs[*i].difference));
+            let of_band = Statistics::weighted(
+                places
+                    .iter()
+                    .filter_map(|i| Some((c.pairs[*i].difference?, c.pairs[*i].weight))),
+            );
             let range = if (to - from).abs() <= 0.005 * to.abs() {
                 format!("{from:.1}")
             } else {
@@ -248,7 +238,13 @@ fn verdict(
     all: &[Compared<'_>],
     out: &mut Out,
 ) -> Result<(), Failure> {
-    let rms = |c: &Compared<'_>| Statistics::of(c.pairs.iter().filter_map(|p| p.difference)).map(|s| s.rms);
+    // Sets are ranked over the points at which every one of them has a value.
+    let common = |i: &usize| all.iter().all(|c| c.pairs[*i].difference.is_some());
+    let places: Vec<usize> = (0..all[0].pairs.len()).filter(common).collect();
+    let rms = |c: &Compared<'_>| {
+        let pairs = places.iter().map(|i| &c.pairs[*i]);
+        Statistics::weighted(pairs.filter_map(|p| Some((p.difference?, p.weight)))).map(|s| s.rms)
+    };
     let mut ranked: Vec<(&str, f64)> = all.iter().filter_map(|c| Some((c.name.as_str(), rms(c)?))).collect();
     ranked.sort_by(|a, b| a.1.total_cmp(&b.1));
     let [first, second, ..] = ranked[..] else {
@@ -260,6 +256,13 @@ fn verdict(
         "{name}: `{}` meets the measurement best, {:.3} {unit} rms; next `{}`, {:.3}",
         first.0, first.1, second.0, second.1
     );
+    let words = match all[0].pairs.len() - places.len() {
+        0 => words,
+        left => format!(
+            "{words}, over the {} points at which all have a value; {left} are left out",
+            places.len()
+        ),
+    };
     let sentence = match accuracy {
         Some(a) if second.1 - first.1 < a => {
             format!("{words}; indistinguishable: the measurement is accurate to {a:.3} {unit}")

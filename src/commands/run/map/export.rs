@@ -3,7 +3,7 @@
 //! Sources of the formats: VECTO's user manual (Transmission Loss Map), the Powertrain Blockset's block Gearbox, and the
 //! documentation of `Modelica.Mechanics.Rotational.Components.LossyGear`.
 
-use gearloss_framework::analysis::PointResult;
+use gearloss_framework::analysis::{Given, PointResult, Statistics};
 use gearloss_framework::study::Export;
 
 use super::super::super::solve::RPM;
@@ -26,6 +26,15 @@ pub fn write(runner: &Runner<'_>, name: &str, export: Export, maps: &[Map<'_>]) 
             return Err(runner.wrong(&path, message, &mend));
         }
         let Some((axes, places)) = &map.grid else { continue };
+        let rising = |list: &[f64]| list.windows(2).all(|w| w[0] < w[1]);
+        if !rising(&axes.torques) || !rising(&axes.speeds) {
+            let message = "a table for another program needs torques and speeds that rise";
+            return Err(runner.wrong(&path, message, "sort the axes of the grid"));
+        }
+        if export == Export::Matlab && places.contains(&None) {
+            let message = "an efficiency over a grid with an envelope would be zero beyond it";
+            return Err(runner.wrong(&path, message, "give a grid without envelope"));
+        }
         let table = Table { map, axes, places };
         // Maps that differ in bound values have a number each; the temperatures of one table stand in one file.
         let same = |m: &&Map<'_>| m.built.name == map.built.name && m.gear == map.gear;
@@ -35,17 +44,60 @@ pub fn write(runner: &Runner<'_>, name: &str, export: Export, maps: &[Map<'_>]) 
         if siblings.len() > 1 && export != Export::Matlab {
             file.push_str(&format!("-{number}"));
         }
+        let missed = between(runner, &table)?;
         let (file, text) = match export {
             Export::Vecto => (format!("{file}.vtlm"), table.vecto()),
             Export::Matlab if number > 1 => continue,
-            Export::Matlab => (format!("{file}.m"), matlab(&siblings, conditions.oil_temperature)),
-            Export::LossyGear => (format!("{file}.mo"), table.lossy_gear(&file)),
+            Export::Matlab => (format!("{file}.m"), matlab(&siblings)),
+            Export::LossyGear => {
+                // Modelica wants the file to be called as what it holds.
+                let letters = file.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+                let name: String = "losses_".chars().chain(letters).collect();
+                (format!("{name}.mo"), table.lossy_gear(&name))
+            }
         };
         let (text, said) = text.map_err(|(message, mend)| runner.wrong(&path, message, mend))?;
         keep(runner, &file, Ok(text.into_bytes()))?;
-        lines.push(format!("{file}: {said}"));
+        lines.push(format!("{file}: {said}{missed}"));
     }
     Ok(lines)
+}
+
+/// How far straight lines between the points of a table are from the loss torque half way between them.
+fn between(runner: &Runner<'_>, table: &Table<'_>) -> Result<String, Failure> {
+    let (axes, t) = (table.axes, &table.map.built.transmission);
+    let (mut list, mut means) = (Vec::new(), Vec::new());
+    for i in 0..axes.torques.len().saturating_sub(1) {
+        for k in 0..axes.speeds.len().saturating_sub(1) {
+            let corners = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(a, b)| table.at(i + a, k + b)?.loss_torque);
+            let sum: Option<f64> = corners.into_iter().sum();
+            let Some(sum) = sum else { continue };
+            list.push(Given {
+                torque: 0.5 * (axes.torques[i] + axes.torques[i + 1]),
+                speed: 0.5 * (axes.speeds[k] + axes.speeds[k + 1]),
+                oil: None,
+            });
+            means.push(0.25 * sum);
+        }
+    }
+    if list.is_empty() {
+        return Ok(String::new());
+    }
+    let points = runner.listed(t, &table.map.gear, list);
+    let solved = runner.solve(&table.map.built, &points)?;
+    let gaps = solved
+        .points
+        .iter()
+        .zip(means)
+        .filter_map(|(p, mean)| Some(mean - p.loss_torque?));
+    let gaps = Statistics::of(gaps);
+    Ok(gaps.map_or_else(String::new, |g| {
+        let worst = g.greatest.abs().max(g.least.abs());
+        format!(
+            "; between its points the table of the map misses the loss torque by {worst:.4} Nm at most, {:.4} Nm rms",
+            g.rms
+        )
+    }))
 }
 
 /// Text of a file and what to say of it, or what is wrong and how to mend it.
@@ -102,7 +154,7 @@ impl Table<'_> {
 
     /// Efficiency and friction over speed: straight lines of the loss torque over torque, drive and coast apart.
     fn lossy_gear(&self, name: &str) -> Written {
-        let (mut rows, mut worst, mut square, mut count) = (Vec::new(), 0.0_f64, 0.0, 0.0);
+        let (mut rows, mut worst, mut square, mut count): (Vec<[f64; 5]>, _, _, _) = (Vec::new(), 0.0_f64, 0.0, 0.0);
         let mut coasts = false;
         for w in 0..self.axes.speeds.len() {
             let speed = self.axes.speeds[w];
@@ -129,17 +181,25 @@ impl Table<'_> {
                     count += 1.0;
                 }
             }
-            // Drive: loss = (1 - eta) T + eta f; coast: loss = (1 / eta - 1) |T| + f / eta.
-            let (eta, eta_2) = (1.0 - slope, 1.0 / (1.0 + slope_2));
-            rows.push([speed, eta, eta_2, base / eta, base_2 * eta_2]);
+            if slope >= 1.0 {
+                return Err((
+                    format!(
+                        "at {:.0} rpm losses grow as fast as the torque, which `LossyGear` cannot take",
+                        speed * RPM
+                    ),
+                    "leave torques out at which nothing comes out",
+                ));
+            }
+            // The library's equations: loss = (1 - eta1) T + f1 where a drives, loss = (1 - 1 / eta2) T + f2 where b does.
+            rows.push([speed, 1.0 - slope, 1.0 / (1.0 + slope_2), base, base_2]);
         }
+        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let Some(first) = rows.first().copied() else {
             return Err((
                 "no speed above zero has two torques with a loss".to_owned(),
                 "give the grid speeds above zero and several torques from zero on",
             ));
         };
-        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
         // The table has to begin at rest.
         rows.insert(0, [0.0, first[1], first[2], first[3], first[4]]);
         let rms = if count > 0.0 { f64::sqrt(square / count) } else { 0.0 };
@@ -152,18 +212,14 @@ impl Table<'_> {
                 "; no coast side in the grid, the drive side stands for it"
             }
         );
-        let identifier: String = name
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-            .collect();
         let body: Vec<String> = rows
             .iter()
             .map(|r| format!("    {:.6}, {:.8}, {:.8}, {:.8}, {:.8}", r[0], r[1], r[2], r[3], r[4]))
             .collect();
         Ok((
             format!(
-                "record {identifier} \"Losses of gear {} by gearloss {}\"\n  // |w_a| rad/s, mesh efficiency drive and coast, bearing friction drive and coast Nm.\n  \
-                 // {said}\n  constant Real lossTable[{}, 5] = [\n{}];\nend {identifier};\n",
+                "record {name} \"Losses of gear {} by gearloss {}\"\n  // |w_a| rad/s, mesh efficiency drive and coast, bearing friction drive and coast Nm.\n  \
+                 // {said}\n  constant Real lossTable[{}, 5] = [\n{}];\nend {name};\n",
                 self.map.gear,
                 env!("CARGO_PKG_VERSION"),
                 rows.len(),
@@ -190,12 +246,12 @@ fn line(points: &[(f64, f64)]) -> (f64, f64) {
 }
 
 /// Efficiency over torque, speed and oil temperature, as vectors of a script.
-fn matlab(maps: &[&Map<'_>], fixed: Option<f64>) -> Written {
+fn matlab(maps: &[&Map<'_>]) -> Written {
     let mut slabs: Vec<(f64, &Map<'_>)> = Vec::new();
     for map in maps {
-        match (map.oil.given(), fixed) {
-            (Some(oil), _) => slabs.push((oil, map)),
-            (None, _) => {
+        match map.oil.given() {
+            Some(oil) => slabs.push((oil, map)),
+            None => {
                 return Err((
                     "a table over oil temperature needs given temperatures, not a balance".to_owned(),
                     "fix the temperature, or bind `thermal.mode: [fixed]` and `thermal.oil: [40 degC, 80 degC]` in the grid",

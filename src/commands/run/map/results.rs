@@ -79,6 +79,8 @@ impl Serialize for Sums {
     }
 }
 
+// The way that serde asks for.
+#[allow(clippy::trivially_copy_pass_by_ref)]
 fn points<S: Serializer>(map: &&Map<'_>, to: S) -> Result<S::Ok, S::Error> {
     let point = |p: &PointResult| -> Point<'_> {
         Point {

@@ -144,7 +144,11 @@ pub fn slots(
                 .collect();
             let of_own = |p: &PointResult| own.iter().map(|i| p.parts[*i]).sum();
             let loss: Vec<f64> = solved.iter().map(of_own).collect();
-            slot.candidates.retain(|candidate| candidate.loss != loss);
+            let same = |model: &Value| slot.with(runner.language, &base.resolved, model).map(|r| r.value);
+            let twin = |candidate: &Candidate| same(&candidate.model).as_ref() == Ok(&base.resolved.value);
+            let twins: Vec<bool> = slot.candidates.iter().map(twin).collect();
+            let mut twins = twins.into_iter();
+            slot.candidates.retain(|_| twins.next() != Some(true));
             slot.candidates.insert(
                 0,
                 Candidate {

@@ -1,5 +1,6 @@
 //! Combinations ranked by how well they predict measured points that they have not seen.
 
+use gearloss_framework::analysis::Statistics;
 use gearloss_framework::inference::folds;
 use gearloss_framework::least_squares::{Options, Parameter, Problem, solve};
 use gearloss_framework::report::Figure;
@@ -33,8 +34,9 @@ struct Ranked {
     on_bound: Vec<usize>,
 }
 
-fn rms(errors: &[f64]) -> f64 {
-    (errors.iter().map(|e| e * e).sum::<f64>() / errors.len().max(1) as f64).sqrt()
+/// Root of the mean square of errors with their weights; zero without any.
+fn rms(errors: impl IntoIterator<Item = (f64, f64)>) -> f64 {
+    Statistics::weighted(errors).map_or(0.0, |s| s.rms)
 }
 
 /// The factors that fit a combination to some of the points; ones where none are fitted.
@@ -48,15 +50,18 @@ fn factors(
     let ones = vec![1.0; places.len()];
     let Some(bounds) = entry.factors else { return ones };
     let residual = |theta: &[f64]| -> Result<Vec<f64>, String> {
-        Ok(of.iter().map(|i| error(field, rows, places, theta, *i)).collect())
+        Ok(of
+            .iter()
+            .map(|i| rows[*i].weight.sqrt() * error(field, rows, places, theta, *i))
+            .collect())
     };
     let parameters = field.slots.iter().map(|slot| {
         let start = 1.0_f64.clamp(bounds.least, bounds.greatest);
         Parameter::new(slot.name.clone(), start).within(bounds.least, bounds.greatest)
     });
     let problem = Problem::new(residual, parameters.collect());
-    // A problem that cannot be fitted, such as one with fewer points than factors, keeps its factors at one.
-    solve(&problem, &Options::exact()).map_or(ones, |fit| fit.theta)
+    // Fewer points than factors are refused before; losses are linear in their factors, so nothing else fails.
+    solve(&problem, &Options::exact()).map_or(vec![f64::NAN; places.len()], |fit| fit.theta)
 }
 
 /// Model minus measurement at one point, in the unit of the tournament.
@@ -77,13 +82,19 @@ fn ranked(
 ) -> Ranked {
     let all: Vec<usize> = (0..rows.len()).collect();
     let whole = factors(entry, field, rows, &places, &all);
-    let errors: Vec<f64> = all.iter().map(|i| error(field, rows, &places, &whole, *i)).collect();
+    let errors: Vec<(f64, f64)> = all
+        .iter()
+        .map(|i| (error(field, rows, &places, &whole, *i), rows[*i].weight))
+        .collect();
     let (mut predicted, mut worst) = (Vec::new(), 0.0_f64);
     for group in groups {
         let others: Vec<usize> = all.iter().copied().filter(|i| !group.contains(i)).collect();
         let own = factors(entry, field, rows, &places, &others);
-        let of_group: Vec<f64> = group.iter().map(|i| error(field, rows, &places, &own, *i)).collect();
-        worst = worst.max(rms(&of_group));
+        let of_group: Vec<(f64, f64)> = group
+            .iter()
+            .map(|i| (error(field, rows, &places, &own, *i), rows[*i].weight))
+            .collect();
+        worst = worst.max(rms(of_group.iter().copied()));
         predicted.extend(of_group);
     }
     let on_bound = entry.factors.map_or_else(Vec::new, |bounds| {
@@ -92,10 +103,10 @@ fn ranked(
     });
     Ranked {
         places,
-        rms: rms(&errors),
-        predicted: rms(&predicted),
+        rms: rms(errors.iter().copied()),
+        predicted: rms(predicted),
         worst,
-        mean: errors.iter().sum::<f64>() / errors.len() as f64,
+        mean: Statistics::weighted(errors).map_or(0.0, |s| s.mean),
         factors: whole,
         on_bound,
     }
@@ -110,12 +121,24 @@ pub fn show(
     field: &Field<'_>,
     out: &mut Out,
 ) -> Result<(), Failure> {
-    let torques: Vec<f64> = rows.iter().map(|row| row.given.torque).collect();
+    let torques: Vec<f64> = rows.iter().map(|row| row.torque).collect();
     let groups = folds(&torques, entry.folds as usize).map_err(|reason| {
         let path = format!("analyses.{name}.data");
         runner.wrong(&path, reason, "give points at two torques at least")
     })?;
     let groups: Vec<Vec<usize>> = groups.into_iter().map(|fold| fold.points).collect();
+    let fewest = groups.iter().map(|g| rows.len() - g.len()).min().unwrap_or(0);
+    if entry.factors.is_some() && fewest < field.slots.len() {
+        let message = format!(
+            "{fewest} points outside of a group cannot fit {} factors",
+            field.slots.len()
+        );
+        return Err(runner.wrong(
+            &format!("analyses.{name}.data"),
+            message,
+            "give more points, or fewer mechanisms",
+        ));
+    }
     let bar = runner.bar(field.count() as u64, name);
     let mut all: Vec<Ranked> = (0..field.count())
         .into_par_iter()
@@ -129,13 +152,9 @@ pub fn show(
         return Err(Failure::Interrupted);
     }
     all.sort_by(|a, b| a.predicted.total_cmp(&b.predicted));
-    // Root of the mean square of the accuracy, as errors count.
-    let accuracies: Option<Vec<f64>> = rows
-        .iter()
-        .zip(&field.scale)
-        .map(|(row, scale)| Some(row.accuracy? * scale))
-        .collect();
-    let accuracy = accuracies.map(|list| rms(&list));
+    // Root of the mean square of the accuracies that are stated.
+    let stated = rows.iter().filter_map(|row| Some((row.accuracy?, row.weight)));
+    let accuracy = Statistics::weighted(stated).map(|s| s.rms);
     let best = all.first().map_or(0.0, |r| r.predicted);
     let alike = |r: &Ranked| accuracy.is_some_and(|a| r.predicted - best < a);
     table(name, entry, field, &all, &alike, out)?;
@@ -251,11 +270,15 @@ fn results(
     header.extend(field.header());
     header.extend(["predicted_rms", "worst_group_rms", "fitted_rms", "mean"].map(str::to_owned));
     header.extend(field.slots.iter().map(|s| format!("factor_{}", s.name)));
+    header.extend(["on_bound", "indistinguishable"].map(str::to_owned));
     let row = |(i, r): (usize, &Ranked)| {
         let mut row = vec![(i + 1).to_string()];
         row.extend(field.names(&r.places).into_iter().map(str::to_owned));
         row.extend([r.predicted, r.worst, r.rms, r.mean].map(|x| cell(Some(x))));
         row.extend(r.factors.iter().map(|f| cell(Some(*f))));
+        let bounds: Vec<&str> = r.on_bound.iter().map(|k| field.slots[*k].name.as_str()).collect();
+        row.push(bounds.join(" "));
+        row.push(accuracy.map_or_else(String::new, |a| (r.predicted - all[0].predicted < a).to_string()));
         row
     };
     let rows: Vec<Vec<String>> = all.iter().enumerate().map(row).collect();
@@ -264,8 +287,8 @@ fn results(
         "model_set": field.base.name, "gear": gear, "unit": unit(entry), "combinations": all.len(), "accuracy": accuracy,
         "mechanisms": json_of(field),
         "points": measured.iter().map(|m| json!({
-            "torque_nm": m.given.torque, "speed_rpm": tidy(m.given.speed * RPM), "measured_loss_w": m.loss,
-            "loss_accuracy_w": m.accuracy,
+            "torque_nm": m.torque, "speed_rpm": tidy(m.speed * RPM), "measured_loss_w": m.loss,
+            "accuracy": m.accuracy, "weight": m.weight,
         })).collect::<Vec<_>>(),
         "ranking": all.iter().map(|r| json!({
             "models": field.names(&r.places), "predicted_rms": r.predicted, "worst_group_rms": r.worst,
@@ -310,12 +333,7 @@ fn pictures(
     let line = |r: &Ranked| Line {
         name: field.names(&r.places).join(", "),
         points: (0..rows.len())
-            .map(|i| {
-                Some((
-                    tidy(rows[i].given.speed * RPM),
-                    error(field, rows, &r.places, &r.factors, i),
-                ))
-            })
+            .map(|i| Some((tidy(rows[i].speed * RPM), error(field, rows, &r.places, &r.factors, i))))
             .collect(),
         stroke: Stroke::Dots,
     };
