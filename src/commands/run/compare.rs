@@ -3,8 +3,10 @@
 mod on_grid;
 mod with_data;
 
-use gearloss_framework::analysis::PointResult;
+use gearloss_framework::analysis::{PointResult, histogram};
 use gearloss_framework::document::Diagnostic;
+use gearloss_framework::report::Figure;
+use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::study::{CompareEntry, Difference, Quantity};
 
 use super::Runner;
@@ -44,5 +46,65 @@ fn of(point: &PointResult, quantity: Quantity) -> Option<f64> {
         Quantity::Loss => point.loss,
         Quantity::LossTorque => point.loss_torque,
         Quantity::Temperature => point.oil,
+    }
+}
+
+/// Numbers of points over their difference, in the same cells for every set.
+fn histograms(name: &str, (what, unit): (&str, &str), lists: Vec<(String, Vec<f64>)>) -> Figure {
+    let all: Vec<f64> = lists.iter().flat_map(|(_, list)| list.iter().copied()).collect();
+    let (from, width, cells) = histogram(&all);
+    let steps = |(set, list): (String, Vec<f64>)| {
+        let mut counts = vec![0.0; cells.len()];
+        for x in list {
+            let cell = (((x - from) / width) as usize).min(cells.len().saturating_sub(1));
+            counts[cell] += 1.0;
+        }
+        let mut points = vec![Some((from, 0.0))];
+        for (i, count) in counts.iter().enumerate() {
+            let left = from + width * i as f64;
+            points.extend([Some((left, *count)), Some((left + width, *count))]);
+        }
+        points.push(Some((from + width * cells.len() as f64, 0.0)));
+        Line {
+            name: set,
+            points,
+            stroke: Stroke::Line,
+        }
+    };
+    Figure::Lines {
+        title: format!("{name}: how often a difference occurs"),
+        x: format!("difference of {what} in {unit}"),
+        y: "points".to_owned(),
+        lines: lists.into_iter().map(steps).collect(),
+    }
+}
+
+/// One quantity over the same of what it is compared with, and the line of equal values.
+fn parity(name: &str, what: &str, (x, y): (&str, &str), lists: Vec<(String, Vec<Option<(f64, f64)>>)>) -> Figure {
+    let all = || lists.iter().flat_map(|(_, list)| list.iter().flatten());
+    let ends = all().fold(None, |ends: Option<(f64, f64)>, (a, b)| {
+        let (low, high) = ends.unwrap_or((*a, *a));
+        Some((low.min(*a).min(*b), high.max(*a).max(*b)))
+    });
+    let mut lines: Vec<Line> = Vec::new();
+    for (set, points) in lists {
+        lines.push(Line {
+            name: set,
+            points,
+            stroke: Stroke::Dots,
+        });
+    }
+    if let Some((low, high)) = ends {
+        lines.push(Line {
+            name: "equal".to_owned(),
+            points: vec![Some((low, low)), Some((high, high))],
+            stroke: Stroke::Line,
+        });
+    }
+    Figure::Lines {
+        title: format!("{name}: parity of {what}"),
+        x: x.to_owned(),
+        y: y.to_owned(),
+        lines,
     }
 }

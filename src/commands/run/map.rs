@@ -234,10 +234,7 @@ fn on_list<'s>(
             maps.push(Map {
                 bound: bound.unwrap_or_default(),
                 gear,
-                oil: OilTemperature::of(
-                    &built[place].transmission,
-                    runner.study.entry.conditions.oil_temperature,
-                ),
+                oil: common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed),
                 notes: solved.notes.clone(),
                 seen: Vec::new(),
                 passes: points.iter().map(|p| p.passes).sum(),
@@ -248,6 +245,12 @@ fn on_list<'s>(
         }
     }
     Ok(maps)
+}
+
+/// The temperature that all points share; absent where they differ, or where it is found by balance.
+fn common(points: &[PointResult]) -> Option<f64> {
+    let first = points.first().filter(|p| p.balance.is_none())?.oil?;
+    points.iter().all(|p| p.oil == Some(first)).then_some(first)
 }
 
 fn header(bound: &[String], parts: &[String]) -> Vec<String> {

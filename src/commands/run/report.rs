@@ -118,7 +118,7 @@ fn sets(runner: &Runner<'_>, name: &str, first: bool) -> Vec<String> {
         let of_analysis = uses.gearbox.map_or(first, |g| g == name);
         for set in uses.sets {
             let own = match set.split_once('/') {
-                Some((product, set)) => (product == name && set != "own").then(|| set.to_owned()),
+                Some((product, _)) => (product == name).then(|| set.clone()),
                 None => of_analysis.then(|| set.clone()),
             };
             if let Some(set) = own.filter(|set| !sets.contains(set)) {

@@ -1,6 +1,6 @@
 //! What uncertain inputs do: samples of all inputs, solved over a grid, and the bands that they leave.
 
-use gearloss_framework::analysis::{PointResult, Points, correlation, quantile, run_grid};
+use gearloss_framework::analysis::{PointResult, Points, correlation, notes, quantile, run_grid};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::report::{Figure, Map};
@@ -110,6 +110,9 @@ impl Input {
     }
 }
 
+/// Values of the inputs, the solved points, and which stated ranges were left: path and quantity.
+type Sample = (Vec<f64>, Vec<PointResult>, Vec<(String, &'static str)>);
+
 /// All samples of one set.
 struct Sampled<'a> {
     built: Built<'a>,
@@ -143,7 +146,17 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
             .enumerate()
             .map(|(i, input)| Input::new(runner, &format!("{path}.inputs.{i}"), input, &built))
             .collect::<Result<_, _>>()?;
-        let (samples, failed) = sample(runner, entry, &built, &inputs, &points)?;
+        for (i, input) in inputs.iter().enumerate() {
+            let twice = |other: &&Input| other.varied.paths.iter().any(|p| input.varied.paths.contains(p));
+            if let Some(other) = inputs[..i].iter().find(twice) {
+                let message = format!(
+                    "`{}` and `{}` change the same value",
+                    other.varied.pattern, input.varied.pattern
+                );
+                return Err(runner.wrong(&format!("{path}.inputs.{i}"), message, "name every value once"));
+            }
+        }
+        let (samples, failed) = sample(runner, entry, &built, &inputs, &points, out)?;
         all.push(Sampled {
             built,
             inputs,
@@ -191,13 +204,14 @@ fn sample(
     built: &Built<'_>,
     inputs: &[Input],
     points: &Points,
+    out: &mut Out,
 ) -> Result<(Vec<(Vec<f64>, Vec<PointResult>)>, Vec<String>), Failure> {
     let failed = |reason: String| runner.wrong("analyses", reason, "use fewer inputs");
     let sobol = Sobol::new(inputs.len()).map_err(failed)?;
     let set = built.set();
     let (study, language, gearbox): (_, _, &Gearbox) = (runner.study, runner.language, built.gearbox);
     let bar = runner.bar(u64::from(entry.samples), &built.name);
-    let one = |i: u32| -> Result<(Vec<f64>, Vec<PointResult>), String> {
+    let one = |i: u32| -> Result<Sample, String> {
         let place = sobol.point(i);
         let values: Vec<f64> = inputs
             .iter()
@@ -216,7 +230,9 @@ fn sample(
         let solved = run_grid(&transmission, points, &|_| !interrupt::pressed());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         bar.inc(1);
-        Ok((values, solved.map(|s| s.points).unwrap_or_default()))
+        let left = solved.as_ref().map_or_else(Vec::new, |s| notes(&transmission, &s.seen));
+        let left = left.into_iter().filter(|n| n.outside > 0).map(|n| (n.path, n.name));
+        Ok((values, solved.map(|s| s.points).unwrap_or_default(), left.collect()))
     };
     let all: Vec<_> = (0..entry.samples).into_par_iter().map(one).collect();
     ProgressBar::finish_and_clear(&bar);
@@ -224,11 +240,23 @@ fn sample(
         return Err(Failure::Interrupted);
     }
     let (mut samples, mut failed) = (Vec::new(), Vec::new());
+    let mut left: Vec<(String, &'static str)> = Vec::new();
     for result in all {
         match result {
-            Ok(sample) => samples.push(sample),
+            Ok((values, points, more)) => {
+                left.extend(more);
+                samples.push((values, points));
+            }
             Err(reason) => failed.push(reason),
         }
+    }
+    left.sort_unstable();
+    left.dedup();
+    runner.left.set(runner.left.get() + left.len());
+    for (path, name) in left {
+        out.line(format!(
+            "outside: {path}: {name} leaves its stated range at some samples"
+        ))?;
     }
     if samples.len() < 2 {
         let message = format!(
@@ -255,11 +283,17 @@ impl Sampled<'_> {
     fn ranked(&self) -> Vec<(usize, Option<f64>)> {
         let mean = |points: &Vec<PointResult>| {
             let losses: Vec<f64> = points.iter().filter_map(|p| p.loss).collect();
-            losses.iter().sum::<f64>() / losses.len().max(1) as f64
+            (!losses.is_empty()).then(|| losses.iter().sum::<f64>() / losses.len() as f64)
         };
-        let losses: Vec<f64> = self.samples.iter().map(|(_, points)| mean(points)).collect();
+        // A sample without any loss has no mean.
+        let solved = || {
+            self.samples
+                .iter()
+                .filter_map(|(values, points)| Some((values, mean(points)?)))
+        };
+        let losses: Vec<f64> = solved().map(|(_, loss)| loss).collect();
         let of = |k: usize| {
-            let values: Vec<f64> = self.samples.iter().map(|(values, _)| values[k]).collect();
+            let values: Vec<f64> = solved().map(|(values, _)| values[k]).collect();
             (k, correlation(&values, &losses))
         };
         let mut ranked: Vec<_> = (0..self.inputs.len()).map(of).collect();

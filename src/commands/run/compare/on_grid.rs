@@ -1,6 +1,6 @@
 //! Difference between sets of models over a grid: the other set minus the base.
 
-use gearloss_framework::analysis::{GridResult, PointResult, notes};
+use gearloss_framework::analysis::{GridResult, PointResult, Statistics, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::report::{Figure, Map};
 use gearloss_framework::study::CompareEntry;
@@ -132,11 +132,20 @@ pub fn run(
                 },
             )
         };
+        let of_all = Statistics::of(known.iter().copied());
+        let losses = solved[0].points.iter().zip(&other.points);
+        let of_loss = Statistics::of(losses.filter_map(|(base, other)| {
+            let base = base.loss.filter(|loss| *loss != 0.0)?;
+            Some(100.0 * (other.loss? - base) / base)
+        }));
         let figures = format!(
-            "least {}; greatest {}; mean {}",
+            "least {}; greatest {}; mean {}, rms {}; in the loss {} % in the mean, {} % rms",
             place(least),
             place(greatest),
-            number(mean, 3)
+            number(mean, 3),
+            number(of_all.map(|s| s.rms), 3),
+            number(of_loss.map(|s| s.mean), 2),
+            number(of_loss.map(|s| s.rms), 2)
         );
         runner.verdict(format!("{} minus {base}, {words} in {label}: {figures}", b.name), out)?;
         out.line("")?;
@@ -156,6 +165,8 @@ pub fn run(
             "least": at(least),
             "greatest": at(greatest),
             "mean": mean,
+            "difference": of_all,
+            "loss_difference_percent_of_loss": of_loss,
             "notes": seen,
             "points": differences.iter().zip(&other.points).zip(&solved[0].points).map(|((gap, p), first)| json!({
                 "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "base_model": quantity(first),
@@ -190,5 +201,18 @@ pub fn run(
         });
         picture(runner, &format!("{name}-{}", b.name), figure, &entry.write)?;
     }
-    Ok(())
+    let names = built.iter().skip(1).map(|b| b.name.clone());
+    let lists = gaps.iter().map(|list| list.iter().flatten().copied().collect());
+    let histogram = super::histograms(name, (words, label), names.zip(lists).collect());
+    picture(runner, &format!("{name}-histogram"), histogram, &entry.write)?;
+    let of_base = &solved[0].points;
+    let parity = built.iter().zip(&solved).skip(1).map(|(b, other)| {
+        let pairs = of_base.iter().zip(&other.points);
+        (
+            b.name.clone(),
+            pairs.map(|(base, p)| Some((quantity(base)?, quantity(p)?))).collect(),
+        )
+    });
+    let figure = super::parity(name, words, (&format!("{base}: {words}"), words), parity.collect());
+    picture(runner, &format!("{name}-parity"), figure, &entry.write)
 }

@@ -1,9 +1,8 @@
 //! Models against measured points: the model minus the measurement.
 
-use gearloss_framework::analysis::{Note, PointResult, Statistics, bands, histogram, levels};
+use gearloss_framework::analysis::{Note, PointResult, Statistics, bands, levels};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
-use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::report::{Cloud, Figure, Map};
 use gearloss_framework::study::{CompareEntry, Difference, Quantity};
 use serde_json::{Value, json};
@@ -292,69 +291,27 @@ fn accuracy(entry: &CompareEntry, c: &Compared<'_>) -> Option<f64> {
 
 fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compared<'_>]) -> Result<(), Failure> {
     let (what, unit) = entry.quantity.words(entry.difference);
-    let parity = |c: &Compared<'_>| Line {
-        name: c.name.clone(),
-        points: c.pairs.iter().map(|p| Some((p.measured?, p.model?))).collect(),
-        stroke: Stroke::Dots,
-    };
-    let mut dots: Vec<Line> = all.iter().map(parity).collect();
-    let both = || {
-        dots.iter()
-            .flat_map(|l| l.points.iter().flatten())
-            .flat_map(|p| [p.0, p.1])
-    };
-    let (low, high) = (
-        both().fold(f64::INFINITY, f64::min),
-        both().fold(f64::NEG_INFINITY, f64::max),
+    let pairs = |c: &Compared<'_>| c.pairs.iter().map(|p| Some((p.measured?, p.model?))).collect();
+    let figure = super::parity(
+        name,
+        what,
+        (&format!("measured {what}"), &format!("model {what}")),
+        all.iter().map(|c| (c.name.clone(), pairs(c))).collect(),
     );
-    if low <= high {
-        dots.push(Line {
-            name: "equal".to_owned(),
-            points: vec![Some((low, low)), Some((high, high))],
-            stroke: Stroke::Line,
-        });
-    }
-    let title = format!("{name}: parity of {what}");
-    let figure = Figure::Lines {
-        title,
-        x: format!("measured {what}"),
-        y: format!("model {what}"),
-        lines: dots,
-    };
-    let write = &entry.write;
-    picture(runner, &format!("{name}-parity"), figure, write)?;
+    picture(runner, &format!("{name}-parity"), figure, &entry.write)?;
     for c in all {
         let title = format!("{name}: {what} of {} minus measurement in {unit}", c.name);
         picture(
             runner,
             &format!("{name}-{}", c.name),
             differences(entry, c, title),
-            write,
+            &entry.write,
         )?;
     }
-    let steps = |c: &Compared<'_>| {
-        let values: Vec<f64> = c.pairs.iter().filter_map(|p| p.difference).collect();
-        let (from, width, counts) = histogram(&values);
-        let mut points = Vec::new();
-        for (i, count) in counts.iter().enumerate() {
-            let (left, right) = (from + width * i as f64, from + width * (i as f64 + 1.0));
-            points.extend([Some((left, *count as f64)), Some((right, *count as f64))]);
-        }
-        Line {
-            name: c.name.clone(),
-            points,
-            stroke: Stroke::Line,
-        }
-    };
-    let lines: Vec<Line> = all.iter().map(steps).collect();
-    let title = format!("{name}: model minus measurement, number of points");
-    let figure = Figure::Lines {
-        title,
-        x: format!("difference of {what} in {unit}"),
-        y: "points".to_owned(),
-        lines,
-    };
-    picture(runner, &format!("{name}-histogram"), figure, write)
+    let values = |c: &Compared<'_>| c.pairs.iter().filter_map(|p| p.difference).collect();
+    let lists = all.iter().map(|c| (c.name.clone(), values(c))).collect();
+    let histogram = super::histograms(name, (what, unit), lists);
+    picture(runner, &format!("{name}-histogram"), histogram, &entry.write)
 }
 
 /// The differences over speed and torque: as a map where the points lie on a grid, but for the scatter of a rig; else as dots.

@@ -90,6 +90,7 @@ pub fn page(runner: &Runner<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -
             "recalled or assumed formula or default",
             "outside of a stated range",
             "any of them",
+            "assumed, and of bearing on all of it",
         ],
         rests,
     ));
@@ -252,7 +253,7 @@ fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> 
                 .map(String::as_str)
                 .chain([component])
                 .any(|c| is_assumed(&patterns, c)),
-            weak(&instance.path),
+            weak(&instance.path) || weak(component),
             left,
         ];
         for (sum, flag) in sums.iter_mut().zip(flags) {
@@ -264,6 +265,18 @@ fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> 
     let share = |watts: f64| number(loss.map(|loss| 100.0 * watts / loss), 1);
     let mut row = vec![b.name.clone(), number(loss, 3)];
     row.extend(sums.map(share));
+    // What is assumed of oil, housing, flanks or heat bears on everything.
+    let whole = ["lubricants", "housing", "surface", "thermal", "shafts"];
+    let global: Vec<&str> = patterns
+        .iter()
+        .copied()
+        .filter(|p| whole.contains(&p.split('.').next().unwrap_or_default()))
+        .collect();
+    row.push(if global.is_empty() {
+        "-".to_owned()
+    } else {
+        global.join(", ")
+    });
     row
 }
 
