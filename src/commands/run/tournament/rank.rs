@@ -178,8 +178,13 @@ pub fn show(
     };
     if let Some(best) = all.first() {
         let names = field.names(&best.places).join(", ");
+        let how = if entry.factors.is_some() {
+            "predicted, with factors from the other groups, to"
+        } else {
+            "nothing fitted, meets the measurement to"
+        };
         let sentence = format!(
-            "best: {names}, predicted to {:.3} {} rms; {sentence}",
+            "best: {names}, {how} {:.3} {} rms; {sentence}",
             best.predicted, field.unit
         );
         runner.verdict(sentence, out)?;
