@@ -21,6 +21,7 @@ mod write;
 pub(super) use map::tidy;
 
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::analysis::{Field, Given, GridResult, OilTemperature, Points, notes, run_grid};
@@ -64,6 +65,8 @@ pub(super) struct Runner<'a> {
     folder: PathBuf,
     progress: bool,
     report: RefCell<Report>,
+    /// Files that were written.
+    names: RefCell<BTreeSet<String>>,
     /// Limits that were left at any point, counted over all analyses.
     left: Cell<usize>,
     /// Files of points that the analysis at hand has read, with their hashes.
@@ -209,6 +212,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
         folder,
         progress: Out::error().is_terminal(),
         report: RefCell::default(),
+        names: RefCell::default(),
         left: Cell::new(0),
         read: RefCell::default(),
     };
@@ -399,7 +403,7 @@ fn replaced(folder: &Path, force: bool, out: &mut Out) -> Result<(), Failure> {
     // Every run leaves a report, so a folder without one is the user's own.
     let ours = files
         .iter()
-        .any(|file| file.file_name().is_some_and(|name| name == "report.html"));
+        .any(|file| file.file_name().is_some_and(|name| name == write::REPORT));
     if ours && files.iter().all(written) {
         out.line(format!("replacing the results in {}", folder.display()))?;
         return Ok(());

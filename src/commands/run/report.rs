@@ -13,7 +13,7 @@ use serde_json::Value;
 
 use super::super::solve::RPM;
 use super::Runner;
-use super::write::keep;
+use super::write::{REPORT, keep};
 use crate::output::Failure;
 use crate::report::{Frame, GearboxPage, PageTable};
 
@@ -56,7 +56,7 @@ pub fn write(runner: &Runner<'_>, template: Option<&str>) -> Result<(), Failure>
             "correct it, or leave --template out",
         )
     })?;
-    keep(runner, "report.html", Ok(html.into_bytes()))
+    keep(runner, REPORT, Ok(html.into_bytes()))
 }
 
 /// What every analysis starts from, as a sentence.

@@ -51,9 +51,12 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
     })
 }
 
+/// Name of the page.
+pub const REPORT: &str = "report.html";
+
 /// Makes the folder of the results, or says why it cannot.
 pub fn folder(runner: &Runner<'_>) -> Result<(), Failure> {
-    let (place, _) = Place::new(runner, "report.html")?;
+    let (place, _) = Place::new(runner, REPORT)?;
     let _ = fs::remove_file(&place.part);
     Ok(())
 }
@@ -101,6 +104,13 @@ struct Place {
 
 impl Place {
     fn new(runner: &Runner<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
+        // Names of analyses, sets and products are joined with hyphens, which they may hold themselves.
+        if name != REPORT && !runner.names.borrow_mut().insert(name.to_owned()) {
+            return Err(Failure::input(
+                format!("two results would be called {name}"),
+                "rename an analysis or a set of models",
+            ));
+        }
         let path = runner.folder.join(name);
         let place = Self {
             part: path.with_file_name(format!("{name}.part")),
