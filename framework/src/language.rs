@@ -150,20 +150,20 @@ impl Language {
 
     /// True where a resolved document has a place for a path: the keys of a model are those of its `type`.
     pub fn has_place(&self, document: &Value, path: &str) -> bool {
+        self.shape_at(document, path).is_some()
+    }
+
+    fn shape_at(&self, document: &Value, path: &str) -> Option<&Shape> {
         let tag = |slot: &str| {
             let slot = crate::resolve::lookup(document, slot)?;
             slot.get("type").and_then(Value::as_str).map(str::to_owned)
         };
-        self.gearbox.shape_at(path, tag).is_some()
+        self.gearbox.shape_at(path, tag)
     }
 
     /// Unit, least and greatest value of the number that a resolved document has at a path; absent where it is no number.
     pub fn number_at(&self, document: &Value, path: &str) -> Option<(&'static Unit, f64, f64)> {
-        let tag = |slot: &str| {
-            let slot = crate::resolve::lookup(document, slot)?;
-            slot.get("type").and_then(Value::as_str).map(str::to_owned)
-        };
-        match self.gearbox.shape_at(path, tag)? {
+        match self.shape_at(document, path)? {
             Shape::Number {
                 unit,
                 least,
