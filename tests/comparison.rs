@@ -147,6 +147,11 @@ fn meshes() -> Vec<(&'static str, Value)> {
                 json!({ "type": "mixed", "weight": "doleschel", "boundary": { "type": "constant", "value": 0.1 }, "fluid": { "type": "eyring" } }),
             ),
         ),
+        (
+            "path_integral, ramp, ehl_mixed (5 MPa, 0.055, 0.13)",
+            json!({ "type": "path_integral", "load_sharing": "ramp", "tooth_friction":
+                { "type": "ehl_mixed", "tau0": "5 MPa", "limiting_slope": 0.055, "mu_b": 0.13 } }),
+        ),
         ("anderson_loewenthal", json!({ "type": "anderson_loewenthal" })),
     ]
 }

@@ -7,12 +7,19 @@ use common::{RPM, language, two_speed_with};
 use gearloss_framework::analysis::{Field, OilTemperature, Points, run_grid};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
+use serde_json::json;
 
 #[test]
 fn a_point_allocates_nothing() {
     let language = language();
-    for set in [None, Some("joint")] {
-        let t = two_speed_with(&language, set, &[]);
+    let law = json!({ "type": "ehl_mixed", "tau0": "5 MPa", "limiting_slope": 0.055, "mu_b": 0.13 });
+    let model = json!({ "type": "path_integral", "tooth_friction": law });
+    for (set, overrides) in [
+        (None, vec![]),
+        (Some("joint"), vec![]),
+        (Some("joint"), vec![("meshes.*.model", model)]),
+    ] {
+        let t = two_speed_with(&language, set, &overrides);
         let case = t.case("first", &[], &["input"]).unwrap();
         let mut scratch = t.scratch(&case);
         let mut evaluate = |speed: f64, torque: f64| {

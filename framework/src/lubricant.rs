@@ -3,6 +3,7 @@
 pub mod density;
 pub mod index;
 pub mod pressure;
+pub mod roelands;
 pub mod thermal;
 pub mod vogel;
 pub mod walther;
@@ -10,10 +11,12 @@ pub mod walther;
 use crate::attach::Oil;
 use crate::description::LubricantEntry;
 use crate::description::lubricant::{
-    DensityEntry, DensityLaw, LubricantKind, PressureViscosityEntry, PressureViscosityLaw, ViscosityEntry, ViscosityLaw,
+    DensityEntry, DensityLaw, LubricantKind, PressureViscosityEntry, PressureViscosityLaw, RheologyEntry,
+    ViscosityEntry, ViscosityLaw,
 };
 use density::Density;
 use pressure::PressureViscosity;
+use roelands::Roelands;
 use vogel::Vogel;
 use walther::{Form, Walther};
 
@@ -45,6 +48,7 @@ pub struct Lubricant {
     mu_bl: f64,
     mu_ehl: f64,
     x_l: f64,
+    rheology: RheologyEntry,
 }
 
 /// Usual properties of a kind of oil.
@@ -253,6 +257,7 @@ impl Lubricant {
             mu_bl: entry.mu_bl.unwrap_or(0.0),
             mu_ehl: entry.mu_ehl.unwrap_or(usual.mu_ehl),
             x_l: entry.x_l.unwrap_or(usual.x_l),
+            rheology: entry.rheology.unwrap_or_default(),
         })
     }
 
@@ -265,6 +270,28 @@ impl Lubricant {
     pub fn heat_capacity(&self, temperature: f64) -> f64 {
         self.heat_capacity
             .unwrap_or_else(|| thermal::heat_capacity(self.density.rho15(), temperature))
+    }
+
+    /// What is stated of its behaviour in a contact.
+    pub fn rheology(&self) -> &RheologyEntry {
+        &self.rheology
+    }
+
+    /// The law of Roelands that has the oil's viscosity at 40 and 100 degC, with an exponent over pressure; absent, the stated
+    /// one, else the one that gives the oil's pressure-viscosity coefficient at 40 degC.
+    pub fn roelands(&self, z: Option<f64>) -> Roelands {
+        let [cold, hot] = [40.0, 100.0].map(|t| self.at(t));
+        let z = z.or(self.rheology.z);
+        Roelands::through(
+            (cold.temperature, cold.eta),
+            (hot.temperature, hot.eta),
+            z.unwrap_or_else(|| Roelands::exponent(cold.alpha, cold.eta)),
+        )
+    }
+
+    /// Dynamic viscosity at a temperature in degC. \[Pa s\]
+    pub fn eta(&self, temperature: f64) -> f64 {
+        self.viscosity.nu_eta(temperature, self.density(temperature)).1 * 1e-3
     }
 
     /// The oil at a temperature in degC.

@@ -5,9 +5,6 @@ use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::{PathAt, PathExtent, PathNode};
 
-/// Quadrature points on each smooth piece of the path: the loss is then within 1e-4 of its limit (5e-5 in the two-speed example).
-const ORDER: usize = 3;
-
 /// The path of one mesh, prepared.
 pub struct Path {
     nodes: Vec<PathNode>,
@@ -22,12 +19,12 @@ impl Path {
     /// The most points on a path.
     const MOST: usize = 96;
 
-    /// The path of a pair with its load shared.
+    /// The path of a pair with its load shared, with as many points on each smooth piece as the law of friction asks for.
     ///
     /// # Errors
     /// Where the contact ratio is too high, as a sentence.
-    pub fn new(pair: &Pair, sharing: LoadSharing) -> Result<Self, String> {
-        let points = pair.path(sharing, ORDER);
+    pub fn new(pair: &Pair, sharing: LoadSharing, order: usize) -> Result<Self, String> {
+        let points = pair.path(sharing, order);
         if points.len() > Self::MOST {
             return Err(format!(
                 "the contact ratio {:.2} is too high for a path integral",
@@ -40,8 +37,11 @@ impl Path {
     fn of(pair: &Pair, points: Vec<PathPoint>) -> Self {
         let nodes: Vec<PathNode> = points
             .iter()
-            .map(|p| {
-                PathNode::new(
+            .map(|p| PathNode {
+                force: p.share,
+                weight: p.weight / pair.base_pitch,
+                first_faster: p.x > pair.points[2],
+                ..PathNode::new(
                     pair.sliding(p.x),
                     pair.sum_speed(p.x),
                     pair.relative_radius(p.x),
@@ -65,7 +65,14 @@ impl Path {
 
     /// Places at even distances over the whole path, its ends included; for looking at, not for integrals.
     pub fn even(pair: &Pair, sharing: LoadSharing, places: usize) -> Self {
-        Self::of(pair, pair.even_path(sharing, places))
+        let mut path = Self::of(pair, pair.even_path(sharing, places));
+        // The trapezoidal rule, for laws that need a mean over the path.
+        let last = path.nodes.len() - 1;
+        for (i, node) in path.nodes.iter_mut().enumerate() {
+            let part = if i == 0 || i == last { 0.5 } else { 1.0 };
+            node.weight = part * pair.contact_ratio / last as f64;
+        }
+        path
     }
 
     /// Number of points.

@@ -3,6 +3,7 @@
 pub mod benedict_kelley;
 pub mod doleschel;
 pub mod drozdov_gavrikov;
+pub mod ehl_mixed;
 pub mod eyring;
 pub mod iso_tc60;
 pub mod mean;

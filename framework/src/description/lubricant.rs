@@ -34,6 +34,30 @@ pub struct LubricantEntry {
     /// polyalphaolefin and ester, 0.75 polyglycol. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
+    /// Behaviour in a contact, for the laws of friction that need it.
+    pub rheology: Option<RheologyEntry>,
+}
+
+/// Behaviour of an oil under the pressure and shear of a contact. Traction curves and a Stribeck curve give it.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+pub struct RheologyEntry {
+    /// Eyring stress, above which the oil thins under shear; usually 3 to 8. [MPa]
+    #[schemars(range(min = 0.1, max = 50.0))]
+    pub tau0: Option<f64>,
+    /// Exponent of Roelands' law over pressure; absent, the one that gives the oil's pressure-viscosity coefficient at 40 degC.
+    /// [-]
+    #[schemars(range(min = 0.1, max = 1.5))]
+    pub z: Option<f64>,
+    /// Slope of the limiting shear stress over mean pressure: the highest traction at high pressure; usually 0.05 to 0.06 for
+    /// polyalphaolefins, 0.07 to 0.09 for mineral oils. [-]
+    #[schemars(range(min = 0.005, max = 0.2))]
+    pub limiting_slope: Option<f64>,
+    /// Effective shear modulus of film and surfaces; absent, the models' own. [GPa]
+    #[schemars(range(min = 0.001, max = 10.0))]
+    pub shear_modulus: Option<f64>,
+    /// Coefficient of boundary friction between flanks. [-]
+    #[schemars(range(min = 0.01, max = 0.5))]
+    pub mu_b: Option<f64>,
 }
 
 /// Kind of an oil.

@@ -9,6 +9,7 @@ use crate::context;
 use crate::generic::Scalar;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::lubricant::Lubricant;
 use crate::mechanism::{Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
@@ -90,6 +91,17 @@ pub struct MeshPart {
     pub rq: f64,
     /// Reduced modulus E/(1 - nu^2). \[Pa\]
     pub modulus: f64,
+    /// The oil of the mesh, for models that follow it to other temperatures and pressures; absent for what stands alone.
+    pub oil: Option<MeshOil>,
+}
+
+/// The oil of a mesh with its name.
+#[derive(Debug, Clone)]
+pub struct MeshOil {
+    /// Id under `lubricants`.
+    pub id: String,
+    /// The oil.
+    pub lubricant: Arc<Lubricant>,
 }
 
 impl MeshPart {
@@ -100,7 +112,13 @@ impl MeshPart {
             ra: 0.5 * (ra[0] + ra[1]),
             rq: rq[0].hypot(rq[1]),
             modulus: elastic_modulus / (1.0 - poisson * poisson),
+            oil: None,
         }
+    }
+
+    /// The pair with its oil.
+    pub fn with_oil(self, oil: Option<MeshOil>) -> Self {
+        Self { oil, ..self }
     }
 }
 

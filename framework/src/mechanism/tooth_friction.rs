@@ -18,6 +18,11 @@ pub trait ToothFrictionModel: Send + Sync {
     /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined>;
 
+    /// Gauss points on each smooth piece of a path with which the loss is within 1e-4 of its limit.
+    fn order(&self) -> usize {
+        3
+    }
+
     /// Coefficients of friction at all nodes of a path, into a slice as long as the path. Pure; must not allocate.
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
         for (node, mu) in path.nodes.iter().zip(mu) {
@@ -89,6 +94,12 @@ pub struct PathNode {
     pub radius: f64,
     /// Line load at the node over the mesh's reference line load.
     pub share: f64,
+    /// Share of the mesh's normal force that the pair of teeth carries.
+    pub force: f64,
+    /// Length of path that the node stands for, over the base pitch; the weights of a path sum to its contact ratio.
+    pub weight: f64,
+    /// True where the flank of the first gear is the faster one.
+    pub first_faster: bool,
     /// Ratio of sliding to mean rolling speed.
     pub slide_roll: f64,
     /// Natural logarithm of `slide_roll`; minus infinity at the pitch point.
@@ -104,7 +115,8 @@ pub struct PathNode {
 }
 
 impl PathNode {
-    /// A node from sliding and sum speed per speed of the first gear, radius and share; SI.
+    /// A node from sliding and sum speed per speed of the first gear, radius and share; SI. It carries its share of the force
+    /// as line load, stands for one base pitch, and its first flank is the faster one.
     pub fn new(sliding: f64, sum_speed: f64, radius: f64, share: f64) -> Self {
         let slide_roll = 2.0 * sliding / sum_speed;
         let root_load = (share / radius).sqrt();
@@ -113,6 +125,9 @@ impl PathNode {
             sum_speed,
             radius,
             share,
+            force: share,
+            weight: 1.0,
+            first_faster: true,
             slide_roll,
             ln_slide_roll: slide_roll.ln(),
             ln_rolling: (0.5 * sum_speed).ln(),

@@ -273,8 +273,6 @@ fn mesh_models(
         let Some(written) = seat.path.strip_prefix("meshes.").and_then(|id| entry.meshes.get(id)) else {
             continue;
         };
-        let part = MeshPart::new(seat.pair, seat.ra, seat.rq, written.elastic_modulus, written.poisson);
-        let part = Arc::new(part);
         let none = ModelRef::<GearMesh>::new("none".into());
         let choice = written.model.as_ref().unwrap_or(&none);
         let common = Common {
@@ -283,6 +281,8 @@ fn mesh_models(
             ..Common::default()
         };
         let oil = oils.oil(&seat.path, &common);
+        let part = MeshPart::new(seat.pair, seat.ra, seat.rq, written.elastic_modulus, written.poisson);
+        let part = Arc::new(part.with_oil(oil.and_then(|oil| oils.lubricant(oil))));
         match build.slot_at::<GearMesh>(&format!("{}.model", seat.path), &part, &choice.value) {
             Ok(model) => {
                 parts.push(PartInfo {

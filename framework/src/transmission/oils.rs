@@ -1,5 +1,7 @@
 //! Oils by number, and the height of the oil at every place.
 
+use std::sync::Arc;
+
 use super::gearing::MeshSeat;
 use super::members::Members;
 use super::planets::orbit;
@@ -8,6 +10,7 @@ use crate::description::{GearboxEntry, Running};
 use crate::document::Diagnostic;
 use crate::immersion::upward;
 use crate::lubricant::Lubricant;
+use crate::mechanism::gear_mesh::MeshOil;
 use crate::registry::Common;
 use crate::table::clamped;
 
@@ -31,7 +34,7 @@ pub enum Surface {
 
 /// All oils of a transmission and its sump.
 pub struct Oils {
-    lubricants: Vec<Lubricant>,
+    lubricants: Vec<Arc<Lubricant>>,
     /// Lubricant, temperature node and offset of each oil.
     spots: Vec<(usize, usize, f64)>,
     surface: Surface,
@@ -83,7 +86,7 @@ impl Oils {
 /// Numbers oils while components are seated.
 pub struct OilNumbers<'a> {
     names: Vec<&'a str>,
-    lubricants: Vec<Lubricant>,
+    lubricants: Vec<Arc<Lubricant>>,
     spots: Vec<(usize, usize, f64)>,
     default: Option<usize>,
     /// True where the housing's oil dangles, which is reported once.
@@ -103,7 +106,7 @@ impl<'a> OilNumbers<'a> {
         let mut lubricants = Vec::new();
         for (id, lubricant) in entry.lubricants.iter() {
             match Lubricant::new(lubricant) {
-                Ok(lubricant) => lubricants.push(lubricant),
+                Ok(lubricant) => lubricants.push(Arc::new(lubricant)),
                 Err((key, message, mend)) => {
                     findings.push(Diagnostic::error(format!("lubricants.{id}.{key}"), message).mend(mend));
                 }
@@ -183,6 +186,15 @@ impl<'a> OilNumbers<'a> {
             datum,
             findings,
         }
+    }
+
+    /// The lubricant of an oil; absent where a lubricant has a fault that was reported.
+    pub fn lubricant(&self, oil: u16) -> Option<MeshOil> {
+        let (lubricant, ..) = self.spots.get(oil as usize)?;
+        Some(MeshOil {
+            id: (*self.names.get(*lubricant)?).to_owned(),
+            lubricant: Arc::clone(self.lubricants.get(*lubricant)?),
+        })
     }
 
     pub fn finish(self) -> (Oils, Vec<Diagnostic>) {

@@ -109,7 +109,7 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
     let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
     let pair = &part.pair;
-    let path = Path::new(pair, params.load_sharing).map_err(|fault| cx.error(fault))?;
+    let path = Path::new(pair, params.load_sharing, friction.order()).map_err(|fault| cx.error(fault))?;
     let [start, .., end] = pair.points;
     let rolling_weights: Vec<f64> = path
         .points()

@@ -20,7 +20,14 @@ use crate::path::Path;
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
 /// Laws whose friction vanishes or diverges without sliding.
-const SLIDING_LAWS: [&str; 5] = ["xu", "eyring", "benedict_kelley", "misharin", "odonoghue_cameron"];
+const SLIDING_LAWS: [&str; 6] = [
+    "xu",
+    "eyring",
+    "benedict_kelley",
+    "misharin",
+    "odonoghue_cameron",
+    "ehl_mixed",
+];
 
 /// Where the local law counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -63,7 +70,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
             .mend("write `at: path`, or choose a law of mixed friction"));
     }
     let part = cx.part::<MeanFriction>().ok_or_else(|| cx.error("bug: no pair"))?;
-    let path = Path::new(&part.pair, params.load_sharing).map_err(|fault| cx.error(fault))?;
+    let path = Path::new(&part.pair, params.load_sharing, friction.order()).map_err(|fault| cx.error(fault))?;
     Ok(Local {
         at: params.at,
         path,

@@ -152,6 +152,10 @@ impl ToothFrictionModel for Mixed {
         Ok(at.observe(&MU, boundary + fluid))
     }
 
+    fn order(&self) -> usize {
+        self.boundary.order().max(self.fluid.order())
+    }
+
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
         for (nodes, mu) in path.nodes.chunks(CHUNK).zip(mu.chunks_mut(CHUNK)) {
             let mut fluid = [0.0; CHUNK];

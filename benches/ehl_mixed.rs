@@ -1,0 +1,119 @@
+//! Friction of contacts that warm themselves: one mesh at one point, on the points of the mesh model and on 200, and a drive cycle
+//! of 1800 points over both meshes of the two-speed example.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::hint::black_box;
+use std::path::Path;
+use std::sync::Arc;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::language::Language;
+use gearloss_framework::loss::Notes;
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
+use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
+use gearloss_framework::mechanism::tooth_friction::ToothFriction;
+use gearloss_framework::registry::{Build, Files, Registry};
+use gearloss_framework::resolve::Choice;
+use gearloss_plugins::path;
+use serde_json::{Value, json};
+
+const RPM: f64 = std::f64::consts::PI / 30.0;
+
+fn friction() -> Value {
+    json!({ "type": "ehl_mixed", "tau0": "5 MPa", "limiting_slope": 0.055, "mu_b": 0.13 })
+}
+
+/// The example with the law in both meshes.
+fn gearbox(language: &Language) -> (Gearbox, Choice) {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/two-speed-ev/gearbox.yaml");
+    let gearbox = Gearbox::read(language, &file).unwrap_or_else(|f| panic!("{}", f.render()));
+    let model = json!({ "type": "path_integral", "load_sharing": "ramp", "tooth_friction": friction() });
+    let overrides = ["M1", "M2", "M3"].map(|id| (format!("meshes.{id}.model"), model.clone()));
+    let choice = Choice {
+        overrides: overrides.into(),
+        ..Choice::default()
+    };
+    (gearbox, choice)
+}
+
+fn one_mesh(c: &mut Criterion, language: &Language) {
+    let (gearbox, choice) = gearbox(language);
+    let resolved = gearbox
+        .resolve(language, &choice)
+        .unwrap_or_else(|f| panic!("{}", f.render()));
+    let t = gearbox
+        .transmission(language, &choice)
+        .unwrap_or_else(|f| panic!("{}", f.render()));
+    let (_, part) = t.meshes().next().unwrap();
+    let part: Arc<MeshPart> = Arc::new(part.clone());
+    let (registry, files) = (Registry::linked().unwrap(), Files::default());
+    let mut build = Build::new(&registry, &files);
+    let model = &resolved.value["meshes"]["M1"]["model"];
+    let mesh = build.slot_at::<GearMesh>("model", &part, model).unwrap();
+    let law = build
+        .slot_beside::<ToothFriction, _>("law", &part, &model["tooth_friction"])
+        .unwrap();
+    let oil = part.oil.as_ref().unwrap().lubricant.at(60.0);
+    let at = GearMeshAt {
+        torque: 50.0,
+        speed: 4000.0 * RPM,
+        temperature: 60.0,
+        nu: oil.nu,
+        eta: oil.eta,
+        rho: oil.rho,
+        alpha: oil.alpha,
+        beta: oil.beta,
+        conductivity: oil.conductivity,
+        ..GearMeshAt::usual(&part, Notes::MUTED)
+    };
+    c.bench_function("one mesh with ehl_mixed", |b| {
+        b.iter(|| mesh.loss(black_box(&at)).unwrap().sum());
+    });
+    let mean = MeanFrictionAt::of(&at, Notes::MUTED);
+    let fine = path::Path::even(&part.pair, LoadSharing::Ramp, 200);
+    let mut mu = vec![0.0; 200];
+    c.bench_function("ehl_mixed on 200 places", |b| {
+        b.iter(|| law.along(black_box(&fine.at(&mean, Notes::MUTED)), &mut mu).unwrap());
+    });
+}
+
+fn cycle(c: &mut Criterion, language: &Language) {
+    let (gearbox, choice) = gearbox(language);
+    let t = gearbox
+        .transmission(language, &choice)
+        .unwrap_or_else(|f| panic!("{}", f.render()));
+    let case = t.case("first", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    c.bench_function("1800 points with ehl_mixed, one thread", |b| {
+        b.iter(|| {
+            let mut sum = 0.0;
+            for i in 0..1800_u32 {
+                let phase = f64::from(i) * 0.013;
+                let point = Point {
+                    speeds: &[(4000.0 + 3900.0 * phase.sin()) * RPM],
+                    torques: &[60.0 * (3.1 * phase).cos()],
+                    flow: PowerFlow::Real,
+                    tolerance: Tolerance::default(),
+                };
+                sum += t
+                    .evaluate(&case, &point, black_box(&[60.0]), &mut scratch)
+                    .loss()
+                    .unwrap_or(0.0);
+            }
+            sum
+        });
+    });
+}
+
+fn all(c: &mut Criterion) {
+    let language = Language::new(Registry::linked().unwrap()).unwrap_or_else(|f| panic!("{f:#?}"));
+    one_mesh(c, &language);
+    cycle(c, &language);
+}
+
+criterion_group! { name = benches; config = Criterion::default().sample_size(20); targets = all }
+criterion_main!(benches);

@@ -1,0 +1,137 @@
+//! Hertzian line contact of two flanks, seen as cones in the normal plane.
+//!
+//! Source: Hertz; the modulus is that of film theory, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, twice the one of contact
+//! mechanics.
+
+use std::f64::consts::PI;
+
+/// A loaded line contact. SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Force per length of the line of contact. \[N/m\]
+    pub line_load: f64,
+    /// Radius of relative curvature. \[m\]
+    pub radius: f64,
+    /// Reduced modulus. \[Pa\]
+    pub modulus: f64,
+    /// Length of the line of contact. \[m\]
+    pub length: f64,
+    /// Speeds of the surfaces of the first and of the second flank. \[m/s\]
+    pub speeds: [f64; 2],
+    /// Half of the width of the band of contact. \[m\]
+    pub half_width: f64,
+    /// Mean pressure. \[Pa\]
+    pub mean_pressure: f64,
+}
+
+impl Contact {
+    /// A contact from line load (N/m), radius (m), reduced modulus (Pa), length (m), surface speeds (m/s).
+    pub fn new(line_load: f64, radius: f64, modulus: f64, length: f64, speeds: [f64; 2]) -> Self {
+        let half_width = (8.0 * line_load * radius / (PI * modulus)).sqrt();
+        Self {
+            line_load,
+            radius,
+            modulus,
+            length,
+            speeds,
+            half_width,
+            mean_pressure: line_load / (2.0 * half_width),
+        }
+    }
+
+    /// Surface speeds from their difference and their sum; the first flank is the faster one or not. Where they run against
+    /// each other the slower one counts by its magnitude. \[m/s\]
+    pub fn speeds(sliding: f64, sum: f64, first_faster: bool) -> [f64; 2] {
+        let (fast, slow) = (0.5 * (sum + sliding), (0.5 * (sum - sliding)).abs());
+        if first_faster { [fast, slow] } else { [slow, fast] }
+    }
+
+    /// Greatest pressure. \[Pa\]
+    pub fn pressure(&self) -> f64 {
+        4.0 / PI * self.mean_pressure
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::tooth_friction::ehl_mixed::cases::{close, stage};
+    use gearloss_framework::geometry::LoadSharing;
+
+    #[test]
+    fn u1a_u1b_u1f_geometry_of_both_stages() {
+        let (one, two) = (stage(1).pair, stage(2).pair);
+        for (value, printed) in [
+            (one.transverse_angle.to_degrees(), 21.17283),
+            (one.base_helix.to_degrees(), 18.74724),
+            (one.working_angle.to_degrees(), 21.75102),
+            (one.centre_distance, 0.1017125),
+            (one.base_radius[0], 0.02614818),
+            (one.base_radius[1], 0.06832265),
+            (0.5 * one.tip_diameter[0], 0.02994508),
+            (0.5 * one.tip_diameter[1], 0.07517264),
+            (one.base_pitch, 0.005299801),
+            (one.tangent_length, 0.03769199),
+            (one.points[0], 0.006340103),
+            (one.points[1], 0.009294067),
+            (one.points[2], 0.01043260),
+            (one.points[3], 0.01163990),
+            (one.points[4], 0.01459387),
+            (one.contact_ratio, 1.557373),
+            (one.overlap_ratio, 1.921207),
+            (one.pitch_radius, 0.007967732),
+            (two.transverse_angle.to_degrees(), 21.50238),
+            (two.base_helix.to_degrees(), 21.07593),
+            (two.working_angle.to_degrees(), 21.99227),
+            (two.centre_distance, 0.1510752),
+            (two.base_radius[0], 0.03142028),
+            (two.base_radius[1], 0.1086618),
+            (0.5 * two.tip_diameter[0], 0.03678664),
+            (0.5 * two.tip_diameter[1], 0.1194941),
+            (two.base_pitch, 0.008225810),
+            (two.tangent_length, 0.05657485),
+            (two.points[0], 0.006861090),
+            (two.points[2], 0.01268969),
+            (two.points[4], 0.01913172),
+            (two.contact_ratio, 1.491723),
+            (two.overlap_ratio, 2.155134),
+            (two.pitch_radius, 0.01054909),
+            (one.ratio() * two.ratio(), 9.036290),
+        ] {
+            close(value, printed);
+        }
+    }
+
+    #[test]
+    fn u1c_hertz_pressure_at_the_pitch_point() {
+        let part = stage(1);
+        let tangential = 143.2394 / part.pair.base_radius[0];
+        close(tangential, 5477.990);
+        let w = tangential / part.pair.facewidth;
+        close(w, 182599.7);
+        let contact = Contact::new(w, part.pair.pitch_radius, part.modulus, 0.03, [1.0, 1.0]);
+        close(contact.half_width, 1.279306e-4);
+        close(contact.pressure(), 908.6688e6);
+        close(contact.mean_pressure, 713.6668e6);
+    }
+
+    #[test]
+    fn u1d_load_share_and_speeds_on_the_ramp() {
+        let pair = stage(1).pair;
+        let [start, .., end] = pair.points;
+        // Eleven even places: the fourth is at three tenths of the path.
+        let place = pair.even_path(LoadSharing::Ramp, 11)[3];
+        close(place.x, 0.008816232);
+        close(place.share, 0.8382395);
+        // The other pair in contact runs one base pitch ahead, on the falling ramp.
+        let ahead = place.x + pair.base_pitch;
+        close((end - ahead) / (end - pair.points[3]), 0.1617605);
+        assert!(ahead > pair.points[3] && place.x > start);
+        let omega = 2000.0 * PI / 30.0;
+        let [u1, u2] = Contact::speeds(pair.sliding(place.x) * omega, pair.sum_speed(place.x) * omega, false);
+        close(u1, 1.846467);
+        close(u2, 2.314561);
+        close(2.0 * (u2 - u1) / (u1 + u2), 0.2249895);
+    }
+}
