@@ -39,6 +39,9 @@ impl Transit {
 /// Below this S, and above this D0 over sqrt(1 + S^2), the oil yields by a fraction of the Eyring stress and flows linearly, to 1e-8.
 const LINEAR: f64 = 1e-4;
 
+/// Above this S its square might overflow, and one is nothing beside it.
+const LARGE: f64 = 1e100;
+
 /// Relaxations per transit after which nothing is left of the entry to the last digit.
 const STEADY: f64 = 45.0;
 
@@ -48,7 +51,7 @@ pub fn exact(s: f64, d0: f64, limit: f64) -> f64 {
     if s <= 0.0 {
         return 0.0;
     }
-    let c = s.hypot(1.0);
+    let c = if s < LARGE { (1.0 + s * s).sqrt() } else { s };
     if s < LINEAR || d0 * LINEAR > c {
         return maxwell(s, d0, limit);
     }
