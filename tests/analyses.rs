@@ -90,6 +90,19 @@ fn models_of_one_component_stand_beside_measured_points() {
     assert!(csv.contains("measured,10,5000,total,1,"), "{csv}");
 }
 
+/// One model that cannot answer fails the analysis, and keeps no other from its file.
+#[test]
+fn what_the_other_models_answered_is_kept() {
+    let (folder, text) = run(
+        "partly",
+        "  b1:\n    type: component_compare\n    component: bearings.B1\n    torque: [10 Nm]\n    speed: [5000 rpm]\n    \
+         models: { iso: { type: iso14179_2 }, timken: { type: timken } }\n",
+        &[],
+    );
+    assert!(text.contains("1 of 1 analyses failed"), "{text}");
+    assert!(json(&folder, "b1").to_string().contains("\"iso\""), "{text}");
+}
+
 #[test]
 fn wrong_names_and_files_say_what_to_write() {
     let (_, text) = run(

@@ -61,10 +61,14 @@ pub fn folder(runner: &Runner<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Takes away what an earlier run of an analysis left, because it would pass for the results of this one.
+/// Takes away what an earlier run of an analysis left, because it would pass for the results of this one. What this run has
+/// written stays: an analysis may fail in part.
 pub fn remove(runner: &Runner<'_>, name: &str) {
     for kind in ["csv", "json", "parquet"] {
-        let _ = fs::remove_file(runner.folder.join(format!("{name}.{kind}")));
+        let file = format!("{name}.{kind}");
+        if !runner.names.borrow().contains(&file) {
+            let _ = fs::remove_file(runner.folder.join(file));
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Combinations ranked by how well they predict measured points that they have not seen.
+//! Combinations ranked by how well they meet measured points; with factors, points that the factors were not fitted to.
 
 use gearloss_framework::analysis::Statistics;
 use gearloss_framework::inference::folds;
@@ -34,21 +34,22 @@ struct Ranked {
     on_bound: Vec<usize>,
 }
 
-/// Root of the mean square of errors with their weights; zero without any.
-fn rms(errors: impl IntoIterator<Item = (f64, f64)>) -> f64 {
-    Statistics::weighted(errors).map_or(0.0, |s| s.rms)
+/// Root of the mean square of errors with their weights; absent without any that counts.
+fn rms(errors: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
+    Statistics::weighted(errors).map(|s| s.rms)
 }
 
-/// The factors that fit a combination to some of the points; ones where none are fitted.
+/// The factors that fit a combination to some of the points; ones where none are fitted, absent where the fit fails.
 fn factors(
     entry: &TournamentEntry,
     field: &Field<'_>,
     rows: &[Measurement],
     places: &[usize],
     of: &[usize],
-) -> Vec<f64> {
-    let ones = vec![1.0; places.len()];
-    let Some(bounds) = entry.factors else { return ones };
+) -> Option<Vec<f64>> {
+    let Some(bounds) = entry.factors else {
+        return Some(vec![1.0; places.len()]);
+    };
     let residual = |theta: &[f64]| -> Result<Vec<f64>, String> {
         Ok(of
             .iter()
@@ -60,8 +61,7 @@ fn factors(
         Parameter::new(slot.name.clone(), start).within(bounds.least, bounds.greatest)
     });
     let problem = Problem::new(residual, parameters.collect());
-    // Fewer points than factors are refused before; losses are linear in their factors, so nothing else fails.
-    solve(&problem, &Options::exact()).map_or(vec![f64::NAN; places.len()], |fit| fit.theta)
+    solve(&problem, &Options::exact()).ok().map(|fit| fit.theta)
 }
 
 /// Model minus measurement at one point, in the unit of the tournament.
@@ -79,9 +79,9 @@ fn ranked(
     rows: &[Measurement],
     groups: &[Vec<usize>],
     places: Vec<usize>,
-) -> Ranked {
+) -> Option<Ranked> {
     let all: Vec<usize> = (0..rows.len()).collect();
-    let whole = factors(entry, field, rows, &places, &all);
+    let whole = factors(entry, field, rows, &places, &all)?;
     let errors: Vec<(f64, f64)> = all
         .iter()
         .map(|i| (error(field, rows, &places, &whole, *i), rows[*i].weight))
@@ -89,27 +89,29 @@ fn ranked(
     let (mut predicted, mut worst) = (Vec::new(), 0.0_f64);
     for group in groups {
         let others: Vec<usize> = all.iter().copied().filter(|i| !group.contains(i)).collect();
-        let own = factors(entry, field, rows, &places, &others);
+        let own = factors(entry, field, rows, &places, &others)?;
         let of_group: Vec<(f64, f64)> = group
             .iter()
             .map(|i| (error(field, rows, &places, &own, *i), rows[*i].weight))
             .collect();
-        worst = worst.max(rms(of_group.iter().copied()));
+        // A group in which no point counts has no error.
+        worst = worst.max(rms(of_group.iter().copied()).unwrap_or(0.0));
         predicted.extend(of_group);
     }
     let on_bound = entry.factors.map_or_else(Vec::new, |bounds| {
         let at = |f: f64| (f - bounds.least).abs() < 1e-9 || (f - bounds.greatest).abs() < 1e-9;
         (0..whole.len()).filter(|k| at(whole[*k])).collect()
     });
-    Ranked {
+    let of_all = Statistics::weighted(errors)?;
+    Some(Ranked {
         places,
-        rms: rms(errors.iter().copied()),
-        predicted: rms(predicted),
+        rms: of_all.rms,
+        predicted: rms(predicted)?,
         worst,
-        mean: Statistics::weighted(errors).map_or(0.0, |s| s.mean),
+        mean: of_all.mean,
         factors: whole,
         on_bound,
-    }
+    })
 }
 
 pub fn show(
@@ -144,12 +146,21 @@ pub fn show(
         .into_par_iter()
         .filter_map(|number| {
             bar.inc(1);
-            (!interrupt::pressed()).then(|| ranked(entry, field, rows, &groups, field.combination(number)))
+            if interrupt::pressed() {
+                return None;
+            }
+            ranked(entry, field, rows, &groups, field.combination(number))
         })
         .collect();
     bar.finish_and_clear();
     if interrupt::pressed() {
         return Err(Failure::Interrupted);
+    }
+    let unranked = field.count() - all.len();
+    if unranked > 0 {
+        out.line(format!(
+            "{unranked} combinations could not be fitted, or have no point that counts"
+        ))?;
     }
     all.sort_by(|a, b| a.predicted.total_cmp(&b.predicted));
     // Root of the mean square of the accuracies that are stated.
