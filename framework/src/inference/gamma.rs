@@ -67,19 +67,22 @@ pub(super) fn gamma(a: f64, x: f64) -> [f64; 2] {
     [1.0 - q, q]
 }
 
-/// Regularised incomplete beta function I_x(a, b); a and b above zero, x from zero to one.
-pub(super) fn beta(a: f64, b: f64, x: f64) -> f64 {
+/// Regularised incomplete beta functions I_x(a, b) and I_y(b, a), which is one less it, both with all their digits; a and b above
+/// zero, x and y from zero to one and y = 1 - x. Both are asked for, because near one the other cannot be told from a difference.
+pub(super) fn beta(a: f64, b: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     if x <= 0.0 {
-        return 0.0;
+        return [0.0, 1.0];
     }
-    if x >= 1.0 {
-        return 1.0;
+    if y <= 0.0 {
+        return [1.0, 0.0];
     }
     // The fraction settles quickly below the mean only.
     if x > (a + 1.0) / (a + b + 2.0) {
-        return 1.0 - beta(b, a, 1.0 - x);
+        let [upper, lower] = beta(b, a, [y, x]);
+        return [lower, upper];
     }
-    let front = (ln_gamma(a + b) - ln_gamma(a) - ln_gamma(b) + a * x.ln() + b * (-x).ln_1p()).exp() / a;
+    let ln_y = if x < 0.5 { (-x).ln_1p() } else { y.ln() };
+    let front = (ln_gamma(a + b) - ln_gamma(a) - ln_gamma(b) + a * x.ln() + b * ln_y).exp() / a;
     let fraction = lentz(most(a.max(b)), |k| {
         let m = (k / 2) as f64;
         let numerator = match k {
@@ -89,7 +92,8 @@ pub(super) fn beta(a: f64, b: f64, x: f64) -> f64 {
         };
         (numerator, 1.0)
     });
-    (front * fraction).clamp(0.0, 1.0)
+    let lower = (front * fraction).clamp(0.0, 1.0);
+    [lower, 1.0 - lower]
 }
 
 /// The continued fraction of the numerators and denominators of a rule, by the method of Lentz as changed by Thompson and
@@ -143,11 +147,18 @@ mod tests {
     fn incomplete_beta_of_whole_parameters() {
         // I_x(1, b) = 1 - (1 - x)^b, I_x(2, 2) = x^2 (3 - 2 x).
         for x in [1e-3, 0.3, 0.9_f64] {
-            near(beta(1.0, 5.0, x), 1.0 - (1.0 - x).powi(5));
-            near(beta(2.0, 2.0, x), x * x * (3.0 - 2.0 * x));
+            let both = [x, 1.0 - x];
+            near(beta(1.0, 5.0, both)[0], 1.0 - (1.0 - x).powi(5));
+            near(beta(2.0, 2.0, both)[0], x * x * (3.0 - 2.0 * x));
         }
         // The logarithm of gamma of 80 is 270; its last digit is worth 6e-14.
-        assert!((beta(40.0, 40.0, 0.5) - 0.5).abs() < 6e-14);
-        assert_eq!([beta(1.0, 2.0, 0.0), beta(1.0, 2.0, 1.0)], [0.0, 1.0]);
+        assert!((beta(40.0, 40.0, [0.5; 2])[0] - 0.5).abs() < 6e-14);
+        assert_eq!(
+            [beta(1.0, 2.0, [0.0, 1.0])[0], beta(1.0, 2.0, [1.0, 0.0])[0]],
+            [0.0, 1.0]
+        );
+        // I_x(1, 1) = x: a complement far below the last digit of one keeps its digits.
+        assert_eq!(beta(1.0, 1.0, [1.0, 1e-30])[0], 1.0);
+        near(beta(1.0, 1.0, [1.0, 1e-30])[1], 1e-30);
     }
 }

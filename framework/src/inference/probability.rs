@@ -27,7 +27,7 @@ pub fn chi_square_quantile(probability: f64, freedom: f64) -> Option<f64> {
 
 /// Probability that Student's t of some degrees of freedom is farther from zero than a value.
 pub fn student_outside(t: f64, freedom: f64) -> Option<f64> {
-    (is_freedom(freedom) && !t.is_nan()).then(|| beta(0.5 * freedom, 0.5, freedom / (freedom + t * t)))
+    (is_freedom(freedom) && !t.is_nan()).then(|| student_tails(t, freedom)[1])
 }
 
 /// The value below which Student's t of some degrees of freedom lies with a probability.
@@ -36,36 +36,36 @@ pub fn student_quantile(probability: f64, freedom: f64) -> Option<f64> {
         return None;
     }
     let outside = 2.0 * probability.min(1.0 - probability);
-    let tails = |t: f64| {
-        let square = t * t;
-        // Both tails of the magnitude; the first is what lies inside.
-        let inside = beta(0.5, 0.5 * freedom, square / (freedom + square));
-        [inside, beta(0.5 * freedom, 0.5, freedom / (freedom + square))]
-    };
     let size = if outside >= 1.0 {
         0.0
     } else {
-        solve(1.0 - outside, tails)
+        solve(1.0 - outside, |t| student_tails(t, freedom))
     };
     Some(size.copysign(probability - 0.5))
+}
+
+/// Probabilities that the magnitude of Student's t lies inside and outside of a value.
+fn student_tails(t: f64, freedom: f64) -> [f64; 2] {
+    let (square, sum) = (t * t, freedom + t * t);
+    beta(0.5, 0.5 * freedom, [square / sum, freedom / sum])
 }
 
 /// Probability that F of two numbers of degrees of freedom lies above a value.
 pub fn f_above(x: f64, [above, below]: [f64; 2]) -> Option<f64> {
     let valid = is_freedom(above) && is_freedom(below) && !x.is_nan();
-    valid.then(|| beta(0.5 * below, 0.5 * above, below / (below + above * x.max(0.0))))
+    valid.then(|| f_tails(x.max(0.0), [above, below])[1])
 }
 
 /// The value below which F of two numbers of degrees of freedom lies with a probability.
 pub fn f_quantile(probability: f64, [above, below]: [f64; 2]) -> Option<f64> {
-    let tails = |x: f64| {
-        let sum = below + above * x;
-        [
-            beta(0.5 * above, 0.5 * below, above * x / sum),
-            beta(0.5 * below, 0.5 * above, below / sum),
-        ]
-    };
+    let tails = |x: f64| f_tails(x, [above, below]);
     (is_freedom(above) && is_freedom(below) && is_probability(probability)).then(|| solve(probability, tails))
+}
+
+/// Probabilities that F lies below and above a value that is not below zero.
+fn f_tails(x: f64, [above, below]: [f64; 2]) -> [f64; 2] {
+    let sum = below + above * x;
+    beta(0.5 * above, 0.5 * below, [above * x / sum, below / sum])
 }
 
 fn is_freedom(freedom: f64) -> bool {
@@ -151,6 +151,16 @@ mod tests {
         assert_eq!(chi_square_above(-1.0, 2.0), Some(1.0));
         assert_eq!(normal_below(f64::INFINITY), Some(1.0));
         assert_eq!(normal_below(f64::NAN), None);
+    }
+
+    #[test]
+    fn a_value_near_zero_keeps_its_digits() {
+        // The complement of t^2/(f + t^2) has lost seven of them here.
+        let (p, freedom) = (0.499_788_791_054_486_9, 285.161_146_506_351_94);
+        let t = student_quantile(p, freedom).unwrap();
+        assert!((student_outside(t, freedom).unwrap() - 2.0 * p).abs() < 1e-14);
+        assert_eq!(student_outside(f64::INFINITY, 3.0), Some(0.0));
+        assert_eq!(f_above(f64::INFINITY, [2.0, 3.0]), Some(0.0));
     }
 
     proptest! {
