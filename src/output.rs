@@ -180,12 +180,17 @@ pub fn number(value: Option<f64>, digits: usize) -> String {
 
 /// A number in six significant digits.
 pub fn significant(x: f64) -> String {
+    figures(x, 6)
+}
+
+/// A number in some significant digits.
+pub fn figures(x: f64, count: u32) -> String {
     if x == 0.0 {
         return "0".to_owned();
     }
     let magnitude = x.abs().log10().floor();
     if (-4.0..6.0).contains(&magnitude) {
-        let digits = (5.0 - magnitude).clamp(0.0, 9.0) as usize;
+        let digits = (f64::from(count) - 1.0 - magnitude).clamp(0.0, 9.0) as usize;
         let text = format!("{x:.digits$}");
         if text.contains('.') {
             text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -193,6 +198,6 @@ pub fn significant(x: f64) -> String {
             text
         }
     } else {
-        format!("{x:.5e}")
+        format!("{x:.*e}", count.saturating_sub(1) as usize)
     }
 }

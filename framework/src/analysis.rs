@@ -2,12 +2,14 @@
 
 mod grid;
 mod notes;
+mod rows;
 mod statistics;
 mod sums;
 mod temperature;
 
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use notes::{Note, Stated, WeakPoint, evidence, notes};
+pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
 pub use statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use sums::{SUMS, sum_of};
 pub use temperature::OilTemperature;

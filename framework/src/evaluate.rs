@@ -232,7 +232,7 @@ impl Transmission {
                 *loss = self.mesh(i, tangential[i], drives, &state, notes(mesh.model.notes));
                 let speed = self.mesh_speed(i, speeds);
                 flow.mesh_loss[i] = match loss {
-                    Ok(loss) if speed != 0.0 => loss.total_watts(speed) * mesh.seat.count,
+                    Ok(loss) if speed != 0.0 => loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor,
                     _ => 0.0,
                 };
             }
@@ -379,7 +379,7 @@ impl Transmission {
         let Ok(loss) = loss else { return };
         let seat = &self.drags[index].seat;
         let [first, second] = seat.members;
-        let watts = loss.total_watts(speeds[first]) * seat.count;
+        let watts = loss.total_watts(speeds[first]) * seat.count * self.drags[index].loss_factor;
         if !seat.pair {
             if speeds[first] != 0.0 {
                 drags[first] -= watts / speeds[first];

@@ -17,6 +17,7 @@ pub mod probability;
 mod profile;
 mod profile_interval;
 mod residuals;
+mod robust;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;
@@ -34,4 +35,5 @@ pub use parameter::{Parameter, Scale, Side, Standing};
 pub use profile::{Profile, ProfileEnd, ProfileFault, Reach, Refit};
 pub use profile_interval::ProfileInterval;
 pub use residuals::{BandMean, Succession, band_means, succession};
+pub use robust::RobustRows;
 pub use verdict::{Combination, Determination, Verdict};

@@ -14,6 +14,7 @@ pub mod formula;
 pub mod gearbox;
 pub mod generic;
 pub mod geometry;
+pub mod identify;
 pub mod immersion;
 pub mod inference;
 pub mod kinematics;

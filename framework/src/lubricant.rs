@@ -31,9 +31,16 @@ type Fault = (&'static str, String, String);
 
 /// A law of viscosity.
 #[derive(Debug, Clone)]
-enum Viscosity {
+enum Law {
     Walther(Walther),
     Vogel(Vogel),
+}
+
+/// A law with the factor on what it says.
+#[derive(Debug, Clone)]
+struct Viscosity {
+    law: Law,
+    factor: f64,
 }
 
 /// An oil with its laws fitted.
@@ -153,6 +160,11 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
 }
 
 fn viscosity(entry: &ViscosityEntry, density: &Density) -> Result<Viscosity, Fault> {
+    let factor = entry.factor;
+    law(entry, density).map(|law| Viscosity { law, factor })
+}
+
+fn law(entry: &ViscosityEntry, density: &Density) -> Result<Law, Fault> {
     let points = points(entry)?;
     let form = match entry.law {
         ViscosityLaw::AstmD341 => Form::AstmD341,
@@ -162,17 +174,19 @@ fn viscosity(entry: &ViscosityEntry, density: &Density) -> Result<Viscosity, Fau
             let etas: Vec<(f64, f64)> = points.iter().map(|(t, nu)| (*t, nu * density.at(*t) * 1e-3)).collect();
             return match etas[..] {
                 [first, second] if first.0 + entry.vogel_c > 1.0 => {
-                    Ok(Viscosity::Vogel(Vogel::through(first, second, entry.vogel_c)))
+                    Ok(Law::Vogel(Vogel::through(first, second, entry.vogel_c)))
                 }
-                [first, second, third] => Vogel::through_three([first, second, third])
-                    .map(Viscosity::Vogel)
-                    .ok_or_else(|| {
-                        (
-                            "viscosity.points",
-                            "the three points do not follow the law of Vogel".to_owned(),
-                            "correct a point, or choose `law: astm_d341` with two of them".to_owned(),
-                        )
-                    }),
+                [first, second, third] => {
+                    Vogel::through_three([first, second, third])
+                        .map(Law::Vogel)
+                        .ok_or_else(|| {
+                            (
+                                "viscosity.points",
+                                "the three points do not follow the law of Vogel".to_owned(),
+                                "correct a point, or choose `law: astm_d341` with two of them".to_owned(),
+                            )
+                        })
+                }
                 _ => Err((
                     "viscosity.points",
                     "the law of Vogel needs two or three points above its pole".to_owned(),
@@ -189,7 +203,7 @@ fn viscosity(entry: &ViscosityEntry, density: &Density) -> Result<Viscosity, Fau
         ));
     }
     match points[..] {
-        [first, second] => Ok(Viscosity::Walther(Walther::through(first, second, form))),
+        [first, second] => Ok(Law::Walther(Walther::through(first, second, form))),
         _ => Err((
             "viscosity.points",
             format!("{} points for a law of two", points.len()),
@@ -297,16 +311,17 @@ impl Lubricant {
     /// The oil at a temperature in degC.
     pub fn at(&self, temperature: f64) -> Oil {
         let rho = self.density(temperature);
-        let (nu, eta, beta) = match &self.viscosity {
-            Viscosity::Walther(law) => {
+        let (nu, eta, beta) = match &self.viscosity.law {
+            Law::Walther(law) => {
                 let (nu, slope) = law.nu_and_slope(temperature);
                 (nu, nu * rho * 1e-3, slope)
             }
-            Viscosity::Vogel(law) => {
+            Law::Vogel(law) => {
                 let eta = law.eta(temperature);
                 (eta / rho * 1e3, eta, law.slope(temperature))
             }
         };
+        let (nu, eta) = (nu * self.viscosity.factor, eta * self.viscosity.factor);
         Oil {
             temperature,
             nu: nu * 1e-6,
@@ -328,16 +343,17 @@ impl Lubricant {
 impl Viscosity {
     /// Kinematic viscosity in mm2/s and dynamic viscosity in mPa s, from temperature in degC and density in kg/m3.
     fn nu_eta(&self, temperature: f64, rho: f64) -> (f64, f64) {
-        match self {
-            Self::Walther(law) => {
+        let (nu, eta) = match &self.law {
+            Law::Walther(law) => {
                 let nu = law.nu(temperature);
                 (nu, nu * rho * 1e-3)
             }
-            Self::Vogel(law) => {
+            Law::Vogel(law) => {
                 let eta = law.eta(temperature);
                 (eta / rho * 1e3, eta)
             }
-        }
+        };
+        (nu * self.factor, eta * self.factor)
     }
 }
 
@@ -383,6 +399,22 @@ mod tests {
                 (oil.at(40.0).alpha / at100 - 1.0).abs() < 1e-5,
                 "{kind:?} {}",
                 oil.at(40.0).alpha
+            );
+        }
+    }
+
+    #[test]
+    fn a_factor_counts_at_every_temperature() {
+        let mut entry = entry(Some(33.0), Some(6.4), None);
+        let stated = Lubricant::new(&entry).unwrap();
+        entry.viscosity.as_mut().unwrap().factor = 0.8;
+        let thinned = Lubricant::new(&entry).unwrap();
+        for t in [-20.0, 40.0, 70.0, 130.0] {
+            assert!((thinned.at(t).nu / stated.at(t).nu - 0.8).abs() < 1e-12);
+            assert!((thinned.eta(t) / stated.eta(t) - 0.8).abs() < 1e-12);
+            assert_eq!(
+                (thinned.at(t).beta, thinned.at(t).rho),
+                (stated.at(t).beta, stated.at(t).rho)
             );
         }
     }

@@ -2,6 +2,8 @@
 //!
 //! What a file looks like is recognised and told, or stated; a unit that stands nowhere is an error, not a guess.
 
+mod rig;
+mod seen;
 mod text;
 
 use schemars::JsonSchema;
@@ -10,6 +12,8 @@ use serde::{Deserialize, Serialize};
 use crate::description::Ordered;
 use crate::document::Unit;
 
+pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportLossEntry, TorqueMeterEntry};
+pub use seen::Seen;
 pub use text::{Decimal, Encoding, Separator};
 
 /// A file of measured points, and how to read it.
@@ -36,6 +40,20 @@ pub struct MeasuredEntry {
     /// What happens to a row with blanks or text where a number is due.
     #[serde(default)]
     pub faulty_rows: FaultyRows,
+    /// What accuracies in columns and of the instruments mean.
+    #[serde(default)]
+    pub stated_as: StatedAs,
+    /// Coverage factor of expanded accuracies. [-]
+    #[serde(default = "two")]
+    #[schemars(range(min = 1.0, max = 10.0))]
+    pub coverage_factor: f64,
+    /// The rig: what its meters and bearings add, and how accurate it is where no column says it.
+    #[serde(default)]
+    pub rig: RigEntry,
+}
+
+fn two() -> f64 {
+    2.0
 }
 
 /// What happens to a row with blanks or text where a number is due.
@@ -108,6 +126,14 @@ pub struct Measured {
     pub rows: Vec<Row>,
     /// How the file was understood, and which rows were left out, in sentences.
     pub notes: Vec<String>,
+    /// What stated accuracies are divided by to give standard deviations.
+    pub divisor: f64,
+    /// What the rig adds to what its meters show.
+    pub rig: Rig,
+    /// Instruments, where both torque meters are stated.
+    pub instruments: Option<Instruments>,
+    /// Standard deviation of the oil's temperature, where no column says it. \[K\]
+    pub oil_temperature: Option<f64>,
 }
 
 impl Measured {
@@ -149,6 +175,11 @@ struct Column {
 }
 
 impl MeasuredEntry {
+    /// What stated accuracies are divided by to give standard deviations.
+    fn divisor(&self) -> f64 {
+        self.stated_as.divisor(self.coverage_factor)
+    }
+
     /// Reads the bytes of the file. `bind` names columns that change the gearbox.
     ///
     /// # Errors
@@ -165,6 +196,10 @@ impl MeasuredEntry {
                 .collect(),
             rows: Vec::new(),
             notes,
+            divisor: self.divisor(),
+            rig: Rig::of(&self.rig),
+            instruments: Instruments::of(&self.rig, self.divisor()),
+            oil_temperature: self.rig.oil_temperature.map(|a| a / self.divisor()),
         };
         let mut left_out = Vec::new();
         for (line, cells) in &table.rows {
@@ -386,6 +421,9 @@ mod tests {
             decimal: None,
             encoding: None,
             faulty_rows: FaultyRows::Refuse,
+            stated_as: StatedAs::Standard,
+            coverage_factor: 2.0,
+            rig: RigEntry::default(),
         }
     }
 

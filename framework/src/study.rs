@@ -4,6 +4,8 @@ mod axes;
 mod breakdown;
 mod compare;
 mod component;
+mod data;
+mod identify;
 mod map;
 mod operating_points;
 mod sweep;
@@ -20,6 +22,10 @@ pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, Temperatu
 pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
 pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
+pub use data::Data;
+pub use identify::{
+    IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
+};
 pub use map::MapEntry;
 pub use operating_points::OperatingPointsEntry;
 pub use sweep::{SecondEntry, SweepEntry};
@@ -30,6 +36,7 @@ pub use write::{Export, Write};
 
 use crate::description::Ordered;
 use crate::evaluate::PowerFlow;
+use crate::measured::MeasuredEntry;
 use crate::transmission::Transmission;
 
 /// A study.
@@ -50,6 +57,9 @@ pub struct StudyEntry {
     /// What every analysis starts from.
     #[serde(default)]
     pub conditions: Conditions,
+    /// Measured points by name, for all analyses that use them.
+    #[serde(default)]
+    pub measurements: Ordered<MeasuredEntry>,
     /// Grids of operating points by name.
     #[serde(default)]
     pub grids: Ordered<Grid>,
@@ -223,6 +233,8 @@ pub enum Analysis {
     Tournament(TournamentEntry),
     /// Bands of efficiency, loss and temperature from uncertain inputs.
     Uncertainty(UncertaintyEntry),
+    /// Uncertain parameters, found from measured points.
+    Identify(IdentifyEntry),
 }
 
 /// The names that an analysis uses.
@@ -236,6 +248,8 @@ pub struct Uses<'a> {
     pub sets: Vec<&'a String>,
     /// Gear states, beside those of the grid.
     pub gears: Vec<&'a String>,
+    /// Measurements, each with the key that names it.
+    pub data: Vec<(&'static str, &'a String)>,
 }
 
 impl<'a> Uses<'a> {
@@ -245,7 +259,14 @@ impl<'a> Uses<'a> {
             grid: None,
             sets: sets.into_iter().collect(),
             gears: Vec::new(),
+            data: Vec::new(),
         }
+    }
+
+    fn with(self, key: &'static str, data: Option<&'a Data>) -> Self {
+        let mut uses = self;
+        uses.data.extend(data.and_then(Data::name).map(|name| (key, name)));
+        uses
     }
 
     fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
@@ -260,24 +281,43 @@ impl Analysis {
         match self {
             Self::Map(e) => Uses {
                 grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear)
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                    .at(&e.gear)
+                    .with("points", e.points.as_ref())
+                    .with("measured", e.measured.as_ref())
             },
             Self::Compare(e) => Uses {
                 grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against)).at(&e.gear)
+                ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against))
+                    .at(&e.gear)
+                    .with("data", e.data.as_ref())
             },
-            Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                .at(&e.gear)
+                .with("measured", e.measured.as_ref()),
             Self::SpinLoss(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gears),
             Self::TemperatureSweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
-            Self::ComponentCompare(e) => Uses::new(e.gearbox.as_ref(), &e.model_set).at(&e.gear),
+            Self::ComponentCompare(e) => Uses::new(e.gearbox.as_ref(), &e.model_set)
+                .at(&e.gear)
+                .with("measured", e.measured.as_ref()),
             Self::ContactPath(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
-            Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                .at(&e.gear)
+                .with("data", Some(&e.data)),
             Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
             Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
             Self::Sweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
             Self::Tournament(e) => Uses {
                 grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), &e.model_set).at(&e.gear)
+                ..Uses::new(e.gearbox.as_ref(), &e.model_set)
+                    .at(&e.gear)
+                    .with("data", e.data.as_ref())
+            },
+            Self::Identify(e) => Uses {
+                grid: e.next.as_ref().map(|next| &next.grid),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                    .at(&e.gear)
+                    .with("data", Some(&e.data))
             },
             Self::Uncertainty(e) => Uses {
                 grid: Some(&e.grid),

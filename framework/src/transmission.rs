@@ -51,6 +51,8 @@ pub struct PartInfo {
     pub kind: PartKind,
     /// Number of equal copies.
     pub count: f64,
+    /// Factor on the loss of the model.
+    pub loss_factor: f64,
     /// Where the notes of its model stand.
     pub notes: NoteBase,
 }
@@ -70,6 +72,8 @@ pub(crate) struct MeshModel {
     pub part: Arc<MeshPart>,
     pub model: Slot<GearMesh>,
     pub oil: u16,
+    /// Factor on the loss of the model.
+    pub loss_factor: f64,
     /// Sharing of the set, where its planets carry different loads.
     pub sharing: Option<Sharing>,
     /// Tangential force of one copy per multiplier of its row. \[1/m\]
@@ -82,6 +86,8 @@ pub(crate) struct DragModel {
     pub part: Arc<DragPart>,
     pub model: Slot<GearDrag>,
     pub oil: u16,
+    /// Factor on the loss of the model.
+    pub loss_factor: f64,
 }
 
 /// A component with its number of copies.
@@ -99,6 +105,7 @@ pub(crate) struct Component {
     pub sharing: Option<Sharing>,
     /// Where the notes of its model stand.
     pub notes: NoteBase,
+    /// Number of copies, times the factor on the loss.
     pub count: f64,
 }
 

@@ -48,8 +48,12 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
         let info = &transmission.parts()[part];
         let (loss, trace) = solution.explain(part);
         out.text(&source(&transmission, info))?;
+        let factor = match info.loss_factor {
+            1.0 => String::new(),
+            factor => format!(", loss factor {}", significant(factor)),
+        };
         out.line(format!(
-            "relative speed {} rpm, {} copies",
+            "relative speed {} rpm, {} copies{factor}",
             significant(loss.speed * RPM),
             significant(info.count)
         ))?;

@@ -5,12 +5,13 @@ mod breakdown;
 mod compare;
 mod component_compare;
 mod contact_path;
+mod deviations;
+mod identify;
 mod map;
 mod operating_points;
 mod parquet;
 mod report;
 mod rows;
-mod seen;
 mod shares;
 mod sweep;
 mod thermal_limit;
@@ -241,6 +242,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::Sweep(entry) => sweep::run(&runner, name, entry, out),
             Analysis::Tournament(entry) => tournament::run(&runner, name, entry, out),
             Analysis::Uncertainty(entry) => uncertainty::run(&runner, name, entry, out),
+            Analysis::Identify(entry) => identify::run(&runner, name, entry, out),
             Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
             Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
         };
@@ -358,6 +360,7 @@ fn about(analysis: &Analysis) -> &'static str {
             "Every combination of models, ranked by a measurement, or the spread that they leave."
         }
         Analysis::Uncertainty(_) => "Bands from uncertain inputs.",
+        Analysis::Identify(_) => "Uncertain parameters, found from measured points, and what the points say of each.",
         Analysis::SpinLoss(_) => "Losses without load.",
         Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",
     }
@@ -397,7 +400,7 @@ fn replaced(folder: &Path, force: bool, out: &mut Out) -> Result<(), Failure> {
         let kind = file.extension().and_then(|kind| kind.to_str());
         matches!(
             kind,
-            Some("csv" | "json" | "svg" | "html" | "parquet" | "vtlm" | "m" | "mo" | "part")
+            Some("csv" | "json" | "svg" | "html" | "parquet" | "vtlm" | "m" | "mo" | "yaml" | "part")
         )
     };
     // Every run leaves a report, so a folder without one is the user's own.

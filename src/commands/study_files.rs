@@ -7,8 +7,9 @@ use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, Places, Sources, read_yaml};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
+use gearloss_framework::measured::MeasuredEntry;
 use gearloss_framework::resolve::{Choice, expand_set, sets_of};
-use gearloss_framework::study::{StudyEntry, Uses};
+use gearloss_framework::study::{Data, StudyEntry, Uses};
 use serde_json::{Map, Value};
 
 /// A study as read, with its gearboxes.
@@ -141,7 +142,13 @@ impl Study {
                 grid,
                 sets,
                 gears,
+                data,
             } = analysis.uses();
+            for (key, name) in data {
+                if let Err(error) = self.measured(&format!("{path}.{key}"), name) {
+                    found.push(error);
+                }
+            }
             if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
                 found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));
             }
@@ -194,6 +201,20 @@ impl Study {
         } else {
             Err(self.findings(found))
         }
+    }
+
+    /// The entry of data: that of the measurements of the study, or the analysis' own.
+    pub fn measurement<'a>(&'a self, path: &str, data: &'a Data) -> Result<&'a MeasuredEntry, Findings> {
+        match data {
+            Data::Own(entry) => Ok(entry),
+            Data::Named(name) => self.measured(path, name).map_err(|error| self.findings(vec![error])),
+        }
+    }
+
+    fn measured(&self, path: &str, name: &str) -> Result<&MeasuredEntry, Diagnostic> {
+        let all = &self.entry.measurements;
+        let names: Vec<&str> = all.ids().collect();
+        all.get(name).ok_or_else(|| dangling(path, "measurement", name, &names))
     }
 
     /// The grid of a name.

@@ -1,6 +1,8 @@
 //! What several tests share.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod rig;
+
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::gearbox::Gearbox;

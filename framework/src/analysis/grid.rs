@@ -101,6 +101,10 @@ pub struct PointResult {
     pub torque_speed: f64,
     /// Speed of the reference port. \[rad/s\]
     pub reference_speed: f64,
+    /// Speed of the other port, where there are two. \[rad/s\]
+    pub output_speed: Option<f64>,
+    /// Whether the torque is given at the reference port.
+    pub at_reference: bool,
     /// Temperature of the oil; absent where no balance was found, and with it everything that hangs on it. \[degC\]
     pub oil: Option<f64>,
     /// Temperature of the surface, where it was found by balance. \[degC\]
@@ -203,6 +207,11 @@ pub fn run_grid(
             let member = |port: usize| transmission.ports()[port].member;
             let at_torque = case.torque_ports.first().map(|port| member(*port));
             let reference = member(transmission.reference_port());
+            let other = match transmission.ports() {
+                [_, _] => Some(member(1 - transmission.reference_port())),
+                _ => None,
+            };
+            let at_reference = case.torque_ports.first() == Some(&transmission.reference_port());
             let mut torques = vec![0.0; case.torque_ports.len()];
             let mut speeds = vec![0.0; case.speed_ports.len()];
             let solved = chunk.len();
@@ -238,6 +247,8 @@ pub fn run_grid(
                         speed,
                         torque_speed: at_torque.map_or(0.0, |member| solution.speed(member)),
                         reference_speed: solution.speed(reference),
+                        output_speed: other.map(|member| solution.speed(member)),
+                        at_reference,
                         oil: Some(oil),
                         surface: balance.as_ref().and_then(|b| b.surface),
                         balance: balance.as_ref().map(|b| b.outcome),

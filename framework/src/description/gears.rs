@@ -51,8 +51,16 @@ pub struct GearEntry {
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
+    /// Factor on the drag losses of the gear, for what a model does not know; identification moves it. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub loss_factor: f64,
     /// Drag models of this gear by name; they take the place of those in `models`.
     pub drag: Option<NamedSlots<GearDrag>>,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// Hand of a helix.
@@ -137,6 +145,10 @@ pub struct MeshEntry {
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
+    /// Factor on the losses of the mesh, for what a model does not know; identification moves it. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub loss_factor: f64,
     /// Loss model of the mesh; absent, that of `models`.
     pub model: Option<ModelRef<GearMesh>>,
     /// Drag models of this mesh by name; they take the place of those in `models`.
@@ -182,6 +194,10 @@ pub struct PlanetarySetEntry {
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
+    /// Factor on the drag loss of the set, for what a model does not know; identification moves it. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub loss_factor: f64,
     /// Drag model of the carrier with its planets; absent, that of `models`.
     pub model: Option<ModelRef<PlanetaryDrag>>,
 }

@@ -78,7 +78,7 @@ pub enum LubricantKind {
 }
 
 /// Viscosity over temperature: two of kv40, kv100 and vi, or two or three points.
-#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ViscosityEntry {
     /// Kinematic viscosity at 40 degC. [mm2/s]
     #[schemars(range(min = 0.3, max = 1e5))]
@@ -100,6 +100,29 @@ pub struct ViscosityEntry {
     #[serde(default = "vogel_c")]
     #[schemars(range(min = 50.0, max = 300.0))]
     pub vogel_c: f64,
+    /// Factor on the viscosity at every temperature: of an oil that was sheared, diluted or oxidised, or that is to be
+    /// identified. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.1, max = 10.0))]
+    pub factor: f64,
+}
+
+impl Default for ViscosityEntry {
+    fn default() -> Self {
+        Self {
+            kv40: None,
+            kv100: None,
+            vi: None,
+            points: Vec::new(),
+            law: ViscosityLaw::default(),
+            vogel_c: vogel_c(),
+            factor: one(),
+        }
+    }
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 /// Constant C of Vogel that is usual for mineral gear oils.

@@ -123,6 +123,13 @@ impl<F: Fn(usize, usize) -> f64> Design<F> {
         })
     }
 
+    /// What each candidate gains if it is the only one that is measured.
+    pub fn alone(&self) -> Vec<f64> {
+        let variances = self.information.variances();
+        let gain = |row: &Vec<f64>| gain(&self.information, &variances, row, self.rule);
+        self.rows.iter().map(gain).collect()
+    }
+
     /// Exchanges points of a plan for better ones until none is worth it. The order stays, and the plan never gets dearer.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ pub struct PartLoss {
     pub result: Result<Loss, Undefined>,
     /// Relative speed that moments work against. \[rad/s\]
     pub speed: f64,
-    /// Copies; for a mesh also the ratio of the power used in the balance to the last answer, which differs from one by the
+    /// Copies, times the factor on the loss; for a mesh also the ratio of the power used in the balance to the last answer, which differs from one by the
     /// tolerance.
     pub factor: f64,
     /// True where nothing moves, so that no power is lost.
@@ -78,7 +78,7 @@ impl Transmission {
             }
             PartKind::Mesh(i) => {
                 let speed = self.mesh_speed(i, &s.speeds);
-                let count = self.meshes[i].seat.count;
+                let count = self.meshes[i].seat.count * self.meshes[i].loss_factor;
                 let asked = s.mesh_losses[i].as_ref().map_or(0.0, |loss| loss.total_watts(speed)) * count;
                 let ratio = if asked > 0.0 { s.work.mesh_loss[i] / asked } else { 1.0 };
                 (&s.mesh_losses[i], speed, count * ratio, speed == 0.0)
@@ -87,7 +87,7 @@ impl Transmission {
                 let seat = &self.drags[i].seat;
                 let [first, second] = seat.members.map(|m| s.speeds[m]);
                 let still = first == 0.0 && (!seat.pair || second == 0.0);
-                (&s.drag_losses[i], first, seat.count, still)
+                (&s.drag_losses[i], first, seat.count * self.drags[i].loss_factor, still)
             }
         }
     }

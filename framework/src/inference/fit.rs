@@ -31,13 +31,15 @@ pub struct Fit {
     /// One row for each parameter, zero where it has no variance; times its transpose and the variance the covariance.
     root: DMatrix<f64>,
     /// Lengths of all columns, gradient of half the sum of squares.
-    norms: Vec<f64>,
-    gradient: Vec<f64>,
+    pub(super) norms: Vec<f64>,
+    pub(super) gradient: Vec<f64>,
     residuals: Vec<f64>,
     leverage: Vec<f64>,
     priors: usize,
-    objective: f64,
-    variance: f64,
+    pub(super) objective: f64,
+    pub(super) variance: f64,
+    /// Whether outliers pull less: the objective then follows no chi-square.
+    pub(super) robust: bool,
 }
 
 impl Fit {
@@ -93,15 +95,12 @@ impl Fit {
                 ));
             }
         };
-        let mut root = DMatrix::zeros(parameters.len(), factors.resolved);
-        for (j, row) in factors.columns.iter().zip(factors.root().row_iter()) {
-            root.row_mut(*j).copy_from(&row);
-        }
         let mut leverage = factors.leverage(jacobian);
         leverage.truncate(rows - priors);
-        Ok(Self {
+        let mut fit = Self {
             accuracy,
-            root,
+            root: DMatrix::zeros(0, 0),
+            robust: false,
             norms,
             gradient,
             residuals: residuals[..rows - priors].to_vec(),
@@ -109,9 +108,20 @@ impl Fit {
             priors,
             objective,
             variance,
-            factors,
+            factors: factors.clone(),
             parameters,
-        })
+        };
+        fit.take(factors);
+        Ok(fit)
+    }
+
+    /// Takes the covariance from singular values.
+    pub(super) fn take(&mut self, factors: Factors) {
+        let mut root = DMatrix::zeros(self.parameters.len(), factors.resolved);
+        for (j, row) in factors.columns.iter().zip(factors.root().row_iter()) {
+            root.row_mut(*j).copy_from(&row);
+        }
+        (self.root, self.factors) = (root, factors);
     }
 
     /// The parameters.

@@ -36,13 +36,14 @@ impl LackOfFit {
 }
 
 impl Fit {
-    /// The test of the whole fit; absent where the accuracies are estimated from the same scatter, or nothing is left over.
+    /// The test of the whole fit; absent where the accuracies are estimated from the same scatter, outliers pull
+    /// less, or nothing is left over.
     ///
     /// Rows of priors count in the sum as they count in the degrees of freedom: a prior that the data contradict is a lack of
     /// fit too.
     pub fn lack_of_fit(&self) -> Option<LackOfFit> {
         let [objective, freedom] = [self.objective(), self.freedom()];
-        (self.accuracy() == Accuracy::Given).then_some(())?;
+        (self.accuracy() == Accuracy::Given && !self.robust).then_some(())?;
         Some(LackOfFit {
             objective,
             freedom,

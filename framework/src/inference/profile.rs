@@ -5,8 +5,8 @@
 
 use super::Side;
 
-/// Difference of the root of the rise from its limit, over the limit, at which an end is found.
-const FOUND: f64 = 1e-6;
+/// Difference of the root of the rise from its limit, over the limit, at which an end is found unless more is asked for.
+pub(super) const FOUND: f64 = 1e-6;
 /// Width of a bracket over its distance from the optimum at which it is closed, however the objective rises inside.
 const CLOSED: f64 = 1e-7;
 /// Fits at most on one side; kinks where another parameter meets its bound need many.
@@ -73,6 +73,9 @@ pub struct Profile {
     pub limit: f64,
     /// Distance of the first trial, the half-width of the linearised interval.
     pub distance: f64,
+    /// Difference of the root of the rise from its limit, over the limit, at which an end is found: 1e-6 as a rule, no less than
+    /// the refits are good for. \[-\]
+    pub found: f64,
 }
 
 /// A trial: distance from the optimum, root of the rise, best of the others.
@@ -134,7 +137,7 @@ impl Profile {
             })
         };
         let z = self.limit;
-        let is_found = |trial: &Trial| (trial.root - z).abs() <= FOUND * z;
+        let is_found = |trial: &Trial| (trial.root - z).abs() <= self.found * z;
         let mut inner = Trial {
             distance: 0.0,
             root: 0.0,
@@ -199,6 +202,7 @@ mod tests {
             objective: 5.0,
             limit: 2.0,
             distance: 2.0,
+            found: FOUND,
         }
     }
 

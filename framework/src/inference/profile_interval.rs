@@ -1,5 +1,6 @@
 //! Intervals of the parameters of a fit by profile.
 
+use super::profile::FOUND;
 use super::{Fit, Profile, ProfileEnd, ProfileFault, Reach, Refit, Side, Standing};
 
 /// Half-widths by profile over those of the linearised fit between which a fit counts as linear.
@@ -18,9 +19,12 @@ pub struct ProfileInterval {
 
 impl Fit {
     /// What is to be profiled for an interval of some confidence. For a parameter on its bound it is the side away from the
-    /// bound alone, so that the whole of what is left out lies there. Absent for parameters that are held or not seen.
+    /// bound alone, so that the whole of what is left out lies there. Absent for parameters that are held or not seen, and where
+    /// outliers pull less.
     pub fn to_profile(&self, parameter: usize, confidence: f64) -> Option<Profile> {
         let at = &self.parameters()[parameter];
+        // The limit of the rise is that of a chi-square.
+        (!self.robust).then_some(())?;
         let two_sided = match at.standing {
             Standing::Fixed => return None,
             Standing::Free => confidence,
@@ -37,6 +41,7 @@ impl Fit {
             objective: self.objective(),
             limit,
             distance: self.quantile(two_sided)? * deviation,
+            found: FOUND,
         })
     }
 
@@ -48,12 +53,27 @@ impl Fit {
         &self,
         parameter: usize,
         confidence: f64,
-        mut refit: impl FnMut(usize, f64, &[f64]) -> Result<Refit, String>,
+        refit: impl FnMut(usize, f64, &[f64]) -> Result<Refit, String>,
     ) -> Result<ProfileInterval, ProfileFault> {
         let at = &self.parameters()[parameter];
         let Some(profile) = self.to_profile(parameter, confidence) else {
             return Err(ProfileFault::Meaningless(format!("{} is held or not seen", at.name)));
         };
+        self.profiled(&profile, confidence, refit)
+    }
+
+    /// As [`Fit::profile`], of what [`Fit::to_profile`] prepared.
+    ///
+    /// # Errors
+    /// If a fit fails or finds a better optimum.
+    pub fn profiled(
+        &self,
+        profile: &Profile,
+        confidence: f64,
+        mut refit: impl FnMut(usize, f64, &[f64]) -> Result<Refit, String>,
+    ) -> Result<ProfileInterval, ProfileFault> {
+        let parameter = profile.parameter;
+        let at = &self.parameters()[parameter];
         let ends = [
             profile.end(Side::Lower, &mut refit)?,
             profile.end(Side::Upper, &mut refit)?,

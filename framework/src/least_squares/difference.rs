@@ -57,7 +57,7 @@ impl Differences<'_> {
         } else {
             self.noise.sqrt()
         };
-        let step = share * space.size(j, u[j]);
+        let step = share * space.reach(j, u[j], self.noise);
         let mut why = String::new();
         for h in [step, 0.1 * step, 0.01 * step] {
             let column = if self.central {

@@ -30,6 +30,13 @@ impl Finding {
     }
 }
 
+impl Fault {
+    /// One thing that is wrong: where, what, and how to mend it.
+    pub fn of(place: impl Into<String>, message: impl Into<String>, mend: impl Into<String>) -> Self {
+        Finding::new(place, message, mend).into()
+    }
+}
+
 impl From<Finding> for Fault {
     fn from(finding: Finding) -> Self {
         Self {

@@ -3,6 +3,9 @@
 use super::fault::{Fault, Finding};
 use super::problem::{Parameter, Scale};
 
+/// Noise of a call above which it is more than the rounding of a formula. \[-\]
+const NOISY: f64 = 1e-14;
+
 /// Coordinates u of the free parameters, with their bounds and usual sizes.
 #[derive(Debug, Clone)]
 pub(super) struct Space<'p> {
@@ -124,6 +127,16 @@ impl<'p> Space<'p> {
             p.prior.map(|prior| (u - p.coordinate(prior.mean)) / prior.deviation)
         });
         rows.flatten()
+    }
+
+    /// The size by which steps of differences are measured. For noisy residuals it is no less than a usual size: the step of an
+    /// offset near zero would else drown.
+    pub fn reach(&self, j: usize, u: f64, noise: f64) -> f64 {
+        if noise > NOISY {
+            u.abs().max(self.typical[j])
+        } else {
+            self.size(j, u)
+        }
     }
 
     /// The size by which a change of a coordinate counts.

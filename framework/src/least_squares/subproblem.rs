@@ -20,6 +20,18 @@ pub enum How {
     Dogleg,
 }
 
+impl How {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shortcut => "gauss-newton",
+            Self::Cone => "cone program",
+            Self::Fallback => "dogleg, since the cone program had no answer",
+            Self::Dogleg => "dogleg",
+        }
+    }
+}
+
 /// 1/2 |R z + q|^2.
 pub(super) struct Model<'a> {
     pub r: &'a DMatrix<f64>,

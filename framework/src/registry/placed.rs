@@ -23,6 +23,10 @@ pub struct Common {
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
+    /// Factor on the loss of the model, for what a model does not know; identification moves it. [-]
+    #[serde(default = "whole")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub loss_factor: f64,
     /// Number of equal components at this place; each carries the whole load that the place has. [-]
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 1000))]
@@ -31,6 +35,10 @@ pub struct Common {
 
 fn one() -> u32 {
     1
+}
+
+fn whole() -> f64 {
+    1.0
 }
 
 /// A component in its seat with its model.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::plot::{self, Bar, COLOURS, Line, PlotFault, Stroke};
+use super::plot::{self, Bar, COLOURS, Interval, Line, PlotFault, Stroke};
 
 /// A picture as data.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +35,17 @@ pub enum Figure {
         /// The lines.
         lines: Vec<Line>,
     },
+    /// Intervals under each other.
+    Intervals {
+        /// Title.
+        title: String,
+        /// Name of the coordinate.
+        x: String,
+        /// Values at which lines are drawn, such as bounds.
+        marks: Vec<f64>,
+        /// The intervals.
+        list: Vec<Interval>,
+    },
 }
 
 /// A value over two coordinates, one cell for each pair.
@@ -56,6 +67,8 @@ pub struct Map {
     pub hatched: Vec<bool>,
     /// Points that are marked, in the coordinates.
     pub marks: Vec<(f64, f64)>,
+    /// What the marks are; empty, measured points.
+    pub marked: String,
     /// Accuracy of an instrument: the lines at plus and minus this value bound what it cannot see.
     pub unseen: Option<f64>,
 }
@@ -98,7 +111,7 @@ impl Figure {
     /// Title.
     pub fn title(&self) -> &str {
         match self {
-            Self::Bars { title, .. } | Self::Lines { title, .. } => title,
+            Self::Bars { title, .. } | Self::Lines { title, .. } | Self::Intervals { title, .. } => title,
             Self::Map(map) => &map.title,
             Self::Cloud(cloud) => &cloud.title,
         }
@@ -120,6 +133,7 @@ impl Figure {
             Self::Map(map) => plot::map(map),
             Self::Cloud(cloud) => plot::cloud(cloud),
             Self::Lines { title, x, y, lines } => plot::lines(title, x, y, lines),
+            Self::Intervals { title, x, marks, list } => plot::intervals(title, x, marks, list),
         }
     }
 
@@ -136,6 +150,7 @@ impl Figure {
             Self::Map(map) => contours(map),
             Self::Cloud(cloud) => scattered(cloud),
             Self::Lines { x, y, lines, .. } => traces(x, y, lines),
+            Self::Intervals { x, marks, list, .. } => beneath(x, marks, list),
         };
         layout["title"] =
             json!({ "text": self.title(), "x": 0, "xref": "paper", "xanchor": "left", "font": { "size": 15 } });
@@ -261,8 +276,8 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
     }
     if !map.marks.is_empty() {
         data.push(json!({
-            "type": "scatter", "mode": "markers", "name": "measured", "showlegend": true,
-            "x": map.marks.iter().map(|m| m.0).collect::<Vec<_>>(), "y": map.marks.iter().map(|m| m.1).collect::<Vec<_>>(),
+            "type": "scatter", "mode": "markers", "name": if map.marked.is_empty() { "measured" } else { &map.marked },
+            "showlegend": true, "x": map.marks.iter().map(|m| m.0).collect::<Vec<_>>(), "y": map.marks.iter().map(|m| m.1).collect::<Vec<_>>(),
             "marker": { "symbol": "circle-open", "size": 7, "color": "black" },
         }));
     }
@@ -297,6 +312,32 @@ fn scattered(cloud: &Cloud) -> (Vec<Value>, Value) {
         vec![trace],
         json!({ "xaxis": axis(&cloud.axes.0), "yaxis": axis(&cloud.axes.1) }),
     )
+}
+
+fn beneath(x: &str, marks: &[f64], list: &[Interval]) -> (Vec<Value>, Value) {
+    let names: Vec<&str> = list.iter().map(|i| i.name.as_str()).collect();
+    let at: Vec<f64> = list.iter().map(|i| i.at).collect();
+    let half = |k: usize| -> Vec<f64> {
+        let of = |i: &Interval| i.ends.map_or(0.0, |ends| (ends[k] - i.at).abs());
+        list.iter().map(of).collect()
+    };
+    let mut data = vec![json!({
+        "type": "scatter", "mode": "markers", "name": "found, 95 %", "x": at, "y": names,
+        "marker": { "size": 11, "color": css(0) },
+        "error_x": { "type": "data", "symmetric": false, "array": half(1), "arrayminus": half(0), "thickness": 3, "color": css(0) },
+    })];
+    if list.iter().any(|i| i.before.is_some()) {
+        data.push(json!({
+            "type": "scatter", "mode": "markers", "name": "stated", "x": list.iter().map(|i| i.before).collect::<Vec<_>>(),
+            "y": names, "marker": { "size": 11, "symbol": "circle-open", "color": css(5), "line": { "width": 2 } },
+        }));
+    }
+    let line = |x: &f64| json!({ "type": "line", "x0": x, "x1": x, "y0": 0, "y1": 1, "yref": "paper", "line": { "width": 1, "color": "black" } });
+    let layout = json!({
+        "xaxis": axis(x), "yaxis": { "autorange": "reversed", "automargin": true, "type": "category" },
+        "shapes": marks.iter().map(line).collect::<Vec<_>>(),
+    });
+    (data, layout)
 }
 
 fn traces(x: &str, y: &str, lines: &[Line]) -> (Vec<Value>, Value) {
@@ -350,6 +391,28 @@ mod tests {
             (&json!([1000.0]), &json!([90.0]))
         );
         assert_eq!(told["data"][3]["name"], "measured");
+    }
+
+    #[test]
+    fn intervals_tell_their_ends_and_what_was_stated() {
+        let interval = Interval {
+            name: "viscosity".to_owned(),
+            at: 0.4,
+            ends: Some([0.3, 0.6]),
+            before: Some(0.5),
+        };
+        let figure = Figure::Intervals {
+            title: "Parameters".to_owned(),
+            x: "place".to_owned(),
+            marks: vec![0.0, 1.0],
+            list: vec![interval],
+        };
+        let told = figure.plotly();
+        let error = |key: &str| told["data"][0]["error_x"][key][0].as_f64().unwrap_or(f64::NAN);
+        assert!((error("array") - 0.2).abs() < 1e-12 && (error("arrayminus") - 0.1).abs() < 1e-12);
+        assert_eq!(told["data"][1]["x"], json!([0.5]));
+        assert_eq!(told["layout"]["shapes"].as_array().map(Vec::len), Some(2));
+        assert!(figure.svg().is_ok_and(|svg| svg.contains("viscosity")));
     }
 
     #[test]

@@ -4,6 +4,7 @@
 #![allow(clippy::cast_possible_wrap)]
 
 mod field;
+mod intervals;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -38,6 +39,8 @@ const TEXT: i32 = 15;
 pub type PlotFault = String;
 
 pub(super) use field::{cloud, map};
+pub use intervals::Interval;
+pub(super) use intervals::intervals;
 
 /// One bar of a stack.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -335,6 +338,7 @@ mod tests {
     #[test]
     fn nothing_to_draw_is_no_fault() {
         assert!(bars("a", ("", "b"), &[], &[]).is_ok() && lines("a", "b", "c", &[]).is_ok());
+        assert!(intervals("a", "b", &[0.0, 1.0], &[]).is_ok());
         assert!(map(&Map::default()).is_ok() && cloud(&Cloud::default()).is_ok());
     }
 }

@@ -3,9 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::measured::MeasuredEntry;
-
-use super::{PowerAxis, SpeedAxis, TemperatureAxis, TorqueAxis, Write};
+use super::{Data, PowerAxis, SpeedAxis, TemperatureAxis, TorqueAxis, Write};
 
 /// Where losses arise, over speed or torque.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -34,7 +32,7 @@ pub struct BreakdownEntry {
     pub speed: SpeedAxis,
     /// Measured points. Those within 2 % of torque and speed and 5 K of the oil of a bar are drawn
     /// beside it, their mean where there are several.
-    pub measured: Option<MeasuredEntry>,
+    pub measured: Option<Data>,
     /// Formats to write; absent, CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,

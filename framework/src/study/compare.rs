@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Write;
+use super::{Data, Write};
+use crate::analysis::PointResult;
 use crate::description::Ordered;
-use crate::measured::MeasuredEntry;
 
 /// Difference between sets of models, and products, over a grid; or between them and what was measured.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -17,7 +17,7 @@ pub struct CompareEntry {
     /// Set that the others are compared with; not with `data`. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     pub base: Option<String>,
     /// Measured points that the sets are compared with.
-    pub data: Option<MeasuredEntry>,
+    pub data: Option<Data>,
     /// Columns of the data that change a value of the gearbox: column to resolved path.
     #[serde(default)]
     pub bind: Ordered<String>,
@@ -93,6 +93,16 @@ impl Quantity {
             (Difference::Points, Self::Temperature) => "K",
         };
         (what, unit)
+    }
+
+    /// The quantity of a solved point; efficiency as a share, temperature in degC.
+    pub fn of(self, point: &PointResult) -> Option<f64> {
+        match self {
+            Self::Efficiency => point.efficiency,
+            Self::Loss => point.loss,
+            Self::LossTorque => point.loss_torque,
+            Self::Temperature => point.oil,
+        }
     }
 
     /// The other value minus the base, in that unit; absent where the base is zero and a percentage is asked for.

@@ -4,9 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::{SpeedAxis, TorqueAxis, Write};
+use super::{Data, SpeedAxis, TorqueAxis, Write};
 use crate::description::Ordered;
-use crate::measured::MeasuredEntry;
 
 /// Several models of one component over speed.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -30,7 +29,7 @@ pub struct ComponentCompareEntry {
     pub speed: SpeedAxis,
     /// Measured points: torque and speed at the study's ports, and the loss of the component. Each is compared with every model
     /// at that torque and speed.
-    pub measured: Option<MeasuredEntry>,
+    pub measured: Option<Data>,
     /// Formats to write; absent, CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,

@@ -4,9 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::description::Ordered;
-use crate::measured::MeasuredEntry;
 
-use super::{Export, Write};
+use super::{Data, Export, Write};
 
 /// Losses and efficiency over a grid.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -17,14 +16,14 @@ pub struct MapEntry {
     pub grid: Option<String>,
     /// File of points in place of a grid, as of measured data: torque, speed, and where it has them gear state and temperature
     /// of the oil, which then holds for its point.
-    pub points: Option<MeasuredEntry>,
+    pub points: Option<Data>,
     /// Columns of the points that change a value of the gearbox: column to resolved path.
     #[serde(default)]
     pub bind: Ordered<String>,
     /// Gear state of the points where no column says it; absent, the first.
     pub gear: Option<String>,
     /// Measured points that are drawn into the pictures.
-    pub measured: Option<MeasuredEntry>,
+    pub measured: Option<Data>,
     /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,

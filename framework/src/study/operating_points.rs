@@ -3,9 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::measured::MeasuredEntry;
-
-use super::{By, Write};
+use super::{By, Data, Write};
 use crate::description::Ordered;
 
 /// Losses of a list of operating points from a file.
@@ -20,7 +18,7 @@ pub struct OperatingPointsEntry {
     pub model_sets: Vec<String>,
     /// The points, one row each: torque, speed and a name, the columns of `bind`, and what was measured: loss, temperatures of
     /// oil and surface, each with its accuracy. With `faulty_rows: keep` cells of measured columns may be empty.
-    pub data: MeasuredEntry,
+    pub data: Data,
     /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit stands
     /// in the header: `volume [ml]`.
     #[serde(default)]

@@ -4,9 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::{Quantity, Write};
+use super::{Data, Quantity, Write};
 use crate::description::Ordered;
-use crate::measured::MeasuredEntry;
 
 /// Every combination of the models of some mechanisms. The loss of each is evaluated once and added; against measured points
 /// combinations are ranked by their cross-validated error, without them their spread is the uncertainty of the models.
@@ -24,7 +23,7 @@ pub struct TournamentEntry {
     /// Grid, of one gear state; not with `data`.
     pub grid: Option<String>,
     /// Measured points that the combinations are ranked by.
-    pub data: Option<MeasuredEntry>,
+    pub data: Option<Data>,
     /// What errors are counted in: efficiency points, watts, or newton metres.
     #[serde(default)]
     pub quantity: Quantity,

@@ -57,9 +57,10 @@ impl Transmission {
                 mechanism: PlanetaryDrag::KEY,
                 kind: PartKind::Component(components.len()),
                 count: 1.0,
+                loss_factor: model.loss_factor,
                 notes: model.placed.notes(),
             });
-            components.push(Component::new(model.placed, 1.0, None));
+            components.push(Component::new(model.placed, model.loss_factor, None));
         }
         let drags = drags(
             language, &entry, &gears, &meshes, covered, &mut oils, &mut build, &mut parts, &mut found,
@@ -234,15 +235,18 @@ fn place(
                     let planets = placed.between().into_iter().find_map(copies).unwrap_or(1.0);
                     let common = value.get("count").and_then(serde_json::Value::as_f64).unwrap_or(1.0);
                     let count = planets * common;
+                    let factor = value.get("loss_factor").and_then(serde_json::Value::as_f64);
+                    let loss_factor = factor.unwrap_or(1.0);
                     parts.push(PartInfo {
                         path: format!("{}.{id}", section.name),
                         mechanism: mechanism.key,
                         kind: PartKind::Component(components.len()),
                         count,
+                        loss_factor,
                         notes: placed.notes(),
                     });
                     let sharing = placed.between().into_iter().flatten().find_map(|m| sharing[m as usize]);
-                    components.push(Component::new(placed, count, sharing));
+                    components.push(Component::new(placed, count * loss_factor, sharing));
                 }
                 Ok(None) => {}
                 Err(error) => found.push(error),
@@ -278,6 +282,7 @@ fn mesh_models(
         let common = Common {
             lubricant: written.lubricant.clone(),
             temperature_offset: written.temperature_offset,
+            loss_factor: written.loss_factor,
             ..Common::default()
         };
         let oil = oils.oil(&seat.path, &common);
@@ -290,9 +295,11 @@ fn mesh_models(
                     mechanism: GearMesh::KEY,
                     kind: PartKind::Mesh(i),
                     count: seat.count,
+                    loss_factor: written.loss_factor,
                     notes: model.notes,
                 });
                 models.push(MeshModel {
+                    loss_factor: written.loss_factor,
                     sharing: seat.members.iter().find_map(|m| sharing[*m]),
                     force_per_multiplier: f64::from(seat.pair.z[0]) / (seat.count * seat.pair.working_radius[0]),
                     seat: seat.clone(),
@@ -324,6 +331,7 @@ fn drags(
         Common {
             lubricant: written.lubricant.clone(),
             temperature_offset: written.temperature_offset,
+            loss_factor: written.loss_factor,
             count: 1,
         }
     };
@@ -401,9 +409,11 @@ fn drags(
                 mechanism: GearDrag::KEY,
                 kind: PartKind::Drag(drags.len()),
                 count: seat.count,
+                loss_factor: common.loss_factor,
                 notes: model.notes,
             });
             drags.push(DragModel {
+                loss_factor: common.loss_factor,
                 seat: DragSeat { path, ..seat.clone() },
                 part: Arc::clone(&part),
                 model,
@@ -460,6 +470,7 @@ fn drags(
         let common = Common {
             lubricant: written.lubricant.clone(),
             temperature_offset: written.temperature_offset,
+            loss_factor: written.loss_factor,
             ..Common::default()
         };
         // A model asked once for each mesh may meet a gear in several meshes without counting it twice: what it covers

@@ -136,6 +136,8 @@ pub struct Held {
     pub path: String,
     pub placed: Box<dyn Placed>,
     pub covered: Covered,
+    /// Factor on the loss of the model.
+    pub loss_factor: f64,
 }
 
 /// The drag models of all sets.
@@ -190,6 +192,7 @@ pub fn models(
         let common = Common {
             lubricant: set.lubricant.clone(),
             temperature_offset: set.temperature_offset,
+            loss_factor: set.loss_factor,
             ..Common::default()
         };
         let none = ModelRef::new("none".into());
@@ -205,6 +208,7 @@ pub fn models(
         let covers = if model.off { Covers::default() } else { model.covers() };
         held.push(Held {
             covered: (own, format!("{path}.model"), covers),
+            loss_factor: set.loss_factor,
             path,
             placed: Box::new(PlacedDrag {
                 part,

@@ -3,14 +3,13 @@
 mod bars;
 
 use gearloss_framework::analysis::{Given, PointResult, notes};
-use gearloss_framework::measured::Measured;
+use gearloss_framework::measured::{Measured, Seen};
 use gearloss_framework::study::{As, BreakdownEntry, Over, Quantity, SpinLossEntry, TemperatureSweepEntry};
 use serde_json::Value;
 
 use self::bars::{Bars, Kind, Row};
 use super::super::solve::{RPM, outside};
 use super::map::tidy;
-use super::seen::Seen;
 use super::write::{head, write};
 use super::{Built, Runner, axis, gear_of, speeds, torques};
 use crate::output::{Failure, Out};

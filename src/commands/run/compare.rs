@@ -3,7 +3,7 @@
 mod on_grid;
 mod with_data;
 
-use gearloss_framework::analysis::{PointResult, histogram};
+use gearloss_framework::analysis::histogram;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
@@ -39,18 +39,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, out: &mut Out)
     }
 }
 
-/// A quantity of a solved point.
-fn of(point: &PointResult, quantity: Quantity) -> Option<f64> {
-    match quantity {
-        Quantity::Efficiency => point.efficiency,
-        Quantity::Loss => point.loss,
-        Quantity::LossTorque => point.loss_torque,
-        Quantity::Temperature => point.oil,
-    }
-}
-
 /// Numbers of points over their difference, in the same cells for every set.
-fn histograms(name: &str, (what, unit): (&str, &str), lists: Vec<(String, Vec<f64>)>) -> Figure {
+pub(super) fn histograms(name: &str, (what, unit): (&str, &str), lists: Vec<(String, Vec<f64>)>) -> Figure {
     let all: Vec<f64> = lists.iter().flat_map(|(_, list)| list.iter().copied()).collect();
     let (from, width, cells) = histogram(&all);
     let steps = |(set, list): (String, Vec<f64>)| {

@@ -6,11 +6,10 @@ use gearloss_framework::evaluate::{PartLoss, Point};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Term;
-use gearloss_framework::measured::MeasuredEntry;
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::study::ComponentCompareEntry;
+use gearloss_framework::study::{ComponentCompareEntry, Data};
 use gearloss_framework::transmission::Transmission;
 use serde_json::{Value, json};
 
@@ -396,14 +395,18 @@ fn deviations(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]
 }
 
 /// Reads measured points.
-fn measured(runner: &Runner<'_>, path: &str, data: &MeasuredEntry) -> Result<Vec<Measured>, Failure> {
+fn measured(runner: &Runner<'_>, path: &str, data: &Data) -> Result<Vec<Measured>, Failure> {
     let read = runner.read(path, data, &[])?;
     let mut points = Vec::new();
     for row in &read.rows {
         let value = |quantity: &str| read.value(row, quantity);
         let loss = value("loss").filter(|watts| *watts > 0.0);
         let (Some(torque), Some(speed), Some(watts)) = (value("torque"), value("speed"), loss) else {
-            let message = format!("{}: line {}: no loss above zero", data.file, row.line);
+            let message = format!(
+                "{}: line {}: no loss above zero",
+                runner.data(path, data)?.file,
+                row.line
+            );
             return Err(runner.wrong(path, message, "give the loss of the component in a column `loss [W]`"));
         };
         points.push(Measured { torque, speed, watts });

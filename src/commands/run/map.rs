@@ -50,7 +50,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
             let bind: Vec<&str> = entry.bind.ids().collect();
             let listed = runner.read(&format!("{path}.points"), points, &bind)?;
             for note in &listed.notes {
-                out.line(format!("{name}: {}: {note}", points.file))?;
+                out.line(format!("{name}: {}: {note}", runner.data(&path, points)?.file))?;
             }
             let bound = entry.bind.iter().map(|(_, path)| path.clone()).collect();
             (on_list(runner, entry, &listed, gearbox)?, bound)

@@ -42,7 +42,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
     let bind: Vec<&str> = entry.bind.ids().collect();
     let listed = runner.read(&format!("{path}.data"), &entry.data, &bind)?;
     for note in &listed.notes {
-        out.line(format!("{name}: {}: {note}", entry.data.file))?;
+        out.line(format!("{name}: {}: {note}", runner.data(&path, &entry.data)?.file))?;
     }
     let gear = entry.gear.as_deref();
     let terms = entry.by == By::Term;

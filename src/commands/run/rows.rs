@@ -1,15 +1,15 @@
-//! Points of a file: read, solved under one set of models, with the transmissions that their bound columns need.
+//! Points of a file: read, and solved under sets of models.
 
-use gearloss_framework::analysis::{Given, Note, PointResult, merge, notes};
-use gearloss_framework::description::{Ordered, ThermalMode};
+use gearloss_framework::analysis::{Note, OnRig, PointResult, Rows, notes};
+use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::loss::Extent;
-use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
-use serde_json::Value;
+use gearloss_framework::measured::{Measured, MeasuredEntry};
+use gearloss_framework::study::Data;
 
 use super::write::hash;
-use super::{Built, Runner, gear_of};
+use super::{Built, Runner};
+use crate::interrupt;
 use crate::output::Failure;
 
 /// All rows of a file under one set.
@@ -25,8 +25,14 @@ pub struct Solved<'a> {
 }
 
 impl Runner<'_> {
+    /// The entry of data: that of the measurements of the study, or the analysis' own.
+    pub(super) fn data<'s>(&'s self, path: &str, data: &'s Data) -> Result<&'s MeasuredEntry, Failure> {
+        Ok(self.study.measurement(path, data)?)
+    }
+
     /// Reads a file of points; `path` is the analysis' key that names it.
-    pub(super) fn read(&self, path: &str, entry: &MeasuredEntry, bind: &[&str]) -> Result<Measured, Failure> {
+    pub(super) fn read(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Failure> {
+        let entry = self.data(path, data)?;
         let wrong = |message: String, mend: String| -> Failure {
             let error = Diagnostic::error(path, format!("{}: {message}", entry.file)).mend(mend);
             self.study.findings(vec![error]).into()
@@ -49,7 +55,28 @@ impl Runner<'_> {
             .map_err(|fault| wrong(fault.message, fault.mend))
     }
 
-    /// Solves every row under each set. A measured temperature of the oil counts where the model does not find its own.
+    /// The rows of a file under the study's conditions.
+    pub(super) fn rows<'s>(
+        &'s self,
+        measured: &'s Measured,
+        bind: &'s Ordered<String>,
+        gear: Option<&'s str>,
+        terms: bool,
+    ) -> Rows<'s> {
+        let conditions = &self.study.entry.conditions;
+        Rows {
+            measured,
+            bind: bind.iter().map(|(_, path)| path.as_str()).collect(),
+            gear,
+            torque_at: &conditions.torque_at,
+            speed_at: &conditions.speed_at,
+            oil: conditions.oil_temperature,
+            flow: conditions.power_flow,
+            terms,
+        }
+    }
+
+    /// Solves every row under each set, with the torques that the rig leaves for the transmission.
     pub(super) fn at_rows<'s>(
         &'s self,
         gearbox: &'s Gearbox,
@@ -59,74 +86,51 @@ impl Runner<'_> {
         measured: &Measured,
         terms: bool,
     ) -> Result<Vec<Solved<'s>>, Failure> {
-        let mut combinations: Vec<&Vec<String>> = Vec::new();
-        for row in &measured.rows {
-            if !combinations.contains(&&row.bound) {
-                combinations.push(&row.bound);
+        let rows = self.rows(measured, bind, gear, terms);
+        let own = |set: Option<&'s String>| -> Result<Solved<'s>, Failure> {
+            let (gearbox, choice) = match set {
+                Some(name) => self.study.reference("analyses", name, gearbox)?,
+                None => (gearbox, None),
+            };
+            let name = set.map_or("own", String::as_str);
+            let bar = self.bar(measured.rows.len() as u64, name);
+            let going = |n: usize| {
+                bar.inc(n as u64);
+                !interrupt::pressed()
+            };
+            let choice = self.study.choice(choice);
+            let solve = |on: Option<OnRig<'_>>| {
+                let transmissions = rows.build(self.language, gearbox, &choice)?;
+                let solved = rows.solve(transmissions, on, &going);
+                let solved = solved.map_err(|list| Failure::from(gearbox.findings(list)))?;
+                solved.ok_or(Failure::Interrupted)
+            };
+            let mut solved = solve(None)?;
+            if !measured.rig.is_silent() {
+                let speeds = rows.speeds(&solved, measured.rig.at_out());
+                let speeds = speeds.map_err(|error| Failure::from(self.study.findings(vec![error])))?;
+                let (rig, speeds) = (measured.rig, &speeds[..]);
+                solved = solve(Some(OnRig { rig, speeds }))?;
             }
-        }
-        let mut sets_built: Vec<Vec<Built<'_>>> = Vec::new();
-        for bound in &combinations {
-            let paths = bind.iter().map(|(_, path)| path.clone());
-            let overrides: Vec<(String, Value)> = paths.zip(bound.iter().map(|v| bound_value(v))).collect();
-            for (i, built) in self.built_with(gearbox, sets, &overrides)?.into_iter().enumerate() {
-                match sets_built.get_mut(i) {
-                    Some(of_set) => of_set.push(built),
-                    None => sets_built.push(vec![built]),
-                }
-            }
-        }
-        let mut all = Vec::new();
-        for built in sets_built {
-            // Rows of one transmission and gear state are solved together.
-            let place = |row: &Row| combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
-            let state = |row: &Row, b: &Built<'_>| gear_of(row.gear.as_deref().or(gear), &b.transmission).to_owned();
-            let keys: Vec<(usize, String)> = measured
-                .rows
-                .iter()
-                .map(|row| (place(row), state(row, &built[place(row)])))
-                .collect();
-            let mut found: Vec<Option<PointResult>> = vec![None; keys.len()];
-            let mut seen: Vec<Extent> = Vec::new();
-            for (i, key) in keys.iter().enumerate() {
-                if found[i].is_some() {
-                    continue;
-                }
-                let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
-                let b = &built[key.0];
-                let list = own.iter().map(|k| given(measured, &measured.rows[*k], b)).collect();
-                let mut points = self.listed(&b.transmission, &key.1, list);
-                points.terms = terms;
-                let solved = self.solve(b, &points)?;
-                // The transmissions of one set differ in bound values only, so their notes stand in the same order.
-                merge(&mut seen, &solved.seen);
-                for (k, point) in own.into_iter().zip(solved.points) {
-                    found[k] = Some(point);
-                }
-            }
-            let rows = keys.into_iter().zip(found.into_iter().flatten());
-            all.push(Solved {
-                name: built[0].name.clone(),
-                rows: rows.map(|((place, gear), point)| (place, gear, point)).collect(),
-                notes: notes(&built[0].transmission, &seen),
-                built,
+            bar.finish_and_clear();
+            self.seen(&solved.transmissions[0].1, &solved.seen);
+            let built = solved.transmissions.into_iter().map(|(resolved, transmission)| Built {
+                name: name.to_owned(),
+                gearbox,
+                resolved,
+                transmission,
             });
+            let built: Vec<Built<'s>> = built.collect();
+            Ok(Solved {
+                name: name.to_owned(),
+                rows: solved.rows,
+                notes: notes(&built[0].transmission, &solved.seen),
+                built,
+            })
+        };
+        if sets.is_empty() {
+            return Ok(vec![own(None)?]);
         }
-        Ok(all)
+        sets.iter().map(|set| own(Some(set))).collect()
     }
-}
-
-fn given(measured: &Measured, row: &Row, built: &Built<'_>) -> Given {
-    let value = |quantity: &str| measured.value(row, quantity);
-    let fixed = built.transmission.thermal_mode == ThermalMode::Fixed;
-    Given {
-        torque: value("torque").unwrap_or(0.0),
-        speed: value("speed").unwrap_or(0.0),
-        oil: value("oil_temperature").filter(|_| fixed),
-    }
-}
-
-/// A bound value as it goes into the document: a text with its unit, or a bare number.
-fn bound_value(text: &str) -> Value {
-    text.parse::<f64>().map_or_else(|_| Value::from(text), Value::from)
 }

@@ -5,13 +5,12 @@ mod rank;
 mod spread;
 
 use gearloss_framework::analysis::{Given, PointResult};
-use gearloss_framework::measured::{Measured, Row};
+use gearloss_framework::measured::{Measured, Row, Seen};
 use gearloss_framework::study::{Difference, Quantity, TournamentEntry};
 use serde_json::{Value, json};
 
 use self::candidates::Slot;
 use super::super::solve::RPM;
-use super::seen::Seen;
 use super::{Built, Runner, gear_of, grid_axes};
 use crate::output::{Failure, Out, Table, number};
 
@@ -122,10 +121,18 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
         (None, Some(data)) => {
             let measured = runner.read(&format!("{path}.data"), data, &[])?;
             for note in &measured.notes {
-                out.line(format!("{name}: {}: {note}", data.file))?;
+                out.line(format!("{name}: {}: {note}", runner.data(&path, data)?.file))?;
             }
             let gear = gear_of(entry.gear.as_deref(), t).to_owned();
-            let (rows, list) = rows(runner, &path, &measured, &gear, out)?;
+            let (rows, mut list) = rows(runner, &path, &measured, &gear, out)?;
+            if !measured.rig.is_silent() {
+                // The speeds tell what the rig adds; the rest of the torque is left for the transmission.
+                let solved = runner.solve(&base, &runner.listed(t, &gear, list.clone()))?;
+                for (given, p) in list.iter_mut().zip(solved.points) {
+                    let added = measured.rig.added([p.reference_speed, p.output_speed.unwrap_or(0.0)]);
+                    given.torque -= added[usize::from(!p.at_reference)];
+                }
+            }
             let points = runner.listed(t, &gear, list);
             let field = field(runner, &path, entry, base, &points, out, name)?;
             let seen = measurements(runner, &path, entry, &measured, &rows, &field)?;

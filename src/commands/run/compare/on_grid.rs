@@ -10,7 +10,6 @@ use super::super::super::solve::{RPM, outside};
 use super::super::map::{spread, tidy};
 use super::super::write::{cell, head, picture, write};
 use super::super::{Runner, grid_axes};
-use super::of;
 use crate::output::{Failure, Out, Table, number};
 
 pub fn run(
@@ -50,7 +49,7 @@ pub fn run(
         let points = runner.points(&b.transmission, gear, torques.clone(), speeds.clone());
         solved.insert(0, runner.solve(b, &points)?);
     }
-    let quantity = |p: &PointResult| of(p, entry.quantity);
+    let quantity = |p: &PointResult| entry.quantity.of(p);
     let unit = entry.quantity.unit(entry.difference);
     let what = entry.quantity.name();
     let (words, label) = entry.quantity.words(entry.difference);
@@ -195,9 +194,8 @@ pub fn run(
                 .zip(&other.points)
                 .map(|(a, b)| a.outside || b.outside)
                 .collect(),
-            marks: Vec::new(),
             unseen: entry.accuracy,
-            ends: None,
+            ..Map::default()
         });
         picture(runner, &format!("{name}-{}", b.name), figure, &entry.write)?;
     }

@@ -1,19 +1,17 @@
 //! Models against measured points: the model minus the measurement.
 
-use gearloss_framework::analysis::{Note, PointResult, Statistics, bands, levels};
+use gearloss_framework::analysis::{Note, PointResult, Statistics, bands};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
-use gearloss_framework::report::{Cloud, Figure, Map};
-use gearloss_framework::study::{CompareEntry, Difference, Quantity};
+use gearloss_framework::measured::{Measured, Row, Seen};
+use gearloss_framework::study::{CompareEntry, Data, Difference, Quantity};
 use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, outside};
+use super::super::deviations::{self, Deviation};
 use super::super::map::tidy;
 use super::super::rows::Solved;
-use super::super::seen::Seen;
 use super::super::write::{cell, head, picture, write};
 use super::super::{Built, Runner};
-use super::of;
 use crate::output::{Failure, Out, Table, number};
 
 /// One measured point beside one model.
@@ -42,16 +40,11 @@ struct Compared<'a> {
     notes: Vec<Note>,
 }
 
-pub fn run(
-    runner: &Runner<'_>,
-    name: &str,
-    entry: &CompareEntry,
-    data: &MeasuredEntry,
-    out: &mut Out,
-) -> Result<(), Failure> {
+pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, data: &Data, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let bind: Vec<&str> = entry.bind.ids().collect();
     let measured = runner.read(&format!("{path}.data"), data, &bind)?;
+    let data = runner.data(&format!("{path}.data"), data)?;
     for note in &measured.notes {
         out.line(format!("{name}: {}: {note}", data.file))?;
     }
@@ -139,7 +132,7 @@ fn compared<'a>(entry: &CompareEntry, measured: &Measured, solved: Solved<'a>) -
 
 fn pair(entry: &CompareEntry, measured: &Measured, (i, row, gear): (usize, &Row, &str), point: &PointResult) -> Pair {
     let seen = Seen::of(measured, row, point);
-    let (saw, model) = (seen.quantity(entry.quantity), of(point, entry.quantity));
+    let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.of(point));
     Pair {
         row: i,
         gear: gear.to_owned(),
@@ -289,6 +282,13 @@ fn accuracy(entry: &CompareEntry, c: &Compared<'_>) -> Option<f64> {
         .or(entry.accuracy)
 }
 
+fn points(c: &Compared<'_>) -> Vec<Deviation> {
+    c.pairs
+        .iter()
+        .map(|p| (p.torque, p.speed * RPM, p.difference))
+        .collect()
+}
+
 fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compared<'_>]) -> Result<(), Failure> {
     let (what, unit) = entry.quantity.words(entry.difference);
     let pairs = |c: &Compared<'_>| c.pairs.iter().map(|p| Some((p.measured?, p.model?))).collect();
@@ -304,7 +304,7 @@ fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compar
         picture(
             runner,
             &format!("{name}-{}", c.name),
-            differences(entry, c, title),
+            deviations::picture(title, &points(c), accuracy(entry, c), None),
             &entry.write,
         )?;
     }
@@ -312,43 +312,4 @@ fn pictures(runner: &Runner<'_>, name: &str, entry: &CompareEntry, all: &[Compar
     let lists = all.iter().map(|c| (c.name.clone(), values(c))).collect();
     let histogram = super::histograms(name, (what, unit), lists);
     picture(runner, &format!("{name}-histogram"), histogram, &entry.write)
-}
-
-/// The differences over speed and torque: as a map where the points lie on a grid, but for the scatter of a rig; else as dots.
-fn differences(entry: &CompareEntry, c: &Compared<'_>, title: String) -> Figure {
-    let over = |f: fn(&Pair) -> f64| c.pairs.iter().map(f).collect::<Vec<_>>();
-    let (torques, speeds) = (levels(&over(|p| p.torque)), levels(&over(|p| p.speed * RPM)));
-    let mut values = vec![None; torques.len() * speeds.len()];
-    let mut on_grid = torques.len() > 1 && speeds.len() > 1 && values.len() == c.pairs.len();
-    for (i, pair) in c.pairs.iter().enumerate() {
-        let line = |lines: &[Vec<usize>]| lines.iter().position(|line| line.contains(&i)).unwrap_or(0);
-        let place = line(&torques) * speeds.len() + line(&speeds);
-        on_grid &= values.get(place).is_some_and(Option::is_none);
-        if let Some(value) = values.get_mut(place) {
-            *value = pair.difference;
-        }
-    }
-    let axes = ("speed rpm".to_owned(), "torque Nm".to_owned());
-    if !on_grid {
-        let of = |p: &Pair| Some((p.speed * RPM, p.torque, p.difference?));
-        return Figure::Cloud(Cloud {
-            title,
-            axes,
-            points: c.pairs.iter().filter_map(of).collect(),
-            diverging: true,
-        });
-    }
-    let mean = |lines: &[Vec<usize>], f: fn(&Pair) -> f64| -> Vec<String> {
-        let of = |line: &Vec<usize>| line.iter().map(|i| f(&c.pairs[*i])).sum::<f64>() / line.len() as f64;
-        lines.iter().map(|line| format!("{:.3}", of(line))).collect()
-    };
-    Figure::Map(Map {
-        title,
-        x: (axes.0, mean(&speeds, |p| p.speed * RPM)),
-        y: (axes.1, mean(&torques, |p| p.torque)),
-        values,
-        diverging: true,
-        unseen: accuracy(entry, c),
-        ..Map::default()
-    })
 }

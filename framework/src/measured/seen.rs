@@ -1,10 +1,11 @@
 //! What was measured at a point, from whichever columns give it.
 
-use gearloss_framework::analysis::PointResult;
-use gearloss_framework::measured::{Measured, Row};
-use gearloss_framework::study::Quantity;
+use super::{Instruments, Measured, Powers, Rig, Row};
+use crate::analysis::PointResult;
+use crate::study::Quantity;
 
-/// What was measured, from whichever columns give it.
+/// What was measured, from whichever columns give it, without what the rig adds.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seen {
     /// Power out over power in. \[-\]
     pub efficiency: Option<f64>,
@@ -18,32 +19,49 @@ pub struct Seen {
     here: f64,
     /// Speed of the reference port. \[rad/s\]
     reference: f64,
-    /// Standard accuracies of efficiency, loss, loss torque and temperature, as far as columns tell them.
+    /// Standard deviations of efficiency, loss, loss torque and temperature, as far as columns tell them.
     accuracies: [Option<f64>; 4],
+    /// The instruments and the calculated point, where columns tell nothing.
+    instruments: Option<(Instruments, Powers)>,
+    /// Calculated efficiency and loss torque.
+    calculated: [Option<f64>; 2],
 }
 
 impl Seen {
     /// Torque and speed are those at the ports of the conditions, `out` columns those at the other port. The solved point tells
-    /// the speeds of the ports, which follow from the gear state alone.
+    /// the speeds of the ports, which follow from the gear state alone, and with them what the rig of the data adds.
     pub fn of(measured: &Measured, row: &Row, point: &PointResult) -> Self {
+        Self::on(&measured.rig, measured, row, point)
+    }
+
+    /// As [`Seen::of`], with what another rig adds. The point was solved with the torque that is left for the transmission.
+    pub fn on(rig: &Rig, measured: &Measured, row: &Row, point: &PointResult) -> Self {
         let value = |quantity: &str| measured.value(row, quantity);
-        let here = value("torque").unwrap_or(0.0) * point.torque_speed;
+        let shown = value("torque").unwrap_or(0.0) * point.torque_speed;
+        let here = if rig.is_silent() {
+            shown
+        } else {
+            point.torque * point.torque_speed
+        };
+        let added = rig.power([point.reference_speed, point.output_speed.unwrap_or(0.0)]);
         let reference = point.reference_speed.abs();
         let there = value("torque_out").zip(value("speed_out")).map(|(t, w)| (t * w).abs());
         let loss = value("loss")
             .or_else(|| value("loss_torque").map(|t| t * reference))
             // Rigs write the torque of the brake with either sign; where power goes in, the sign here tells. Noise may make the
             // difference negative.
-            .or_else(|| there.map(|there| if here > 0.0 { here - there } else { there + here }))
+            .or_else(|| there.map(|there| if shown > 0.0 { shown - there } else { there + shown }))
             .or_else(|| {
                 let eta = value("efficiency")?;
-                if here > 0.0 {
-                    Some(here * (1.0 - eta))
+                if shown > 0.0 {
+                    Some(shown * (1.0 - eta))
                 } else {
-                    (eta > 0.0).then(|| -here * (1.0 / eta - 1.0))
+                    (eta > 0.0).then(|| -shown * (1.0 / eta - 1.0))
                 }
-            });
-        let efficiency = value("efficiency").or_else(|| {
+            })
+            .map(|loss| loss - added);
+        let own = value("efficiency").filter(|_| rig.is_silent());
+        let efficiency = own.or_else(|| {
             let loss = loss?;
             if here > 0.0 {
                 Some((here - loss) / here)
@@ -51,7 +69,9 @@ impl Seen {
                 (here < 0.0).then(|| -here / (loss - here))
             }
         });
-        let loss_torque = value("loss_torque").or_else(|| Some(loss? / reference));
+        let own = value("loss_torque").filter(|_| rig.is_silent());
+        let loss_torque = own.or_else(|| Some(loss? / reference));
+        let accuracy = |quantity: &str| value(quantity).map(|a| a / measured.divisor);
         Self {
             efficiency: efficiency.filter(|eta| eta.is_finite()),
             loss,
@@ -60,11 +80,13 @@ impl Seen {
             here,
             reference,
             accuracies: [
-                value("efficiency_accuracy"),
-                value("loss_accuracy"),
-                value("loss_torque_accuracy"),
-                value("oil_temperature_accuracy"),
+                accuracy("efficiency_accuracy"),
+                accuracy("loss_accuracy"),
+                accuracy("loss_torque_accuracy"),
+                accuracy("oil_temperature_accuracy").or(measured.oil_temperature),
             ],
+            instruments: measured.instruments.zip(powers(point)),
+            calculated: [point.efficiency, point.loss_torque],
         }
     }
 
@@ -88,7 +110,8 @@ impl Seen {
         (self.here < 0.0).then(|| input * input / -self.here)
     }
 
-    /// Accuracy of a quantity: its own column, or what follows from that of another one.
+    /// Standard deviation of a quantity: from its own column, from that of another one, or from the instruments and the
+    /// calculated point. The reading itself does not count: one that happens to be low would get more weight.
     pub fn accuracy(&self, quantity: Quantity) -> Option<f64> {
         let [efficiency, loss, loss_torque, temperature] = self.accuracies;
         let watts = loss
@@ -100,18 +123,56 @@ impl Seen {
             Quantity::LossTorque => loss_torque.or_else(|| Some(watts? / self.reference)),
             Quantity::Temperature => temperature,
         };
-        found.filter(|a| a.is_finite())
+        found
+            .or_else(|| self.of_instruments(quantity))
+            .filter(|a| a.is_finite())
     }
+
+    fn of_instruments(&self, quantity: Quantity) -> Option<f64> {
+        let (instruments, at) = self.instruments.as_ref()?;
+        match quantity {
+            Quantity::Efficiency => Some(instruments.efficiency(at, self.calculated[0]?)),
+            Quantity::Loss => Some(instruments.loss(at)),
+            Quantity::LossTorque => Some(instruments.loss_torque(at, self.calculated[1]?)),
+            Quantity::Temperature => None,
+        }
+    }
+
+    /// Whether the efficiency says nothing, because the torque that goes in is below three of its standard deviations.
+    pub fn is_drowned(&self) -> bool {
+        match (&self.instruments, self.accuracies[0]) {
+            (_, Some(accuracy)) => self.efficiency.is_some_and(|eta| 3.0 * accuracy > eta.abs()),
+            (Some((instruments, at)), None) => instruments.drowns(at),
+            (None, None) => false,
+        }
+    }
+}
+
+/// The calculated point as the instruments see it; absent where it has no loss or more than two ports.
+fn powers(point: &PointResult) -> Option<Powers> {
+    let speed = [point.reference_speed.abs(), point.output_speed?.abs()];
+    let here = point.torque * point.torque_speed;
+    let there = point.loss? - here;
+    // Which of the two the given torque stands at: the port whose power it is.
+    let [input, output] = if point.at_reference {
+        [here, there]
+    } else {
+        [there, here]
+    };
+    Some(Powers {
+        torque: [(input / speed[0]).abs(), (output / speed[1]).abs()],
+        speed,
+        driven: usize::from(output > input),
+    })
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use gearloss_framework::description::Ordered;
-    use gearloss_framework::flow::Status;
-    use gearloss_framework::measured::{FaultyRows, MeasuredEntry};
-
     use super::*;
+    use crate::description::Ordered;
+    use crate::flow::Status;
+    use crate::measured::{FaultyRows, MeasuredEntry, RigEntry, StatedAs};
 
     /// A point with given torque at a port that turns at 10 rad/s while the reference port turns at 100 rad/s.
     fn seen(text: &str) -> Seen {
@@ -124,6 +185,9 @@ mod tests {
             decimal: None,
             encoding: None,
             faulty_rows: FaultyRows::Refuse,
+            stated_as: StatedAs::Standard,
+            coverage_factor: 2.0,
+            rig: RigEntry::default(),
         };
         let measured = entry.read(text.as_bytes(), &[]).unwrap();
         let point = PointResult {
@@ -131,6 +195,8 @@ mod tests {
             speed: 100.0,
             torque_speed: 10.0,
             reference_speed: 100.0,
+            output_speed: Some(10.0),
+            at_reference: false,
             oil: None,
             surface: None,
             balance: None,

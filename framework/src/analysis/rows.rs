@@ -1,0 +1,186 @@
+//! Points of a file, solved under one choice of models, with the transmissions that their bound columns need.
+
+use serde_json::Value;
+
+use super::{Field, Given, OilTemperature, PointResult, Points, merge, run_grid};
+use crate::description::ThermalMode;
+use crate::document::Diagnostic;
+use crate::evaluate::PowerFlow;
+use crate::gearbox::{Findings, Gearbox};
+use crate::language::Language;
+use crate::loss::Extent;
+use crate::measured::{Measured, PortSpeeds, Rig, Row};
+use crate::resolve::{Choice, Resolved};
+use crate::transmission::Transmission;
+
+/// Rows of a file and how they are prescribed.
+#[derive(Debug, Clone)]
+pub struct Rows<'a> {
+    /// The rows.
+    pub measured: &'a Measured,
+    /// Paths of the bound columns, in the order of their values.
+    pub bind: Vec<&'a str>,
+    /// Gear state where a row tells none; absent, the first.
+    pub gear: Option<&'a str>,
+    /// Port at which the torque is given.
+    pub torque_at: &'a str,
+    /// Port at which the speed is given.
+    pub speed_at: &'a str,
+    /// Temperature of the oil where a row tells none; absent, that of the gearbox. \[degC\]
+    pub oil: Option<f64>,
+    /// Real or ideal flow.
+    pub flow: PowerFlow,
+    /// Whether losses are kept term by term.
+    pub terms: bool,
+}
+
+/// What a rig adds, and at which speeds of the ports in every row.
+#[derive(Debug, Clone, Copy)]
+pub struct OnRig<'a> {
+    /// The rig.
+    pub rig: Rig,
+    /// Speeds of the rows, of [`Rows::speeds`].
+    pub speeds: &'a [PortSpeeds],
+}
+
+/// A transmission with the resolved description that it was built from.
+pub type BuiltFrom = (Resolved, Transmission);
+
+/// Solved rows.
+pub struct SolvedRows {
+    /// One transmission for each combination of bound values, in the order in which rows name them.
+    pub transmissions: Vec<BuiltFrom>,
+    /// For each row the number of its transmission, its gear state and its point.
+    pub rows: Vec<(usize, String, PointResult)>,
+    /// What was seen of limits and observed quantities over all rows.
+    pub seen: Vec<Extent>,
+}
+
+impl Rows<'_> {
+    /// The transmissions of a choice: one for each combination of bound values.
+    ///
+    /// # Errors
+    /// Everything that resolving and building find.
+    pub fn build(&self, language: &Language, gearbox: &Gearbox, choice: &Choice) -> Result<Vec<BuiltFrom>, Findings> {
+        let of = |bound: &&Vec<String>| {
+            let mut choice = choice.clone();
+            let values = self.bind.iter().zip(bound.iter());
+            choice
+                .overrides
+                .extend(values.map(|(path, text)| ((*path).to_owned(), bound_value(text))));
+            let resolved = gearbox.resolve(language, &choice)?;
+            let transmission = gearbox.build(language, &resolved)?;
+            Ok((resolved, transmission))
+        };
+        self.combinations().iter().map(of).collect()
+    }
+
+    fn combinations(&self) -> Vec<&Vec<String>> {
+        let mut combinations: Vec<&Vec<String>> = Vec::new();
+        for row in &self.measured.rows {
+            if !combinations.contains(&&row.bound) {
+                combinations.push(&row.bound);
+            }
+        }
+        combinations
+    }
+
+    /// Solves every row with the torque that is left for the transmission once a rig has had its share. A measured temperature
+    /// of the oil counts where the model does not find its own. `progress` hears how many more are solved; where it answers
+    /// false there is no result.
+    ///
+    /// # Errors
+    /// If a row's gear state or the ports do not fit.
+    pub fn solve(
+        &self,
+        transmissions: Vec<BuiltFrom>,
+        rig: Option<OnRig<'_>>,
+        progress: &(dyn Fn(usize) -> bool + Sync),
+    ) -> Result<Option<SolvedRows>, Vec<Diagnostic>> {
+        let combinations = self.combinations();
+        let rows = &self.measured.rows;
+        let keys: Vec<(usize, &str)> = rows
+            .iter()
+            .map(|row| {
+                let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
+                (place, self.state(row, &transmissions[place].1))
+            })
+            .collect();
+        let mut found: Vec<Option<PointResult>> = vec![None; keys.len()];
+        let mut seen: Vec<Extent> = Vec::new();
+        // Rows of one transmission and gear state are solved together.
+        for (i, key) in keys.iter().enumerate() {
+            if found[i].is_some() {
+                continue;
+            }
+            let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
+            let transmission = &transmissions[key.0].1;
+            let points = Points {
+                gear: key.1.to_owned(),
+                torque_at: vec![self.torque_at.to_owned()],
+                speed_at: vec![self.speed_at.to_owned()],
+                field: Field::List(own.iter().map(|k| self.given(*k, transmission, rig)).collect()),
+                oil: OilTemperature::of(transmission, self.oil),
+                flow: self.flow,
+                terms: self.terms,
+            };
+            let Some(solved) = run_grid(transmission, &points, progress)? else {
+                return Ok(None);
+            };
+            // The transmissions of one choice differ in bound values only, so their limits stand in the same order.
+            merge(&mut seen, &solved.seen);
+            for (k, point) in own.into_iter().zip(solved.points) {
+                found[k] = Some(point);
+            }
+        }
+        let rows = keys.into_iter().zip(found.into_iter().flatten());
+        let rows = rows
+            .map(|((place, gear), point)| (place, gear.to_owned(), point))
+            .collect();
+        Ok(Some(SolvedRows {
+            transmissions,
+            rows,
+            seen,
+        }))
+    }
+
+    /// The gear state of a row.
+    fn state<'s>(&'s self, row: &'s Row, transmission: &'s Transmission) -> &'s str {
+        let first = transmission.states().first().map_or("", |s| s.name.as_str());
+        row.gear.as_deref().or(self.gear).unwrap_or(first)
+    }
+
+    fn given(&self, i: usize, transmission: &Transmission, rig: Option<OnRig<'_>>) -> Given {
+        let row = &self.measured.rows[i];
+        let value = |quantity: &str| self.measured.value(row, quantity);
+        let fixed = transmission.thermal_mode == ThermalMode::Fixed;
+        let at_in = transmission.port(self.torque_at).ok() == Some(transmission.reference_port());
+        let added = rig.map_or(0.0, |on| on.rig.added(on.speeds[i])[usize::from(!at_in)]);
+        Given {
+            torque: value("torque").unwrap_or(0.0) - added,
+            speed: value("speed").unwrap_or(0.0),
+            oil: value("oil_temperature").filter(|_| fixed),
+        }
+    }
+
+    /// Speeds of the reference port and of the other one in solved rows; they follow from the gear states alone.
+    ///
+    /// # Errors
+    /// If a rig adds something at a second port of a transmission that has not two ports.
+    pub fn speeds(&self, solved: &SolvedRows, at_out: bool) -> Result<Vec<PortSpeeds>, Diagnostic> {
+        let of = |(_, _, point): &(usize, String, PointResult)| match point.output_speed {
+            None if at_out => Err(Diagnostic::error(
+                "",
+                "a rig has something at `out`, but this gearbox has not two ports",
+            )
+            .mend("leave what belongs to `out` out of `rig`")),
+            speed => Ok([point.reference_speed, speed.unwrap_or(0.0)]),
+        };
+        solved.rows.iter().map(of).collect()
+    }
+}
+
+/// A bound value as it goes into the document: a text with its unit, or a bare number.
+fn bound_value(text: &str) -> Value {
+    text.parse::<f64>().map_or_else(|_| Value::from(text), Value::from)
+}

@@ -1,0 +1,16 @@
+//! Identification: parameters of a gearbox and its rig that bring the summed losses to what was measured.
+//!
+//! [`Identification`] joins measured points, a gearbox and parameters to a least-squares problem; [`Identification::fit`]
+//! solves it and says what the points tell; [`Identification::next`] ranks points that would tell more.
+
+mod fit;
+mod next;
+mod parameter;
+mod problem;
+mod shares;
+
+pub use fit::{Fitted, Profiled, Settings};
+pub use next::{Candidate, NextPlan};
+pub use parameter::{Identified, RigQuantity, Target};
+pub use problem::{Calculated, Faults, Identification, Observation, Pair};
+pub use shares::ShareBands;

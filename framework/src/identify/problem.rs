@@ -1,0 +1,361 @@
+//! The least-squares problem of an identification: measured points, and what a gearbox with given parameters does there.
+
+use crate::analysis::{OnRig, PointResult, Rows, SolvedRows};
+use crate::document::Diagnostic;
+use crate::gearbox::{Findings, Gearbox};
+use crate::inference::Accuracy;
+use crate::language::Language;
+use crate::least_squares::Problem;
+use crate::measured::{Measured, PortSpeeds, Rig, Seen};
+use crate::resolve::Choice;
+use crate::study::{IdentifiedEntry, Quantity};
+
+use super::{Identified, RigQuantity, Target};
+
+/// One measured number that is fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation {
+    /// Number of the row.
+    pub row: usize,
+    /// What was measured.
+    pub quantity: Quantity,
+    /// Standard deviation of the measurement, its weight counted in: efficiencies as shares, temperatures in K. Without any
+    /// accuracy the unit in which residuals are counted: an efficiency point, 1 W, 1 Nm or 1 K.
+    pub deviation: f64,
+}
+
+/// A measured number beside the calculated one; efficiencies as shares.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// Measured, without what the rig adds.
+    pub measured: f64,
+    /// Calculated.
+    pub model: f64,
+}
+
+/// What a gearbox with given parameters does at all rows.
+pub struct Calculated {
+    /// The solved rows.
+    pub solved: SolvedRows,
+    /// The rig with its parameters.
+    pub rig: Rig,
+}
+
+impl Calculated {
+    /// The point of a row.
+    pub fn point(&self, row: usize) -> &PointResult {
+        &self.solved.rows[row].2
+    }
+}
+
+/// Measured points, a gearbox under one choice of models, and parameters.
+pub struct Identification<'a> {
+    pub(super) language: &'a Language,
+    pub(super) gearbox: &'a Gearbox,
+    pub(super) choice: Choice,
+    pub(super) rows: Rows<'a>,
+    pub(super) parameters: Vec<Identified>,
+    pub(super) speeds: Vec<PortSpeeds>,
+    pub(super) observations: Vec<Observation>,
+    pub(super) accuracy: Accuracy,
+    pub(super) notes: Vec<String>,
+}
+
+impl<'a> Identification<'a> {
+    /// Joins rows, a gearbox and parameters. Paths of findings that belong to the study begin with `parameters` or `data`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the parameters, or that resolving and building find; points without a calculated value;
+    /// quantities that nothing measures, or of which only some have an accuracy.
+    pub fn new<'e>(
+        language: &'a Language,
+        gearbox: &'a Gearbox,
+        choice: Choice,
+        rows: Rows<'a>,
+        entries: impl IntoIterator<Item = (&'e str, &'e IdentifiedEntry)>,
+        residuals: &[Quantity],
+    ) -> Result<Self, Faults> {
+        let built = rows.build(language, gearbox, &choice)?;
+        let mut found = Vec::new();
+        let mut parameters = Vec::new();
+        for (name, entry) in entries {
+            match Identified::of(name, entry, &rows.measured.rig, (language, &built[0].0)) {
+                Ok(list) => parameters.extend(list),
+                Err(error) => found.push(error),
+            }
+        }
+        found.extend(Identified::twice(&parameters));
+        if parameters.is_empty() && found.is_empty() {
+            found.push(Diagnostic::error("parameters", "there is nothing to identify").mend("name a parameter"));
+        }
+        if !found.is_empty() {
+            return Err(Faults::Study(found));
+        }
+        let mut identification = Self {
+            language,
+            gearbox,
+            choice,
+            rows,
+            parameters,
+            speeds: Vec::new(),
+            observations: Vec::new(),
+            accuracy: Accuracy::Given,
+            notes: Vec::new(),
+        };
+        let solved = identification.rows.solve(built, None, &|_| true);
+        let solved = solved.map_err(|list| Faults::Gearbox(gearbox.findings(list)))?;
+        // Without anyone to break it off there is a result.
+        if let Some(solved) = solved {
+            let at_out = identification.rows.measured.rig.at_out() || identification.parameters.iter().any(is_out);
+            let speeds = identification.rows.speeds(&solved, at_out);
+            identification.speeds = speeds.map_err(|error| {
+                Faults::Study(vec![Diagnostic {
+                    path: "data".to_owned(),
+                    ..error
+                }])
+            })?;
+        }
+        identification.observe(residuals).map_err(Faults::Study)?;
+        Ok(identification)
+    }
+
+    /// The same with other rows, of which all observations are given: simulated ones, or points that may be measured.
+    ///
+    /// # Errors
+    /// If the gearbox does not take the rows.
+    pub fn with_rows<'b>(
+        &'b self,
+        measured: &'b Measured,
+        observations: Vec<Observation>,
+    ) -> Result<Identification<'b>, String> {
+        let rows = Rows {
+            measured,
+            ..self.rows.clone()
+        };
+        let first = |findings: Findings| findings.list.first().map_or_else(String::new, |d| d.message.clone());
+        let built = rows.build(self.language, self.gearbox, &self.choice).map_err(first)?;
+        let solved = rows.solve(built, None, &|_| true);
+        let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
+        let speeds = solved.map_or(Ok(Vec::new()), |solved| rows.speeds(&solved, false));
+        Ok(Identification {
+            language: self.language,
+            gearbox: self.gearbox,
+            choice: self.choice.clone(),
+            parameters: self.parameters.clone(),
+            speeds: speeds.map_err(|d| d.message)?,
+            observations,
+            accuracy: self.accuracy,
+            notes: Vec::new(),
+            rows,
+        })
+    }
+
+    /// The parameters, in the order of the coordinates.
+    pub fn parameters(&self) -> &[Identified] {
+        &self.parameters
+    }
+
+    /// What is fitted, in the order of the residuals.
+    pub fn observations(&self) -> &[Observation] {
+        &self.observations
+    }
+
+    /// The measured rows.
+    pub fn measured(&self) -> &Measured {
+        self.rows.measured
+    }
+
+    /// Whether the accuracies are given.
+    pub fn accuracy(&self) -> Accuracy {
+        self.accuracy
+    }
+
+    /// What a user should know of the points.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Values at which the search begins, each in the unit of its path.
+    pub fn start(&self) -> Vec<f64> {
+        self.parameters
+            .iter()
+            .map(|p| p.start.clamp(p.bounds[0], p.bounds[1]))
+            .collect()
+    }
+
+    /// What the gearbox does with given parameters, each in the unit of its path.
+    ///
+    /// # Errors
+    /// If it cannot be built with them.
+    pub fn calculate(&self, theta: &[f64]) -> Result<Calculated, String> {
+        let mut choice = self.choice.clone();
+        choice.overrides.extend(Identified::overrides(&self.parameters, theta));
+        let first = |findings: Findings| findings.list.first().map_or_else(String::new, |d| d.message.clone());
+        let built = self.rows.build(self.language, self.gearbox, &choice).map_err(first)?;
+        let rig = Identified::rig(&self.parameters, theta, &self.rows.measured.rig);
+        let on = OnRig {
+            rig,
+            speeds: &self.speeds,
+        };
+        let on = Some(on).filter(|on| !on.rig.is_silent());
+        let solved = self.rows.solve(built, on, &|_| true);
+        let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
+        let solved = solved.ok_or_else(|| "broken off".to_owned())?;
+        Ok(Calculated { solved, rig })
+    }
+
+    /// An observation beside what was calculated.
+    ///
+    /// # Errors
+    /// Which row has no value, and why.
+    pub fn pair(&self, observation: &Observation, calculated: &Calculated) -> Result<Pair, String> {
+        let row = &self.rows.measured.rows[observation.row];
+        let point = calculated.point(observation.row);
+        let seen = Seen::on(&calculated.rig, self.rows.measured, row, point);
+        let what = observation.quantity.words(crate::study::Difference::Points).0;
+        let none = |which: &str| {
+            let reason = match (&point.undefined, point.balance) {
+                (Some((_, undefined)), _) => format!(": {undefined}"),
+                (None, Some(_)) if point.oil.is_none() => ": no balance of heat was found".to_owned(),
+                _ => String::new(),
+            };
+            format!("line {}: no {which} {what}{reason}", row.line)
+        };
+        let measured = seen.quantity(observation.quantity).ok_or_else(|| none("measured"))?;
+        let model = observation.quantity.of(point).filter(|x| x.is_finite());
+        let model = model.ok_or_else(|| none("calculated"))?;
+        Ok(Pair { measured, model })
+    }
+
+    /// All observations beside what was calculated.
+    ///
+    /// # Errors
+    /// Which row has no value, and why.
+    pub fn pairs(&self, calculated: &Calculated) -> Result<Vec<Pair>, String> {
+        self.observations.iter().map(|o| self.pair(o, calculated)).collect()
+    }
+
+    /// Residuals: calculated less measured over the standard deviation.
+    ///
+    /// # Errors
+    /// If the gearbox cannot be built, or a row has no value.
+    pub fn residuals(&self, theta: &[f64]) -> Result<Vec<f64>, String> {
+        let calculated = self.calculate(theta)?;
+        let residual = |o: &Observation| {
+            let pair = self.pair(o, &calculated)?;
+            Ok((pair.model - pair.measured) / o.deviation)
+        };
+        self.observations.iter().map(residual).collect()
+    }
+
+    /// As a problem for [`crate::least_squares`].
+    pub fn problem(&self) -> Problem<'_> {
+        let parameters = self.parameters.iter().map(Identified::fitted).collect();
+        Problem::new(|theta: &[f64]| self.residuals(theta), parameters)
+    }
+
+    /// Chooses what is fitted, with its standard deviations at the start.
+    fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
+        let data = |message: String, mend: &str| vec![Diagnostic::error("data", message).mend(mend)];
+        let start = self.calculate(&self.start());
+        let start = start.map_err(|reason| data(reason, "begin with other values"))?;
+        let measured = self.rows.measured;
+        let mut found: Vec<(Observation, Option<f64>)> = Vec::new();
+        for quantity in residuals {
+            let before = found.len();
+            let mut drowned = 0;
+            for (i, row) in measured.rows.iter().enumerate() {
+                let seen = Seen::on(&start.rig, measured, row, start.point(i));
+                let weight = measured.value(row, "weight").unwrap_or(1.0);
+                let drowns = *quantity == Quantity::Efficiency && seen.is_drowned();
+                let quantity = if drowns { Quantity::LossTorque } else { *quantity };
+                if seen.quantity(quantity).is_none() || weight <= 0.0 {
+                    continue;
+                }
+                drowned += usize::from(drowns);
+                let unit = if quantity == Quantity::Efficiency { 0.01 } else { 1.0 };
+                let accuracy = seen.accuracy(quantity).filter(|a| *a > 0.0);
+                let observation = Observation {
+                    row: i,
+                    quantity,
+                    deviation: accuracy.unwrap_or(unit) / weight.sqrt(),
+                };
+                found.push((observation, accuracy));
+            }
+            let what = quantity.words(crate::study::Difference::Points).0;
+            if found.len() == before {
+                let mend = "name a column of it, or columns of torque and speed at both ports";
+                return Err(data(format!("nothing gives a measured {what}"), mend));
+            }
+            if *quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {
+                return Err(vec![
+                    Diagnostic::error("residuals", "the temperature of the oil is given, not calculated")
+                        .mend("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
+                ]);
+            }
+            if drowned > 0 {
+                self.notes.push(format!(
+                    "{drowned} points with less torque than three times its accuracy count by their loss torque"
+                ));
+            }
+        }
+        let with = found.iter().filter(|(_, accuracy)| accuracy.is_some()).count();
+        if with > 0 && with < found.len() {
+            let bare = found.iter().find(|(_, accuracy)| accuracy.is_none());
+            let line = bare.map_or(0, |(o, _)| measured.rows[o.row].line);
+            let message = format!(
+                "line {line} has no accuracy, as {} of {} measured numbers; {with} have one",
+                found.len() - with,
+                found.len()
+            );
+            return Err(data(message, "state the accuracies of all, or of none"));
+        }
+        if with == 0 && residuals.len() > 1 {
+            let message = "several quantities count together only by their accuracies, and none is stated".to_owned();
+            return Err(data(
+                message,
+                "state the instruments under `rig`, or columns such as `loss_accuracy`",
+            ));
+        }
+        self.accuracy = if with > 0 { Accuracy::Given } else { Accuracy::Estimated };
+        self.observations = found.into_iter().map(|(observation, _)| observation).collect();
+        let free = self.parameters.iter().filter(|p| p.bounds[0] < p.bounds[1]).count();
+        let priors = self.parameters.iter().filter(|p| p.prior.is_some()).count();
+        if self.observations.len() + priors < free {
+            return Err(data(
+                format!(
+                    "{} measured numbers and {priors} priors for {free} parameters",
+                    self.observations.len()
+                ),
+                "identify fewer parameters, or give some of them a `prior`",
+            ));
+        }
+        // What has no value at the start is told by its line, before the search.
+        let undefined = self.observations.iter().find_map(|o| self.pair(o, &start).err());
+        match undefined {
+            Some(reason) => Err(data(
+                format!("{reason}, at the start of the search"),
+                "begin with other values, or leave the line out",
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+fn is_out(parameter: &Identified) -> bool {
+    matches!(&parameter.target, Target::Rig(quantity) if RigQuantity::is_out(*quantity))
+}
+
+/// What is wrong with an identification as it is stated.
+pub enum Faults {
+    /// Faults of the study, with paths below the analysis.
+    Study(Vec<Diagnostic>),
+    /// Faults of the gearbox.
+    Gearbox(Findings),
+}
+
+impl From<Findings> for Faults {
+    fn from(findings: Findings) -> Self {
+        Self::Gearbox(findings)
+    }
+}

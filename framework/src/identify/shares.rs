@@ -1,0 +1,112 @@
+//! Losses by mechanism at the measured points, with the bands that the parameters leave them.
+
+use super::{Fitted, Identification};
+use crate::inference::{Breakdown, Derived, ProfileInterval, Reach, Standing, hull};
+use crate::sensitivity::gradients;
+use crate::transmission::Transmission;
+
+/// Relative noise of the calculated losses: that of the iterated flow of power.
+const NOISE: f64 = 1e-10;
+/// Half-width of a 95 % band in standard deviations.
+const DEVIATIONS: f64 = 1.959_963_985;
+
+/// Losses by mechanism at some rows.
+#[derive(Debug, Clone)]
+pub struct ShareBands {
+    /// The mechanisms.
+    pub mechanisms: Vec<&'static str>,
+    /// For each of the rows the losses of the mechanisms, their sum and their shares.
+    pub rows: Vec<Breakdown>,
+    /// For each of the rows the 95 % bands of the losses of the mechanisms and, last, of their sum, widened by what parameters on
+    /// a bound would do. \[W\]
+    pub bands: Vec<Vec<Option<[f64; 2]>>>,
+}
+
+/// Which mechanism each part belongs to.
+fn places(t: &Transmission, mechanisms: &[&'static str]) -> Vec<usize> {
+    let place = |mechanism: &str| mechanisms.iter().position(|m| *m == mechanism).unwrap_or(0);
+    t.parts().iter().map(|part| place(part.mechanism)).collect()
+}
+
+impl Identification<'_> {
+    /// Losses by mechanism at some rows, with the deviations that follow from the covariance of all parameters.
+    ///
+    /// # Errors
+    /// If a neighbour of the optimum has no value.
+    pub fn share_bands(
+        &self,
+        fitted: &Fitted,
+        rows: &[usize],
+        profiles: &[Option<Result<ProfileInterval, String>>],
+    ) -> Result<ShareBands, String> {
+        let at_optimum = self.calculate(fitted.theta())?;
+        let first = &at_optimum.solved.transmissions[0].1;
+        let mut mechanisms: Vec<&'static str> = Vec::new();
+        for part in first.parts() {
+            let lossless = first.instances()[part.notes.instance].entry.name == "none";
+            if !lossless && !mechanisms.contains(&part.mechanism) {
+                mechanisms.push(part.mechanism);
+            }
+        }
+        let width = mechanisms.len();
+        let losses = |calculated: &super::Calculated| -> Vec<f64> {
+            let mut all = Vec::with_capacity(rows.len() * width);
+            for row in rows {
+                let (number, _, point) = &calculated.solved.rows[*row];
+                let places = places(&calculated.solved.transmissions[*number].1, &mechanisms);
+                let mut sums = vec![0.0; width];
+                for (place, watts) in places.iter().zip(&point.parts) {
+                    sums[*place] += watts;
+                }
+                all.extend(sums);
+            }
+            all
+        };
+        let values = losses(&at_optimum);
+        let outputs = |theta: &[f64]| self.calculate(theta).map(|c| losses(&c));
+        let slopes = gradients(fitted.inference.parameters(), NOISE, outputs)?;
+        let breakdown = |i: usize| {
+            let own = i * width..(i + 1) * width;
+            fitted.inference.breakdown(&values[own.clone()], &slopes[own])
+        };
+        let breakdowns: Vec<Breakdown> = (0..rows.len()).map(breakdown).collect::<Result<_, _>>()?;
+        let mut bands: Vec<Vec<Option<[f64; 2]>>> = breakdowns
+            .iter()
+            .map(|b| b.parts.iter().chain([&b.total]).map(|d| d.band(DEVIATIONS)).collect())
+            .collect();
+        // A parameter on its bound has no part in the covariance: the other end of its interval shows what it would do.
+        for (k, profile) in profiles.iter().enumerate() {
+            let active = matches!(fitted.inference.parameters()[k].standing, Standing::Active(_));
+            let Some(Ok(interval)) = profile.as_ref().filter(|_| active) else {
+                continue;
+            };
+            let far = interval.ends.iter().find(|end| end.reach == Reach::Limit);
+            let Some(far) = far else { continue };
+            let from: Vec<f64> = fitted.inference.parameters().iter().map(|p| p.u).collect();
+            let there = self.refit(fitted, (k, far.u), &from, None)?;
+            let parameters = fitted.inference.parameters().iter();
+            let theta: Vec<f64> = parameters.zip(&there.u).map(|(p, u)| p.scale.theta(*u)).collect();
+            let moved = outputs(&theta)?;
+            for (i, bands) in bands.iter_mut().enumerate() {
+                let own = &moved[i * width..(i + 1) * width];
+                let sum: f64 = own.iter().sum();
+                for (band, value) in bands.iter_mut().zip(own.iter().chain([&sum])) {
+                    *band = band.map(|band| hull(band, [*value, *value]));
+                }
+            }
+        }
+        Ok(ShareBands {
+            mechanisms,
+            rows: breakdowns,
+            bands,
+        })
+    }
+}
+
+impl ShareBands {
+    /// The share of a mechanism at a row with its 95 % band; absent where the loss is zero.
+    pub fn share(&self, row: usize, mechanism: usize) -> Option<(Derived, Option<[f64; 2]>)> {
+        let share = *self.rows[row].shares.get(mechanism)?;
+        Some((share, share.share_band(DEVIATIONS)))
+    }
+}

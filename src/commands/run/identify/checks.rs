@@ -1,0 +1,145 @@
+//! Checks of residuals: whether the model reproduces the points as accurately as they are, and whether neighbours err together.
+
+use gearloss_framework::identify::{Fitted, Identification};
+use gearloss_framework::inference::{
+    AndersonDarling, BandMean, LackOfFit, PureError, Succession, anderson_darling, band_means, pure_error, succession,
+};
+
+use super::super::super::solve::RPM;
+use super::lines::{Sheet, of_residuals};
+
+/// Probability of a test below which it is told.
+const SUSPECT: f64 = 0.01;
+
+/// What the residuals of a fit say against it.
+pub struct Checks {
+    pub lack: Option<LackOfFit>,
+    pub pure: Option<PureError>,
+    pub normality: Option<AndersonDarling>,
+    pub succession: Option<Succession>,
+    /// Mean standardised residuals over torque in Nm and over speed in rpm.
+    pub over_torque: Vec<BandMean>,
+    pub over_speed: Vec<BandMean>,
+    /// Standardised residuals.
+    pub standardised: Vec<f64>,
+    /// Places of residuals that are far out, and of points of great weight.
+    pub outliers: Vec<usize>,
+    pub weighty: Vec<usize>,
+}
+
+impl Checks {
+    pub fn of(identification: &Identification<'_>, fitted: &Fitted, sheets: &[Sheet]) -> Self {
+        let inference = &fitted.inference;
+        let measured = identification.measured();
+        let observations = identification.observations();
+        let standardised = inference.standardised();
+        let over = |quantity: &str, factor: f64| -> Vec<BandMean> {
+            let value = |o: &gearloss_framework::identify::Observation| {
+                factor * measured.value(&measured.rows[o.row], quantity).unwrap_or(0.0)
+            };
+            let at: Vec<f64> = observations.iter().map(value).collect();
+            band_means(&standardised, &at).unwrap_or_default()
+        };
+        Self {
+            lack: inference.lack_of_fit(),
+            pure: pure_error(inference, &repeated(identification)),
+            normality: anderson_darling(&standardised),
+            succession: succession(&standardised, &of_residuals(identification, sheets)),
+            over_torque: over("torque", 1.0),
+            over_speed: over("speed", RPM),
+            outliers: inference.outliers(),
+            weighty: inference.weighty(),
+            standardised,
+        }
+    }
+
+    /// What there is to say, in sentences.
+    pub fn words(&self, identification: &Identification<'_>) -> Vec<String> {
+        let measured = identification.measured();
+        let line = |place: &usize| measured.rows[identification.observations()[*place].row].line;
+        let list = |places: &[usize]| {
+            let shown: Vec<String> = places.iter().take(8).map(|p| line(p).to_string()).collect();
+            let more = if places.len() > 8 { ", ..." } else { "" };
+            format!("{}{more}", shown.join(", "))
+        };
+        let mut words: Vec<String> = self.lack.and_then(|lack| lack.words()).into_iter().collect();
+        if let Some(pure) = self.pure.filter(|pure| pure.probability < SUSPECT) {
+            words.push(format!(
+                "repeated points scatter {:.2} times less than the rest: it is the model that misses, not the rig",
+                pure.ratio.sqrt()
+            ));
+        }
+        words.extend(self.succession.and_then(|s| {
+            let words = s.words()?;
+            let widening = s.widening();
+            Some(if widening > 1.0 {
+                format!("{words}; intervals are too small by about {widening:.2}")
+            } else {
+                words
+            })
+        }));
+        if let Some(test) = self.normality.filter(|test| test.probability < SUSPECT) {
+            words.push(format!(
+                "the residuals are not normally distributed (Anderson-Darling, p = {:.1e})",
+                test.probability
+            ));
+        }
+        for (means, unit) in [(&self.over_torque, "Nm"), (&self.over_speed, "rpm")] {
+            let far = means.iter().filter(|band| band.mean.abs() > 1.5 * band.limit);
+            if let Some(worst) = far.max_by(|a, b| (a.mean / a.limit).abs().total_cmp(&(b.mean / b.limit).abs())) {
+                let side = if worst.mean > 0.0 { "above" } else { "below" };
+                words.push(format!(
+                    "from {:.0} to {:.0} {unit} the model lies {side} the points: {:.2} standard deviations on average, +-{:.2} \
+                     by chance",
+                    worst.band[0],
+                    worst.band[1],
+                    worst.mean.abs(),
+                    worst.limit
+                ));
+            }
+        }
+        if !self.outliers.is_empty() {
+            words.push(format!(
+                "{} points are more than 3.5 standard deviations off: lines {}",
+                self.outliers.len(),
+                list(&self.outliers)
+            ));
+        }
+        if !self.weighty.is_empty() {
+            words.push(format!(
+                "{} points decide more than half of their own calculated value: lines {}",
+                self.weighty.len(),
+                list(&self.weighty)
+            ));
+        }
+        words
+    }
+}
+
+/// Places of residuals at the same settings.
+fn repeated(identification: &Identification<'_>) -> Vec<Vec<usize>> {
+    let measured = identification.measured();
+    let observations = identification.observations();
+    let mut groups: std::collections::BTreeMap<String, Vec<usize>> = std::collections::BTreeMap::new();
+    for (place, o) in observations.iter().enumerate() {
+        let row = &measured.rows[o.row];
+        let value = |name: &str| {
+            measured
+                .value(row, name)
+                .map_or_else(String::new, |x| format!("{x:.4e}"))
+        };
+        // The accuracy belongs to the settings: repetitions of different accuracy are no repetitions.
+        let key = format!(
+            "{:?} {:?} {:?} {} {} {} {:.4e}",
+            o.quantity,
+            row.gear,
+            row.bound,
+            value("torque"),
+            value("speed"),
+            value("oil_temperature"),
+            o.deviation
+        );
+        groups.entry(key).or_default().push(place);
+    }
+    groups.into_values().filter(|group| group.len() > 1).collect()
+}

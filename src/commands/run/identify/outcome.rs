@@ -1,0 +1,119 @@
+//! All that is found for one set of models.
+
+use gearloss_framework::analysis::{Note, notes};
+use gearloss_framework::identify::{Calculated, Fitted, Identification, Pair, Profiled, Settings, ShareBands};
+use gearloss_framework::inference::{Fold, Validation};
+use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
+
+use super::super::{Built, Runner};
+use super::checks::Checks;
+use super::lines::{Sheet, sheets};
+use super::next::{self, Next};
+use crate::interrupt;
+use crate::output::Failure;
+
+/// All that is found for one set of models.
+pub struct Outcome<'a> {
+    /// Name of the set.
+    pub name: String,
+    pub identification: Identification<'a>,
+    pub fitted: Fitted,
+    /// Measured and calculated numbers at the start and at the end, in the order of the observations.
+    pub pairs: [Vec<Pair>; 2],
+    /// What the gearbox does at the start and at the end.
+    pub calculated: [Calculated; 2],
+    /// Intervals by profile.
+    pub profiles: Vec<Option<Profiled>>,
+    /// Errors of predictions.
+    pub folds: Option<Result<(Vec<Fold>, Validation), String>>,
+    pub checks: Checks,
+    /// Losses by mechanism at all rows.
+    pub shares: Result<ShareBands, String>,
+    /// Rows that belong together.
+    pub sheets: Vec<Sheet>,
+    pub next: Option<Next>,
+    /// What was seen of limits at the end.
+    pub notes: Vec<Note>,
+}
+
+impl<'a> Outcome<'a> {
+    pub fn new(
+        runner: &Runner<'_>,
+        (name, entry): (&str, &IdentifyEntry),
+        settings: &Settings<'_>,
+        gear: &str,
+        (built, identification, fitted): (&Built<'_>, Identification<'a>, Fitted),
+    ) -> Result<Self, Failure> {
+        let path = format!("analyses.{name}");
+        let failed = |reason: String| runner.wrong(&path, reason, "begin with other values, or narrow the bounds");
+        let at = |theta: &[f64]| -> Result<(Calculated, Vec<Pair>), String> {
+            let calculated = identification.calculate(theta)?;
+            let pairs = identification.pairs(&calculated)?;
+            Ok((calculated, pairs))
+        };
+        let (before, pairs_before) = at(&identification.start()).map_err(failed)?;
+        let (after, pairs_after) = at(fitted.theta()).map_err(failed)?;
+        let sheets = sheets(identification.measured(), gear);
+        let profiles = if entry.profiles {
+            identification.profiles(&fitted, settings.interrupt)
+        } else {
+            vec![None; identification.parameters().len()]
+        };
+        let folds = (entry.folds > 1).then(|| identification.validate(&fitted, entry.folds as usize, settings));
+        if interrupt::pressed() {
+            return Err(Failure::Interrupted);
+        }
+        let all: Vec<usize> = (0..identification.measured().rows.len()).collect();
+        let shares = identification.share_bands(&fitted, &all, &profiles);
+        let next = entry.next.as_ref();
+        let next = next.map(|next| next::plan(runner, name, next, built, &identification, &fitted));
+        let transmission = &after.solved.transmissions[0].1;
+        runner.seen(transmission, &after.solved.seen);
+        Ok(Self {
+            name: built.name.clone(),
+            checks: Checks::of(&identification, &fitted, &sheets),
+            notes: notes(transmission, &after.solved.seen),
+            pairs: [pairs_before, pairs_after],
+            calculated: [before, after],
+            next: next.transpose()?,
+            identification,
+            fitted,
+            profiles,
+            folds,
+            shares,
+            sheets,
+        })
+    }
+
+    /// Root of the mean square of calculated less measured for a quantity, before and after, in efficiency points, W, Nm or K.
+    pub fn rms(&self, quantity: Quantity) -> [f64; 2] {
+        [0, 1].map(|k| {
+            let list: Vec<f64> = self.deviations(quantity, k).into_iter().map(|(_, d)| d).collect();
+            (list.iter().map(|d| d * d).sum::<f64>() / list.len().max(1) as f64).sqrt()
+        })
+    }
+
+    /// Rows and calculated less measured for a quantity, before (0) or after (1), in efficiency points, W, Nm or K.
+    pub fn deviations(&self, quantity: Quantity, which: usize) -> Vec<(usize, f64)> {
+        let all = self.identification.observations().iter().zip(&self.pairs[which]);
+        all.filter(|(o, _)| o.quantity == quantity)
+            .filter_map(|(o, p)| Some((o.row, quantity.difference(Difference::Points, p.measured, p.model)?)))
+            .collect()
+    }
+
+    /// The fitted quantities, each once.
+    pub fn quantities(&self) -> Vec<Quantity> {
+        let mut list = Vec::new();
+        for observation in self.identification.observations() {
+            if !list.contains(&observation.quantity) {
+                list.push(observation.quantity);
+            }
+        }
+        list
+    }
+
+    /// Factor by which intervals are too small at least, where the model does not reproduce the points.
+    pub fn widening(&self) -> Option<f64> {
+        self.checks.lack.and_then(|lack| lack.widening())
+    }
+}

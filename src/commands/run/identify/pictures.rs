@@ -1,0 +1,363 @@
+//! Pictures of identifications: parameters between their bounds, deviations before and after, losses beside the measured
+//! total, residuals, correlations, what to measure next.
+
+use gearloss_framework::report::plot::{Bar, Interval, Line, Stroke};
+use gearloss_framework::report::{Figure, Map};
+use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
+
+use super::super::super::solve::RPM;
+use super::super::Runner;
+use super::super::compare::histograms;
+use super::super::deviations::{self, Deviation};
+use super::super::map::tidy;
+use super::super::write::picture;
+use super::lines::Sheet;
+use super::outcome::Outcome;
+use super::tables::losses_by;
+use crate::output::Failure;
+
+/// Correlation from which on the joint region of two parameters is drawn, and for how many pairs.
+const JOINT: (f64, usize) = (0.8, 4);
+/// Points of a drawn border.
+const BORDER: u32 = 72;
+
+pub fn write(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, o: &Outcome<'_>) -> Result<(), Failure> {
+    let put = |what: &str, figure: Figure| picture(runner, &format!("{name}-{}-{what}", o.name), figure, &entry.write);
+    put("parameters", parameters(name, o))?;
+    for quantity in o.quantities() {
+        for (what, figure) in maps(name, o, quantity) {
+            put(&what, figure)?;
+        }
+        let (what, unit) = quantity.words(Difference::Points);
+        let list = |k: usize| o.deviations(quantity, k).into_iter().map(|(_, d)| d).collect();
+        let lists = vec![("before".to_owned(), list(0)), ("after".to_owned(), list(1))];
+        let title = format!("{name}: {} minus measurement", o.name);
+        put(
+            &format!("histogram-{}", slug(quantity)),
+            histograms(&title, (what, unit), lists),
+        )?;
+    }
+    for (what, figure) in stacks(name, entry, o) {
+        put(&what, figure)?;
+    }
+    for (what, figure) in residuals(name, o) {
+        put(what, figure)?;
+    }
+    put("correlations", correlations(name, o))?;
+    for (what, figure) in joint(name, o) {
+        put(&what, figure)?;
+    }
+    for (what, figure) in next(name, o) {
+        put(&what, figure)?;
+    }
+    Ok(())
+}
+
+fn slug(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Efficiency => "efficiency",
+        Quantity::Loss => "loss",
+        Quantity::LossTorque => "loss-torque",
+        Quantity::Temperature => "temperature",
+    }
+}
+
+/// Where the parameters lie between their bounds, in the coordinates in which they are counted.
+fn parameters(name: &str, o: &Outcome<'_>) -> Figure {
+    let inference = &o.fitted.inference;
+    let all = inference
+        .parameters()
+        .iter()
+        .zip(o.identification.parameters())
+        .enumerate();
+    let interval = |(k, (of, identified)): (
+        usize,
+        (
+            &gearloss_framework::inference::Parameter,
+            &gearloss_framework::identify::Identified,
+        ),
+    )| {
+        let [low, high] = of.bounds;
+        let place = |theta: f64| of.scale.coordinate(theta).map(|u| (u - low) / (high - low));
+        let own = o.profiles[k].as_ref().and_then(|p| p.as_ref().ok()).map(|p| p.theta);
+        let ends = own.or_else(|| inference.interval(k, 0.95, 1.0).map(|i| i.ends));
+        Interval {
+            name: of.name.clone(),
+            at: (of.u - low) / (high - low),
+            ends: ends.and_then(|[a, b]| Some([place(a)?, place(b)?])),
+            before: identified.stated.and_then(place).filter(|x| (-0.2..=1.2).contains(x)),
+        }
+    };
+    Figure::Intervals {
+        title: format!("{name}: parameters of {} between their bounds", o.name),
+        x: "0: least, 1: greatest value allowed (logarithmic ones by their logarithm)".to_owned(),
+        marks: vec![0.0, 1.0],
+        list: all.map(interval).filter(|i| i.at.is_finite()).collect(),
+    }
+}
+
+/// Deviations over speed and torque before and after, a pair of maps with the same colours for each sheet.
+fn maps(name: &str, o: &Outcome<'_>, quantity: Quantity) -> Vec<(String, Figure)> {
+    let (what, unit) = quantity.words(Difference::Points);
+    let measured = o.identification.measured();
+    let mut figures = Vec::new();
+    for (number, sheet) in o.sheets.iter().enumerate() {
+        let lists = [0, 1].map(|which| -> Vec<Deviation> {
+            let own = o
+                .deviations(quantity, which)
+                .into_iter()
+                .filter(|(row, _)| sheet.rows.contains(row));
+            own.map(|(row, d)| {
+                let value = |name: &str| measured.value(&measured.rows[row], name).unwrap_or(0.0);
+                (value("torque"), value("speed") * RPM, Some(d))
+            })
+            .collect()
+        });
+        let most = lists
+            .iter()
+            .flatten()
+            .filter_map(|p| p.2)
+            .fold(0.0_f64, |most, d| most.max(d.abs()));
+        if most == 0.0 {
+            continue;
+        }
+        let unseen = accuracy(o, quantity, sheet);
+        for (k, list) in lists.iter().enumerate() {
+            let when = ["before", "after"][k];
+            let title = titled(
+                format!("{name}: {what} of {} minus measurement in {unit}, {when}", o.name),
+                sheet,
+            );
+            let figure = deviations::picture(title, list, unseen, Some((-most, most)));
+            figures.push((numbered(&format!("{}-{when}", slug(quantity)), o, number), figure));
+        }
+    }
+    figures
+}
+
+fn titled(title: String, sheet: &Sheet) -> String {
+    if sheet.name.is_empty() {
+        title
+    } else {
+        format!("{title} ({})", sheet.name)
+    }
+}
+
+fn numbered(what: &str, o: &Outcome<'_>, number: usize) -> String {
+    if o.sheets.len() == 1 {
+        what.to_owned()
+    } else {
+        format!("{what}-{}", number + 1)
+    }
+}
+
+/// Accuracy of the measurement over a sheet, root of the mean square, in the unit of deviations.
+fn accuracy(o: &Outcome<'_>, quantity: Quantity, sheet: &Sheet) -> Option<f64> {
+    if o.fitted.inference.accuracy() == gearloss_framework::inference::Accuracy::Estimated {
+        return None;
+    }
+    let unit = if quantity == Quantity::Efficiency { 100.0 } else { 1.0 };
+    let own = o.identification.observations().iter();
+    let own = own.filter(|x| x.quantity == quantity && sheet.rows.contains(&x.row));
+    let list: Vec<f64> = own.map(|x| unit * x.deviation).collect();
+    (!list.is_empty()).then(|| (list.iter().map(|a| a * a).sum::<f64>() / list.len() as f64).sqrt())
+}
+
+/// Losses by mechanism over speed at one torque, beside the measured total, before and after.
+fn stacks(name: &str, entry: &IdentifyEntry, o: &Outcome<'_>) -> Vec<(String, Figure)> {
+    let Ok(shares) = &o.shares else {
+        return Vec::new();
+    };
+    let measured = o.identification.measured();
+    let mut figures = Vec::new();
+    for (number, sheet) in o.sheets.iter().enumerate() {
+        let lines = sheet.lines(measured);
+        let wanted = entry.stack_at.unwrap_or_else(|| lines[lines.len() / 2].0);
+        let nearest = lines
+            .iter()
+            .min_by(|a, b| (a.0 - wanted).abs().total_cmp(&(b.0 - wanted).abs()));
+        let Some((torque, rows)) = nearest else { continue };
+        for (which, when) in ["before", "after"].into_iter().enumerate() {
+            let calculated = &o.calculated[which];
+            let bar = |row: &usize| {
+                let point = calculated.point(*row);
+                let seen =
+                    gearloss_framework::measured::Seen::on(&calculated.rig, measured, &measured.rows[*row], point);
+                let share = losses_by(o, which, *row, &shares.mechanisms);
+                let accuracy = seen.accuracy(Quantity::Loss).unwrap_or(0.0);
+                Bar {
+                    label: format!("{:.0}", point.speed * RPM),
+                    shares: share,
+                    above: String::new(),
+                    measured: seen.loss.map(|loss| (loss, accuracy)),
+                    above_measured: String::new(),
+                }
+            };
+            let title = titled(
+                format!(
+                    "{name}: losses of {} at {torque:.1} Nm beside the measured total, {when}",
+                    o.name
+                ),
+                sheet,
+            );
+            figures.push((
+                numbered(&format!("stack-{when}"), o, number),
+                Figure::Bars {
+                    title,
+                    over: "speed rpm".to_owned(),
+                    height: "loss W".to_owned(),
+                    names: shares.mechanisms.iter().map(|m| (*m).to_owned()).collect(),
+                    bars: rows.iter().map(bar).collect(),
+                },
+            ));
+        }
+    }
+    figures
+}
+
+/// Standardised residuals over torque and over speed, with the means of bands.
+fn residuals(name: &str, o: &Outcome<'_>) -> Vec<(&'static str, Figure)> {
+    let measured = o.identification.measured();
+    let figure = |what: &str, unit: &str, factor: f64, means: &[gearloss_framework::inference::BandMean]| {
+        let at = |(observation, r): (&gearloss_framework::identify::Observation, &f64)| {
+            let value = measured.value(&measured.rows[observation.row], what)?;
+            Some((factor * value, *r))
+        };
+        let all = o.identification.observations().iter().zip(&o.checks.standardised);
+        let mean = means.iter().map(|b| Some((0.5 * (b.band[0] + b.band[1]), b.mean)));
+        Figure::Lines {
+            title: format!("{name}: residuals of {} over {what}", o.name),
+            x: format!("{what} {unit}"),
+            y: "residual, standard deviations".to_owned(),
+            lines: vec![
+                Line {
+                    name: "points".to_owned(),
+                    points: all.map(at).collect(),
+                    stroke: Stroke::Dots,
+                },
+                Line {
+                    name: "mean".to_owned(),
+                    points: mean.collect(),
+                    stroke: Stroke::Marked,
+                },
+            ],
+        }
+    };
+    vec![
+        ("residuals-torque", figure("torque", "Nm", 1.0, &o.checks.over_torque)),
+        ("residuals-speed", figure("speed", "rpm", RPM, &o.checks.over_speed)),
+    ]
+}
+
+fn correlations(name: &str, o: &Outcome<'_>) -> Figure {
+    let inference = &o.fitted.inference;
+    let names: Vec<String> = inference.parameters().iter().map(|p| p.name.clone()).collect();
+    let count = names.len();
+    let values = (0..count * count).map(|i| inference.correlation(i / count, i % count));
+    Figure::Map(Map {
+        title: format!("{name}: correlations of the parameters of {}", o.name),
+        x: ("parameter".to_owned(), names.clone()),
+        y: ("parameter".to_owned(), names),
+        values: values.collect(),
+        diverging: true,
+        ends: Some((-1.0, 1.0)),
+        ..Map::default()
+    })
+}
+
+/// Joint 95 % regions of the pairs that are known together only.
+fn joint(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
+    let inference = &o.fitted.inference;
+    let count = inference.parameters().len();
+    let mut pairs: Vec<(usize, usize, f64)> = Vec::new();
+    for j in 0..count {
+        for k in j + 1..count {
+            pairs.extend(
+                inference
+                    .correlation(j, k)
+                    .filter(|c| c.abs() >= JOINT.0)
+                    .map(|c| (j, k, c)),
+            );
+        }
+    }
+    pairs.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
+    let figure = |(j, k, correlation): &(usize, usize, f64)| {
+        let (one, other) = (&inference.parameters()[*j], &inference.parameters()[*k]);
+        let (a, b) = (inference.deviation(*j)?, inference.deviation(*k)?);
+        // Two parameters together: chi-square of two degrees of freedom.
+        let radius = (-2.0 * 0.05_f64.ln()).sqrt();
+        let border = |i: u32| {
+            let angle = std::f64::consts::TAU * f64::from(i) / f64::from(BORDER);
+            let (x, y) = (angle.cos(), angle.sin());
+            let along = correlation * x + (1.0 - correlation * correlation).max(0.0).sqrt() * y;
+            Some((
+                one.scale.theta(one.u + radius * a * x),
+                other.scale.theta(other.u + radius * b * along),
+            ))
+        };
+        let units = [*j, *k].map(|k| o.identification.parameters()[k].unit.symbol);
+        let named = |name: &str, unit: &str| {
+            if unit == "-" {
+                name.to_owned()
+            } else {
+                format!("{name} {unit}")
+            }
+        };
+        let line = |name: &str, points: Vec<Option<(f64, f64)>>, stroke: Stroke| Line {
+            name: name.to_owned(),
+            points,
+            stroke,
+        };
+        Some(Figure::Lines {
+            title: format!(
+                "{name}: {} and {} of {} together, correlation {correlation:.2}",
+                one.name, other.name, o.name
+            ),
+            x: named(&one.name, units[0]),
+            y: named(&other.name, units[1]),
+            lines: vec![
+                line("95 % together", (0..=BORDER).map(border).collect(), Stroke::Line),
+                line("found", vec![Some((one.theta(), other.theta()))], Stroke::Dots),
+            ],
+        })
+    };
+    let shown = pairs.iter().take(JOINT.1).filter_map(figure).enumerate();
+    shown.map(|(i, figure)| (format!("joint-{}", i + 1), figure)).collect()
+}
+
+/// What one more point would tell, over speed and torque, with the points of the plan.
+fn next(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
+    let Some(next) = &o.next else {
+        return Vec::new();
+    };
+    let (torques, speeds) = &next.axes;
+    let size = torques.len() * speeds.len();
+    let figure = |(i, oil): (usize, &Option<f64>)| {
+        let at = oil.map_or_else(String::new, |oil| format!(" at {oil:.0} degC"));
+        let own = next.plan.plan.choices.iter().filter(|c| c.candidate / size == i);
+        let marks = own.map(|c| {
+            let at = &next.candidates[c.candidate];
+            (tidy(at.speed * RPM), at.torque)
+        });
+        let label = |x: f64| format!("{}", tidy(x));
+        let map = Map {
+            title: format!("{name}: what one more point tells about {}{at}", o.name),
+            x: ("speed rpm".to_owned(), speeds.iter().map(|w| label(w * RPM)).collect()),
+            y: ("torque Nm".to_owned(), torques.iter().map(|t| label(*t)).collect()),
+            values: next.plan.gains[i * size..(i + 1) * size]
+                .iter()
+                .map(|g| Some(*g))
+                .collect(),
+            marks: marks.collect(),
+            marked: "to be measured".to_owned(),
+            ..Map::default()
+        };
+        let what = if next.oils.len() == 1 {
+            "next".to_owned()
+        } else {
+            format!("next-{}", i + 1)
+        };
+        (what, Figure::Map(map))
+    };
+    next.oils.iter().enumerate().map(figure).collect()
+}

@@ -1,0 +1,286 @@
+//! A fit on the terminal: a table of the parameters, and what the points say in sentences.
+
+use gearloss_framework::inference::{Accuracy, Reach, Verdict};
+use gearloss_framework::least_squares::Status;
+use gearloss_framework::study::{Difference, IdentifyEntry, RuleEntry};
+
+use super::super::super::solve::{RPM, outside};
+use super::super::Runner;
+use super::outcome::Outcome;
+use crate::output::{Failure, Out, Table, figures};
+
+/// Condition of unit columns from which on it is told, and from which on it is a warning.
+const CONDITION: [f64; 2] = [30.0, 1000.0];
+/// Singular value of columns times range above which a combination is resolved: a 95 % half-width under half of the range.
+pub const RESOLVED: f64 = 4.0;
+
+/// A verdict in two or three words.
+pub fn verdict(verdict: Verdict) -> String {
+    match verdict {
+        Verdict::Held => "held".to_owned(),
+        Verdict::OnBound(side) => format!("on its {} bound", side.name()),
+        Verdict::NotSeen => "not seen".to_owned(),
+        Verdict::WellDetermined => "well determined".to_owned(),
+        Verdict::OnlyInCombination => "only in combination".to_owned(),
+        Verdict::RoughlyDetermined => "roughly determined".to_owned(),
+    }
+}
+
+fn short(x: f64) -> String {
+    figures(x, 4)
+}
+
+fn span(ends: [f64; 2]) -> String {
+    format!("{} to {}", short(ends[0]), short(ends[1]))
+}
+
+pub fn show(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &IdentifyEntry,
+    o: &Outcome<'_>,
+    out: &mut Out,
+) -> Result<(), Failure> {
+    search(name, o, out)?;
+    misfit(runner, name, o, out)?;
+    parameters(o, out)?;
+    let inference = &o.fitted.inference;
+    for (k, parameter) in inference.parameters().iter().enumerate() {
+        let found = inference.determination(k);
+        if found.verdict != Verdict::WellDetermined {
+            out.line(format!("`{}` {}", parameter.name, inference.sentence(k)))?;
+        }
+    }
+    let ranged = inference.ranged_singular_values();
+    let resolved = ranged.iter().filter(|value| **value > RESOLVED).count();
+    let condition = inference.condition();
+    let condition = match condition {
+        None => "columns are parallel".to_owned(),
+        Some(c) if c > CONDITION[1] => format!("condition {c:.0}: columns are nearly parallel"),
+        Some(c) if c > CONDITION[0] => format!("condition {c:.0}: watch combinations"),
+        Some(c) => format!("condition {c:.0}"),
+    };
+    runner.verdict(
+        format!(
+            "{name}: the points resolve {resolved} of {} combinations of parameters ({condition})",
+            ranged.len()
+        ),
+        out,
+    )?;
+    for words in o.checks.words(&o.identification) {
+        runner.verdict(format!("{name}: {words}"), out)?;
+    }
+    folds(name, o, out)?;
+    if let Err(reason) = &o.shares {
+        out.line(format!("no bands on the losses: {reason}"))?;
+    }
+    next(runner, name, entry, o, out)?;
+    out.line(outside(&o.notes))?;
+    Ok(())
+}
+
+/// How the search went.
+fn search(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
+    let (fit, minima) = (o.fitted.fit(), &o.fitted.minima);
+    out.line(format!(
+        "{name}: models {}, {} measured numbers, {} parameters",
+        o.name,
+        fit.rows,
+        o.identification.parameters().len()
+    ))?;
+    let starts: usize = minima.minima.iter().map(|m| m.starts.len()).sum();
+    let ended = match fit.status {
+        Status::Converged => format!("converged ({})", fit.reason.name()),
+        Status::Singular => "converged, but a combination of parameters changes nothing (singular)".to_owned(),
+        Status::Failed | Status::Interrupted => format!("{} ({}): no minimum", fit.status.name(), fit.reason.name()),
+    };
+    let many = match (starts, minima.minima.len()) {
+        (1, _) => String::new(),
+        (starts, 1) => format!("; all {starts} starts lead there"),
+        (starts, several) => format!(
+            "; {} of {starts} starts lead there, the others to {} worse minima or equal ones",
+            minima.minima[0].starts.len(),
+            several - 1
+        ),
+    };
+    out.line(format!(
+        "search {ended} after {} steps and {} evaluations of all points{many}",
+        fit.counts.steps, minima.evaluations
+    ))?;
+    for note in fit.notes.iter().chain(&minima.notes) {
+        out.line(format!("note: {note}"))?;
+    }
+    if let Some(kinship) = minima.kinship {
+        out.line(format!("minima of the same misfit: {}", kinship.name()))?;
+    }
+    for (quantity, factor) in &o.fitted.factors {
+        let what = quantity.words(Difference::Points).0;
+        out.line(format!(
+            "the stated accuracy of the {what} is to be multiplied by {factor:.2}"
+        ))?;
+    }
+    Ok(())
+}
+
+/// How far the models are from the points, before and after.
+fn misfit(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
+    for quantity in o.quantities() {
+        let (what, unit) = quantity.words(Difference::Points);
+        let [before, after] = o.rms(quantity);
+        runner.verdict(
+            format!(
+                "{name}: {}: {what} {} {unit} rms off the points before, {} after",
+                o.name,
+                short(before),
+                short(after)
+            ),
+            out,
+        )?;
+    }
+    let inference = &o.fitted.inference;
+    match (inference.accuracy(), &o.checks.lack) {
+        (Accuracy::Given, Some(lack)) => out.line(format!(
+            "sum of squares over the stated accuracies {:.1} at {:.0} degrees of freedom, p = {:.3}",
+            lack.objective, lack.freedom, lack.probability
+        ))?,
+        (Accuracy::Given, None) => {}
+        (Accuracy::Estimated, _) => out.line(format!(
+            "no accuracy is stated: intervals follow from the scatter, {} (residuals as above)",
+            short(inference.variance().sqrt())
+        ))?,
+    }
+    Ok(())
+}
+
+fn parameters(o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
+    let inference = &o.fitted.inference;
+    let widening = o.widening();
+    let mut head = vec!["parameter", "unit", "stated", "fitted", "95 % linearised"];
+    if widening.is_some() {
+        head.push("widened");
+    }
+    head.extend(["95 % by profile", "verdict"]);
+    let mut table = Table::new(&head);
+    for (k, (parameter, theta)) in o.identification.parameters().iter().zip(o.fitted.theta()).enumerate() {
+        let interval = |widening: f64| {
+            inference.interval(k, 0.95, widening).map_or_else(
+                || "-".to_owned(),
+                |i| {
+                    let cut = if i.ends == i.uncut { "" } else { " (cut)" };
+                    format!("{}{cut}", span(i.ends))
+                },
+            )
+        };
+        let mut row = vec![
+            parameter.name.clone(),
+            parameter.unit.symbol.to_owned(),
+            parameter.stated.map_or_else(|| "-".to_owned(), short),
+            short(*theta),
+            interval(1.0),
+        ];
+        row.extend(widening.map(interval));
+        row.push(match &o.profiles[k] {
+            Some(Ok(profile)) => {
+                let bound = profile.ends.iter().any(|end| end.reach == Reach::Bound);
+                let open = profile.ends.iter().any(|end| end.reach == Reach::Unresolved);
+                let remark = match (bound, open, profile.nonlinear) {
+                    (_, true, _) => " (open)",
+                    (true, ..) => " (bound)",
+                    (.., true) => " (nonlinear)",
+                    _ => "",
+                };
+                format!("{}{remark}", span(profile.theta))
+            }
+            Some(Err(reason)) => reason.clone(),
+            None => "-".to_owned(),
+        });
+        row.push(verdict(inference.determination(k).verdict));
+        table.row(row);
+    }
+    out.text(&table.render())?;
+    Ok(())
+}
+
+fn folds(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
+    let inference = &o.fitted.inference;
+    match &o.folds {
+        None => {}
+        Some(Err(reason)) => out.line(format!("no cross-validation: {reason}"))?,
+        Some(Ok((folds, validation))) => {
+            let inside = (inference.chi_square() / inference.residuals().len() as f64).sqrt();
+            out.line(format!(
+                "predicted without its own band of torque a residual is {:.3} rms over {} bands, fitted {inside:.3}",
+                validation.rms,
+                folds.len()
+            ))?;
+            for place in validation.strange(inside) {
+                let [from, to] = folds[place].band;
+                out.line(format!(
+                    "{name}: the model does not extrapolate to {from:.1} to {to:.1} Nm: {:.3} rms there",
+                    validation.fold_rms()[place]
+                ))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn next(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
+    let Some(next) = &o.next else {
+        return Ok(());
+    };
+    let plan = &next.plan.plan;
+    let names = |k: usize| o.identification.parameters()[next.plan.parameters[k]].name.clone();
+    let worst = |deviations: &[f64]| {
+        let place = (0..deviations.len()).max_by(|a, b| deviations[*a].total_cmp(&deviations[*b]))?;
+        Some((names(place), deviations[place]))
+    };
+    let rule = match next.rule {
+        RuleEntry::Worst => "the widest interval over its range",
+        RuleEntry::Trace => "the sum of the variances over the squared ranges",
+        RuleEntry::Determinant => "the volume of the joint region",
+    };
+    let mut table = Table::new(&[
+        "measure",
+        "torque Nm",
+        "speed rpm",
+        "oil degC",
+        "gain",
+        "hangs on the parameters",
+    ]);
+    for (place, choice) in plan.choices.iter().enumerate() {
+        let at = &next.candidates[choice.candidate];
+        let lacking = next.plan.lacking.iter().find(|(c, _)| *c == choice.candidate);
+        table.row(vec![
+            (place + 1).to_string(),
+            short(at.torque),
+            format!("{:.0}", at.speed * RPM),
+            at.oil.map_or_else(|| "-".to_owned(), short),
+            short(choice.gain),
+            lacking.map_or_else(
+                || "no".to_owned(),
+                |(_, count)| format!("in {count} of {} plans not", next.plan.others),
+            ),
+        ]);
+    }
+    out.line(format!(
+        "what to measure next, in gear `{}`, so that {rule} shrinks:",
+        next.gear
+    ))?;
+    out.text(&table.render())?;
+    if let (Some((before, was)), Some((after, will))) = (worst(&plan.before.deviations), worst(&plan.after.deviations))
+    {
+        let half = |deviation: f64| short(100.0 * 1.96 * deviation);
+        runner.verdict(
+            format!(
+                "{name}: {} more points would narrow the widest interval, that of `{before}`, +-{} % of its range, to +-{} % \
+                 (then `{after}`)",
+                entry.next.as_ref().map_or(0, |n| n.points),
+                half(was),
+                half(will)
+            ),
+            out,
+        )?;
+    }
+    Ok(())
+}
