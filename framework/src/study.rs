@@ -6,6 +6,8 @@ mod compare;
 mod component;
 mod map;
 mod operating_points;
+mod range;
+mod sensitivity;
 mod sweep;
 mod temperature;
 mod tournament;
@@ -22,6 +24,8 @@ pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
 pub use map::MapEntry;
 pub use operating_points::OperatingPointsEntry;
+pub use range::RangeEntry;
+pub use sensitivity::{Method, SensitivityEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
 pub use tournament::{CandidatesEntry, FactorsEntry, TournamentEntry};
@@ -223,6 +227,8 @@ pub enum Analysis {
     Tournament(TournamentEntry),
     /// Bands of efficiency, loss and temperature from uncertain inputs.
     Uncertainty(UncertaintyEntry),
+    /// What the losses depend on: slopes, screening, shares of the variance.
+    Sensitivity(SensitivityEntry),
 }
 
 /// The names that an analysis uses.
@@ -280,6 +286,10 @@ impl Analysis {
                 ..Uses::new(e.gearbox.as_ref(), &e.model_set).at(&e.gear)
             },
             Self::Uncertainty(e) => Uses {
+                grid: Some(&e.grid),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+            },
+            Self::Sensitivity(e) => Uses {
                 grid: Some(&e.grid),
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
             },

@@ -8,13 +8,16 @@ mod contact_path;
 mod map;
 mod operating_points;
 mod parquet;
+mod ranges;
 mod report;
 mod rows;
 mod seen;
+mod sensitivity;
 mod shares;
 mod sweep;
 mod thermal_limit;
 mod tournament;
+mod trial;
 mod uncertainty;
 mod write;
 
@@ -241,6 +244,7 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::Sweep(entry) => sweep::run(&runner, name, entry, out),
             Analysis::Tournament(entry) => tournament::run(&runner, name, entry, out),
             Analysis::Uncertainty(entry) => uncertainty::run(&runner, name, entry, out),
+            Analysis::Sensitivity(entry) => sensitivity::run(&runner, name, entry, out),
             Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
             Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
         };
@@ -358,6 +362,7 @@ fn about(analysis: &Analysis) -> &'static str {
             "Every combination of models, ranked by a measurement, or the spread that they leave."
         }
         Analysis::Uncertainty(_) => "Bands from uncertain inputs.",
+        Analysis::Sensitivity(_) => "What the losses depend on.",
         Analysis::SpinLoss(_) => "Losses without load.",
         Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",
     }
