@@ -24,12 +24,16 @@ grids:
 
 /// Runs analyses of the two-speed example; the folder of the results and what was printed.
 fn run(name: &str, analyses: &str) -> (PathBuf, String) {
+    run_under(name, "oil_temperature: 100 degC", analyses)
+}
+
+fn run_under(name: &str, conditions: &str, analyses: &str) -> (PathBuf, String) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sensitivity-{name}"));
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
     let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
     let study = format!(
-        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ oil_temperature: 100 degC }}\n{SETS}analyses:\n{analyses}",
+        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ {conditions} }}\n{SETS}analyses:\n{analyses}",
         gearbox.display()
     );
     std::fs::write(folder.join("study.yaml"), study).unwrap();
@@ -227,4 +231,17 @@ fn threads_change_nothing() {
         .unwrap();
     assert!(output.status.success());
     assert_eq!(first, std::fs::read_to_string(folder.join("what.csv")).unwrap());
+}
+
+/// A temperature that the gearbox states is a quantity like others: thicker oil loses more.
+#[test]
+fn the_temperature_of_the_oil_counts_where_the_gearbox_states_it() {
+    let study = "  what: { type: sensitivity, grid: few, methods: [local], parameters: [{ path: thermal.oil, plus_minus: 20 K }] }
+  band: { type: uncertainty, grid: few, samples: 8, inputs: [{ path: thermal.oil, plus_minus: 20 K }] }
+";
+    let (folder, text) = run_under("oil", "", study);
+    let result = json(&folder, "what")["sensitivities"][0].clone();
+    assert!(number(&output(&result, "loss")["local"][0]["slope"]) < 0.0, "{text}");
+    let loss = json(&folder, "band")["bands"][0]["points"][0]["loss_w"]["band"].clone();
+    assert!(number(&loss[2]) > 1.02 * number(&loss[0]), "{loss}");
 }

@@ -7,6 +7,7 @@ mod component;
 mod map;
 mod operating_points;
 mod range;
+mod rms_surface;
 mod sensitivity;
 mod sweep;
 mod temperature;
@@ -25,6 +26,7 @@ pub use component::{ComponentCompareEntry, ContactPathEntry};
 pub use map::MapEntry;
 pub use operating_points::OperatingPointsEntry;
 pub use range::RangeEntry;
+pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sensitivity::{Method, SensitivityEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
@@ -229,6 +231,8 @@ pub enum Analysis {
     Uncertainty(UncertaintyEntry),
     /// What the losses depend on: slopes, screening, shares of the variance.
     Sensitivity(SensitivityEntry),
+    /// How well models meet a measurement over two quantities of the gearbox.
+    RmsSurface(RmsSurfaceEntry),
 }
 
 /// The names that an analysis uses.
@@ -289,6 +293,7 @@ impl Analysis {
                 grid: Some(&e.grid),
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
             },
+            Self::RmsSurface(e) => Uses::new(e.gearbox.as_ref(), &e.against).at(&e.gear),
             Self::Sensitivity(e) => Uses {
                 grid: Some(&e.grid),
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)

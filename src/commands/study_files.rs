@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use gearloss_framework::analysis::{Field, OilTemperature, Points};
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, Places, Sources, read_yaml};
@@ -9,6 +10,7 @@ use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, expand_set, sets_of};
 use gearloss_framework::study::{StudyEntry, Uses};
+use gearloss_framework::transmission::Transmission;
 use serde_json::{Map, Value};
 
 /// A study as read, with its gearboxes.
@@ -127,6 +129,20 @@ impl Study {
                 .iter()
                 .map(|(path, value)| (path.to_owned(), value.clone()))
                 .collect(),
+        }
+    }
+
+    /// Points under the conditions.
+    pub fn points(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
+        let conditions = &self.entry.conditions;
+        Points {
+            gear: gear.to_owned(),
+            torque_at: vec![conditions.torque_at.clone()],
+            speed_at: vec![conditions.speed_at.clone()],
+            field,
+            oil: OilTemperature::of(transmission, conditions.oil_temperature),
+            flow: conditions.power_flow,
+            terms: false,
         }
     }
 

@@ -1,13 +1,15 @@
 //! Points of a file: read, solved under one set of models, with the transmissions that their bound columns need.
 
-use gearloss_framework::analysis::{Given, Note, PointResult, merge, notes};
+use gearloss_framework::analysis::{Field, Given, Note, PointResult, merge, notes};
 use gearloss_framework::description::{Ordered, ThermalMode};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::measured::{Measured, MeasuredEntry, Row};
+use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
+use super::trial::{Left, Trial, left, why};
 use super::write::hash;
 use super::{Built, Runner, gear_of};
 use crate::output::Failure;
@@ -59,17 +61,14 @@ impl Runner<'_> {
         measured: &Measured,
         terms: bool,
     ) -> Result<Vec<Solved<'s>>, Failure> {
-        let mut combinations: Vec<&Vec<String>> = Vec::new();
-        for row in &measured.rows {
-            if !combinations.contains(&&row.bound) {
-                combinations.push(&row.bound);
-            }
-        }
+        let combinations = combinations(measured);
         let mut sets_built: Vec<Vec<Built<'_>>> = Vec::new();
         for bound in &combinations {
-            let paths = bind.iter().map(|(_, path)| path.clone());
-            let overrides: Vec<(String, Value)> = paths.zip(bound.iter().map(|v| bound_value(v))).collect();
-            for (i, built) in self.built_with(gearbox, sets, &overrides)?.into_iter().enumerate() {
+            for (i, built) in self
+                .built_with(gearbox, sets, &changes(bind, bound))?
+                .into_iter()
+                .enumerate()
+            {
                 match sets_built.get_mut(i) {
                     Some(of_set) => of_set.push(built),
                     None => sets_built.push(vec![built]),
@@ -88,13 +87,12 @@ impl Runner<'_> {
                 .collect();
             let mut found: Vec<Option<PointResult>> = vec![None; keys.len()];
             let mut seen: Vec<Extent> = Vec::new();
-            for (i, key) in keys.iter().enumerate() {
-                if found[i].is_some() {
-                    continue;
-                }
-                let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
+            for (key, own) in grouped(&keys) {
                 let b = &built[key.0];
-                let list = own.iter().map(|k| given(measured, &measured.rows[*k], b)).collect();
+                let list = own
+                    .iter()
+                    .map(|k| given(measured, &measured.rows[*k], &b.transmission))
+                    .collect();
                 let mut points = self.listed(&b.transmission, &key.1, list);
                 points.terms = terms;
                 let solved = self.solve(b, &points)?;
@@ -116,9 +114,83 @@ impl Runner<'_> {
     }
 }
 
-fn given(measured: &Measured, row: &Row, built: &Built<'_>) -> Given {
+/// Every combination of bound values, in the order of the rows.
+fn combinations(measured: &Measured) -> Vec<&Vec<String>> {
+    let mut combinations: Vec<&Vec<String>> = Vec::new();
+    for row in &measured.rows {
+        if !combinations.contains(&&row.bound) {
+            combinations.push(&row.bound);
+        }
+    }
+    combinations
+}
+
+/// The overrides of a combination.
+fn changes(bind: &Ordered<String>, bound: &[String]) -> Vec<(String, Value)> {
+    let paths = bind.iter().map(|(_, path)| path.clone());
+    paths.zip(bound.iter().map(|v| bound_value(v))).collect()
+}
+
+/// Places of equal keys, in the order of the first of each.
+fn grouped<K: PartialEq>(keys: &[K]) -> Vec<(&K, Vec<usize>)> {
+    let mut groups: Vec<(&K, Vec<usize>)> = Vec::new();
+    for (i, key) in keys.iter().enumerate() {
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, places)) => places.push(i),
+            None => groups.push((key, vec![i])),
+        }
+    }
+    groups
+}
+
+/// Measured points and how they are read.
+pub struct Rows<'a> {
+    pub measured: &'a Measured,
+    pub bind: &'a Ordered<String>,
+    /// Gear state where no column says it; absent, the first.
+    pub gear: Option<&'a str>,
+}
+
+/// A row that was solved: its point, and why it has no loss where it has none.
+pub type SolvedRow = (PointResult, Option<String>);
+
+impl Trial<'_> {
+    /// Solves every row with further overrides, as [`Runner::at_rows`] does, and adds the stated ranges that were left.
+    pub(super) fn rows(
+        &self,
+        rows: &Rows<'_>,
+        overrides: &[(String, Value)],
+        seen: &mut Left,
+    ) -> Result<Vec<SolvedRow>, String> {
+        let measured = rows.measured;
+        let mut found: Vec<Option<SolvedRow>> = vec![None; measured.rows.len()];
+        for bound in combinations(measured) {
+            let mut all = changes(rows.bind, bound);
+            all.extend_from_slice(overrides);
+            let t = self.build(all)?;
+            let own: Vec<usize> = (0..found.len()).filter(|i| measured.rows[*i].bound == *bound).collect();
+            let gears: Vec<&str> = own
+                .iter()
+                .map(|i| gear_of(measured.rows[*i].gear.as_deref().or(rows.gear), &t))
+                .collect();
+            for (gear, places) in grouped(&gears) {
+                let row = |place: &usize| given(measured, &measured.rows[own[*place]], &t);
+                let points = self.points(&t, gear, Field::List(places.iter().map(row).collect()));
+                let solved = self.solve(&t, &points)?;
+                seen.extend(left(&t, &solved));
+                for (place, point) in places.into_iter().zip(solved.points) {
+                    let why = point.loss.is_none().then(|| why(&t, &point));
+                    found[own[place]] = Some((point, why));
+                }
+            }
+        }
+        Ok(found.into_iter().flatten().collect())
+    }
+}
+
+fn given(measured: &Measured, row: &Row, transmission: &Transmission) -> Given {
     let value = |quantity: &str| measured.value(row, quantity);
-    let fixed = built.transmission.thermal_mode == ThermalMode::Fixed;
+    let fixed = transmission.thermal_mode == ThermalMode::Fixed;
     Given {
         torque: value("torque").unwrap_or(0.0),
         speed: value("speed").unwrap_or(0.0),

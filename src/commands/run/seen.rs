@@ -2,7 +2,7 @@
 
 use gearloss_framework::analysis::PointResult;
 use gearloss_framework::measured::{Measured, Row};
-use gearloss_framework::study::Quantity;
+use gearloss_framework::study::{Difference, Quantity};
 
 /// What was measured, from whichever columns give it.
 pub struct Seen {
@@ -101,6 +101,15 @@ impl Seen {
             Quantity::Temperature => temperature,
         };
         found.filter(|a| a.is_finite())
+    }
+}
+
+/// Accuracy of a measured quantity counted as its difference is: a share is a hundred points.
+pub fn counted(quantity: Quantity, difference: Difference, accuracy: f64, measured: Option<f64>) -> Option<f64> {
+    match quantity {
+        _ if difference == Difference::Percent => measured.filter(|m| *m != 0.0).map(|m| 100.0 * accuracy / m),
+        Quantity::Efficiency => Some(100.0 * accuracy),
+        _ => Some(accuracy),
     }
 }
 

@@ -82,6 +82,18 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SensitivityEntry, out: &mut 
     write(runner, name, &entry.write, &results::header(), &rows, &value)
 }
 
+impl Found<'_> {
+    /// Slopes of an output over a parameter, without an elasticity where the parameter is zero: it has no relative change.
+    fn slopes(&self, output: usize, parameter: usize) -> Option<Local> {
+        let local = self.local.as_ref()?[output][parameter];
+        let zero = self.ranges[parameter].varied.start() == Some(0.0);
+        Some(Local {
+            elasticity: local.elasticity.filter(|_| !zero),
+            ..local
+        })
+    }
+}
+
 /// Everything of one set.
 fn found<'a>(
     runner: &Runner<'_>,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use gearloss_framework::analysis::{GridResult, OilTemperature, Points, notes, run_grid};
+use gearloss_framework::analysis::{Field, GridResult, OilTemperature, PointResult, Points, notes, run_grid};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::Transmission;
@@ -42,6 +42,11 @@ impl<'a> Trial<'a> {
         self.gearbox.build(self.language, &resolved).map_err(first)
     }
 
+    /// Points under the conditions of the study.
+    pub fn points(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
+        self.study.points(transmission, gear, field)
+    }
+
     /// All points of it. Their temperature follows the overrides, where nothing else gives it.
     pub fn solve(&self, transmission: &Transmission, points: &Points) -> Result<GridResult, String> {
         let points = Points {
@@ -62,6 +67,15 @@ fn first(findings: Findings) -> String {
 pub fn left(transmission: &Transmission, solved: &GridResult) -> impl Iterator<Item = (String, &'static str)> {
     let outside = notes(transmission, &solved.seen).into_iter().filter(|n| n.outside > 0);
     outside.map(|n| (n.path, n.name))
+}
+
+/// Why a point has no loss.
+pub fn why(t: &Transmission, p: &PointResult) -> String {
+    match (p.undefined, p.balance) {
+        (Some((part, undefined)), _) => format!("{}: {undefined}", t.parts()[part].path),
+        (None, Some(outcome)) => format!("balance: {}", outcome.name()),
+        (None, None) => p.status.name().to_owned(),
+    }
 }
 
 impl Runner<'_> {

@@ -196,6 +196,7 @@ pub fn run(
                 .map(|(a, b)| a.outside || b.outside)
                 .collect(),
             marks: Vec::new(),
+            crossed: None,
             unseen: entry.accuracy,
             ends: None,
         });

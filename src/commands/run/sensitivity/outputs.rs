@@ -7,6 +7,7 @@ use gearloss_framework::transmission::Transmission;
 use super::super::super::solve::RPM;
 use super::super::map::tidy;
 use super::super::shares::{Shares, together};
+use super::super::trial::why;
 
 /// What an output is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,7 +88,9 @@ impl Outputs {
     /// # Errors
     /// The first point without a loss, or without an efficiency that it should have.
     pub fn values(&self, t: &Transmission, points: &[PointResult]) -> Result<Vec<f64>, String> {
-        let all = points.iter().map(|p| p.loss.ok_or_else(|| reason(t, p)));
+        let all = points
+            .iter()
+            .map(|p| p.loss.ok_or_else(|| format!("no loss at {}: {}", place(p), why(t, p))));
         let all: Vec<f64> = all.collect::<Result<_, _>>()?;
         let count = points.len().max(1) as f64;
         let mut values = vec![all.iter().sum::<f64>() / count];
@@ -134,14 +137,4 @@ fn load_dependent(t: &Transmission, name: &str) -> Option<bool> {
 
 fn place(p: &PointResult) -> String {
     format!("{} Nm, {:.0} rpm", tidy(p.torque), p.speed * RPM)
-}
-
-/// Why a point has no loss.
-fn reason(t: &Transmission, p: &PointResult) -> String {
-    let why = match (p.undefined, p.balance) {
-        (Some((part, undefined)), _) => format!("{}: {undefined}", t.parts()[part].path),
-        (None, Some(outcome)) => format!("balance: {}", outcome.name()),
-        (None, None) => p.status.name().to_owned(),
-    };
-    format!("no loss at {}: {why}", place(p))
 }

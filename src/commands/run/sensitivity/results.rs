@@ -53,7 +53,7 @@ impl Found<'_> {
         for (i, output) in self.outputs.list.iter().enumerate() {
             let influences = self.morris.as_ref().map(|m| m.influences(i)).unwrap_or_default();
             for (k, range) in self.ranges.iter().enumerate() {
-                let local = self.local.as_ref().map(|l| l[i][k]);
+                let local = self.slopes(i, k);
                 let effect = self.morris.as_ref().map(|m| m.effects[i][k]);
                 let shares = self.sobol.as_ref().map(|s| [s[i].first[k], s[i].total[k]]);
                 let mut row = vec![
@@ -96,7 +96,7 @@ impl Found<'_> {
             json!({
                 "output": output.name, "kind": output.kind.name(), "unit": output.unit(),
                 "load_dependent": output.load_dependent, "mean": self.values[i],
-                "local": self.local.as_ref().map(|l| l[i].iter().map(slope).collect::<Vec<_>>()),
+                "local": self.local_of(i),
                 "morris": self.effects(i), "sobol": self.shares(i),
             })
         });
@@ -110,6 +110,13 @@ impl Found<'_> {
             "parameters": self.ranges.iter().map(parameter).collect::<Vec<_>>(),
             "outputs": outputs.collect::<Vec<_>>(),
         })
+    }
+
+    fn local_of(&self, output: usize) -> Option<Vec<Value>> {
+        let slopes = |k: usize| self.slopes(output, k).as_ref().map(slope);
+        self.local
+            .as_ref()
+            .map(|_| (0..self.ranges.len()).filter_map(slopes).collect())
     }
 
     fn effects(&self, output: usize) -> Option<Vec<Value>> {

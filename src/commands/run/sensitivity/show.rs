@@ -31,7 +31,6 @@ pub fn show(runner: &Runner<'_>, name: &str, f: &Found<'_>, out: &mut Out) -> Re
 }
 
 fn local(name: &str, f: &Found<'_>, out: &mut Out) -> Result<(), Failure> {
-    let Some(local) = &f.local else { return Ok(()) };
     out.line(format!(
         "{name}: slopes of the mean loss at the values of the gearbox, models {}; scaled: over the whole range, in % of the loss",
         f.built.name
@@ -45,7 +44,8 @@ fn local(name: &str, f: &Found<'_>, out: &mut Out) -> Result<(), Failure> {
         "scaled %",
         "elasticity",
     ]);
-    for (range, l) in f.ranges.iter().zip(&local[0]) {
+    for (k, range) in f.ranges.iter().enumerate() {
+        let Some(l) = f.slopes(0, k) else { continue };
         let words = |value: f64| range.varied.words(value);
         table.row(vec![
             range.varied.pattern.clone(),
@@ -143,12 +143,12 @@ fn together(f: &Found<'_>, shares: &VarianceShares) -> String {
     let alone: f64 = shares.first.iter().map(|s| s.value).sum();
     let said = if shares.interact() {
         format!(
-            "parameters act together on the mean loss: alone they explain {:.0} % of its variance",
+            "parameters act together on the mean loss: alone they explain an estimated {:.0} % of its variance",
             100.0 * alone
         )
     } else {
         format!(
-            "each parameter acts for itself on the mean loss: alone they explain {:.0} % of its variance",
+            "each parameter acts for itself on the mean loss: alone they explain an estimated {:.0} % of its variance",
             100.0 * alone
         )
     };
