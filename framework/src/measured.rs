@@ -13,7 +13,7 @@ use crate::description::Ordered;
 use crate::document::Unit;
 
 pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportLossEntry, TorqueMeterEntry};
-pub use seen::Seen;
+pub use seen::{Seen, counted};
 pub use text::{Decimal, Encoding, Separator};
 
 /// A file of measured points, and how to read it.

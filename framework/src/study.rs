@@ -8,6 +8,9 @@ mod data;
 mod identify;
 mod map;
 mod operating_points;
+mod range;
+mod rms_surface;
+mod sensitivity;
 mod sweep;
 mod temperature;
 mod tournament;
@@ -28,6 +31,9 @@ pub use identify::{
 };
 pub use map::MapEntry;
 pub use operating_points::OperatingPointsEntry;
+pub use range::RangeEntry;
+pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
+pub use sensitivity::{Method, SensitivityEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
 pub use tournament::{CandidatesEntry, FactorsEntry, TournamentEntry};
@@ -235,6 +241,10 @@ pub enum Analysis {
     Uncertainty(UncertaintyEntry),
     /// Uncertain parameters, found from measured points.
     Identify(IdentifyEntry),
+    /// What the losses depend on: slopes, screening, shares of the variance.
+    Sensitivity(SensitivityEntry),
+    /// How well models meet a measurement over two quantities of the gearbox.
+    RmsSurface(RmsSurfaceEntry),
 }
 
 /// The names that an analysis uses.
@@ -320,6 +330,13 @@ impl Analysis {
                     .with("data", Some(&e.data))
             },
             Self::Uncertainty(e) => Uses {
+                grid: Some(&e.grid),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+            },
+            Self::RmsSurface(e) => Uses::new(e.gearbox.as_ref(), &e.against)
+                .at(&e.gear)
+                .with("data", Some(&e.data)),
+            Self::Sensitivity(e) => Uses {
                 grid: Some(&e.grid),
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
             },

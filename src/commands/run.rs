@@ -10,12 +10,16 @@ mod identify;
 mod map;
 mod operating_points;
 mod parquet;
+mod ranges;
 mod report;
+mod rms_surface;
 mod rows;
+mod sensitivity;
 mod shares;
 mod sweep;
 mod thermal_limit;
 mod tournament;
+mod trial;
 mod uncertainty;
 mod write;
 
@@ -25,7 +29,7 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::{Field, Given, GridResult, OilTemperature, Points, notes, run_grid};
+use gearloss_framework::analysis::{Field, Given, GridResult, Points, notes, run_grid};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
@@ -121,16 +125,7 @@ impl Runner<'_> {
     }
 
     fn field(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
-        let conditions = &self.study.entry.conditions;
-        Points {
-            gear: gear.to_owned(),
-            torque_at: vec![conditions.torque_at.clone()],
-            speed_at: vec![conditions.speed_at.clone()],
-            field,
-            oil: OilTemperature::of(transmission, conditions.oil_temperature),
-            flow: conditions.power_flow,
-            terms: false,
-        }
+        self.study.points(transmission, gear, field)
     }
 
     /// A bar of progress on standard error, on a terminal only.
@@ -243,6 +238,8 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::Tournament(entry) => tournament::run(&runner, name, entry, out),
             Analysis::Uncertainty(entry) => uncertainty::run(&runner, name, entry, out),
             Analysis::Identify(entry) => identify::run(&runner, name, entry, out),
+            Analysis::Sensitivity(entry) => sensitivity::run(&runner, name, entry, out),
+            Analysis::RmsSurface(entry) => rms_surface::run(&runner, name, entry, out),
             Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
             Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
         };
@@ -361,6 +358,8 @@ fn about(analysis: &Analysis) -> &'static str {
         }
         Analysis::Uncertainty(_) => "Bands from uncertain inputs.",
         Analysis::Identify(_) => "Uncertain parameters, found from measured points, and what the points say of each.",
+        Analysis::Sensitivity(_) => "What the losses depend on.",
+        Analysis::RmsSurface(_) => "How well models meet a measurement over two quantities of the gearbox.",
         Analysis::SpinLoss(_) => "Losses without load.",
         Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",
     }

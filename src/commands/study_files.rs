@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use gearloss_framework::analysis::{Field, OilTemperature, Points};
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, Places, Sources, read_yaml};
@@ -10,6 +11,7 @@ use gearloss_framework::language::Language;
 use gearloss_framework::measured::MeasuredEntry;
 use gearloss_framework::resolve::{Choice, expand_set, sets_of};
 use gearloss_framework::study::{Data, StudyEntry, Uses};
+use gearloss_framework::transmission::Transmission;
 use serde_json::{Map, Value};
 
 /// A study as read, with its gearboxes.
@@ -128,6 +130,20 @@ impl Study {
                 .iter()
                 .map(|(path, value)| (path.to_owned(), value.clone()))
                 .collect(),
+        }
+    }
+
+    /// Points under the conditions.
+    pub fn points(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
+        let conditions = &self.entry.conditions;
+        Points {
+            gear: gear.to_owned(),
+            torque_at: vec![conditions.torque_at.clone()],
+            speed_at: vec![conditions.speed_at.clone()],
+            field,
+            oil: OilTemperature::of(transmission, conditions.oil_temperature),
+            flow: conditions.power_flow,
+            terms: false,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Instruments, Measured, Powers, Rig, Row};
 use crate::analysis::PointResult;
-use crate::study::Quantity;
+use crate::study::{Difference, Quantity};
 
 /// What was measured, from whichever columns give it, without what the rig adds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -164,6 +164,15 @@ fn powers(point: &PointResult) -> Option<Powers> {
         speed,
         driven: usize::from(output > input),
     })
+}
+
+/// Accuracy of a measured quantity counted as its difference is: a share is a hundred points.
+pub fn counted(quantity: Quantity, difference: Difference, accuracy: f64, measured: Option<f64>) -> Option<f64> {
+    match quantity {
+        _ if difference == Difference::Percent => measured.filter(|m| *m != 0.0).map(|m| 100.0 * accuracy / m),
+        Quantity::Efficiency => Some(100.0 * accuracy),
+        _ => Some(accuracy),
+    }
 }
 
 #[cfg(test)]

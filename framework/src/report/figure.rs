@@ -69,6 +69,8 @@ pub struct Map {
     pub marks: Vec<(f64, f64)>,
     /// What the marks are; empty, measured points.
     pub marked: String,
+    /// A cell that is marked with a cross: its number and what it is.
+    pub crossed: Option<(usize, String)>,
     /// Accuracy of an instrument: the lines at plus and minus this value bound what it cannot see.
     pub unseen: Option<f64>,
 }
@@ -281,6 +283,13 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
             "marker": { "symbol": "circle-open", "size": 7, "color": "black" },
         }));
     }
+    if let Some((cell, what)) = map.crossed.as_ref().filter(|(cell, _)| *cell < map.values.len()) {
+        data.push(json!({
+            "type": "scatter", "mode": "markers", "name": what, "showlegend": true,
+            "x": [x[cell % xs.len()]], "y": [y[cell / xs.len()]],
+            "marker": { "symbol": "x", "size": 12, "color": "white", "line": { "width": 2, "color": "black" } },
+        }));
+    }
     // Values with a unit lose it on an axis of numbers; there its name takes it.
     let named = |name: &str, labels: &[String]| match labels.first().and_then(|l| l.split_once(' ')) {
         Some((_, unit)) if numbers.is_some() => format!("{name} in {unit}"),
@@ -376,6 +385,7 @@ mod tests {
                 hatched: vec![false, false, true, false],
                 marks: vec![(1500.0, 70.0)],
                 unseen: Some(0.5),
+                crossed: Some((2, "least".to_owned())),
                 ..Map::default()
             })
         };
@@ -391,6 +401,11 @@ mod tests {
             (&json!([1000.0]), &json!([90.0]))
         );
         assert_eq!(told["data"][3]["name"], "measured");
+        let cross = &told["data"][4];
+        assert_eq!(
+            (&cross["name"], &cross["x"], &cross["y"]),
+            (&json!("least"), &json!([1000.0]), &json!([90.0]))
+        );
     }
 
     #[test]

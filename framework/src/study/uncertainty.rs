@@ -2,10 +2,8 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
-use super::Write;
-use crate::varied::Tie;
+use super::{RangeEntry, Write};
 
 /// What uncertain inputs do to efficiency, loss and temperature over a grid: every input is drawn from its distribution.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -36,20 +34,9 @@ fn samples() -> u32 {
 /// One uncertain input: `plus_minus`, `percent`, or `from` and `to`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ToleranceEntry {
-    /// Resolved path; with `*` all that it meets move together.
-    pub path: String,
-    /// How several quantities move together.
-    #[serde(default)]
-    pub tie: Tie,
-    /// Half of the range about the value of the gearbox, as a quantity of the path: `0.1 um`.
-    pub plus_minus: Option<Value>,
-    /// The same in percent of the value of the gearbox. [-]
-    #[schemars(range(min = 1e-9, max = 1000.0))]
-    pub percent: Option<f64>,
-    /// Lower end of the range.
-    pub from: Option<Value>,
-    /// Upper end of the range.
-    pub to: Option<Value>,
+    /// The quantity and its range.
+    #[serde(flatten)]
+    pub range: RangeEntry,
     /// How values lie in the range.
     #[serde(default)]
     pub distribution: Shape,

@@ -18,13 +18,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, out: &mut Out)
         let error = Diagnostic::error(path, message).mend(mend);
         Err(runner.study.findings(vec![error]).into())
     };
-    if (entry.quantity, entry.difference) == (Quantity::Temperature, Difference::Percent) {
-        return wrong(
-            format!("{path}.difference"),
-            "a temperature has no percentage",
-            "write `difference: points`, which counts kelvins",
-        );
-    }
+    countable(runner, &path, entry.quantity, entry.difference)?;
     match (&entry.grid, &entry.base, &entry.data) {
         (None, None, Some(data)) => with_data::run(runner, name, entry, data, out),
         (Some(_), Some(_), None) if !entry.bind.is_empty() || entry.gear.is_some() => {
@@ -37,6 +31,21 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, out: &mut Out)
             "write `grid: ..., base: ...` to compare sets, or `data: { file: ... }` to compare with a measurement",
         ),
     }
+}
+
+/// Refuses a difference that a quantity does not have.
+pub(super) fn countable(
+    runner: &Runner<'_>,
+    path: &str,
+    quantity: Quantity,
+    difference: Difference,
+) -> Result<(), Failure> {
+    if (quantity, difference) == (Quantity::Temperature, Difference::Percent) {
+        let message = "a temperature has no percentage";
+        let mend = "write `difference: points`, which counts kelvins";
+        return Err(runner.wrong(&format!("{path}.difference"), message, mend));
+    }
+    Ok(())
 }
 
 /// Numbers of points over their difference, in the same cells for every set.

@@ -4,9 +4,11 @@ use gearloss_framework::analysis::{Note, OnRig, PointResult, Rows, notes};
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::measured::{Measured, MeasuredEntry};
+use gearloss_framework::measured::{Measured, MeasuredEntry, PortSpeeds};
 use gearloss_framework::study::Data;
+use serde_json::Value;
 
+use super::trial::{Left, Trial, left, why};
 use super::write::hash;
 use super::{Built, Runner};
 use crate::interrupt;
@@ -132,5 +134,43 @@ impl Runner<'_> {
             return Ok(vec![own(None)?]);
         }
         sets.iter().map(|set| own(Some(set))).collect()
+    }
+}
+
+/// A row that was solved: its point, and why it has no loss where it has none.
+pub type SolvedRow = (PointResult, Option<String>);
+
+impl Trial<'_> {
+    /// Speeds of the ports in every row, where the rig of the rows adds something.
+    pub(super) fn speeds(&self, rows: &Rows<'_>) -> Result<Vec<PortSpeeds>, String> {
+        let rig = &rows.measured.rig;
+        if rig.is_silent() {
+            return Ok(Vec::new());
+        }
+        let solved = self.solved_rows(rows, &[], None)?;
+        rows.speeds(&solved, rig.at_out()).map_err(|error| error.message)
+    }
+
+    /// Solves every row with further overrides, as [`Runner::at_rows`] does, and adds the stated ranges that were left. The
+    /// speeds are those of [`Trial::speeds`].
+    pub(super) fn rows(
+        &self,
+        rows: &Rows<'_>,
+        speeds: &[PortSpeeds],
+        overrides: &[(String, Value)],
+        seen: &mut Left,
+    ) -> Result<Vec<SolvedRow>, String> {
+        let rig = rows.measured.rig;
+        let on = (!rig.is_silent()).then_some(OnRig { rig, speeds });
+        let solved = self.solved_rows(rows, overrides, on)?;
+        seen.extend(left(&solved.transmissions[0].1, &solved.seen));
+        let row = |(place, _, point): (usize, String, PointResult)| {
+            let why = point
+                .loss
+                .is_none()
+                .then(|| why(&solved.transmissions[place].1, &point));
+            (point, why)
+        };
+        Ok(solved.rows.into_iter().map(row).collect())
     }
 }

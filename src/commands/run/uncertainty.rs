@@ -1,18 +1,18 @@
 //! What uncertain inputs do: samples of all inputs, solved over a grid, and the bands that they leave.
 
-use gearloss_framework::analysis::{PointResult, Points, correlation, notes, quantile, run_grid};
-use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::analysis::{PointResult, Points, correlation, quantile};
 use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::report::{Figure, Map};
 use gearloss_framework::sampling::{Distribution, Sobol};
 use gearloss_framework::study::{Shape, ToleranceEntry, UncertaintyEntry};
-use gearloss_framework::varied::Varied;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
 use super::map::{spread, tidy};
+use super::ranges::{Range, once};
+use super::trial::{Left, Trial, left};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, grid_axes};
 use crate::interrupt;
@@ -33,79 +33,39 @@ const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
 /// An uncertain input with its distribution, in the unit of the path.
 struct Input {
-    varied: Varied,
-    range: [f64; 2],
+    range: Range,
     distribution: Distribution,
 }
 
 impl Input {
     fn new(runner: &Runner<'_>, path: &str, entry: &ToleranceEntry, b: &Built<'_>) -> Result<Self, Failure> {
-        let wrong = |message: String, mend: &str| runner.wrong(path, format!("{}: {message}", entry.path), mend);
-        let varied = Varied::new(runner.language, &b.resolved, &entry.path, entry.tie).map_err(|mut error| {
-            error.message = format!("`{}`: {}", entry.path, error.message);
-            path.clone_into(&mut error.path);
-            Failure::from(runner.study.findings(vec![error]))
-        })?;
-        let about = || {
-            varied.start().ok_or_else(|| {
-                wrong(
-                    "the gearbox states no value".to_owned(),
-                    "state one, or give `from` and `to`",
-                )
-            })
-        };
-        let quantity = |value: &Value, difference: bool| {
-            varied
-                .quantity(value, difference)
-                .map_err(|reason| wrong(reason, "write a quantity of the path, such as `0.1 um`"))
-        };
-        let range = match (&entry.plus_minus, entry.percent, &entry.from, &entry.to) {
-            (Some(half), None, None, None) => {
-                let (middle, half) = (about()?, quantity(half, true)?.abs());
-                [middle - half, middle + half]
-            }
-            (None, Some(percent), None, None) => {
-                let middle = about()?;
-                let half = 0.01 * percent * middle.abs();
-                [middle - half, middle + half]
-            }
-            (None, None, Some(from), Some(to)) => [quantity(from, false)?, quantity(to, false)?],
-            _ => {
-                return Err(wrong(
-                    "one of `plus_minus`, `percent`, or both of `from` and `to` are due".to_owned(),
-                    "write `percent: 10`, say",
-                ));
-            }
-        };
-        let [low, high] = range;
-        let [least, greatest] = varied.range;
-        if entry.distribution != Shape::Normal && (low < least || high > greatest) {
-            let said = format!(
-                "{} to {} leaves {least} to {greatest}",
-                varied.words(low),
-                varied.words(high)
-            );
-            return Err(wrong(said, "narrow the range"));
+        let range = Range::new(runner, path, &entry.range, b)?;
+        // The others are moved onto the range of the schema.
+        if entry.distribution != Shape::Normal {
+            range.inside(runner, path)?;
         }
+        let [low, high] = range.ends;
         let distribution = match entry.distribution {
             Shape::Uniform => Distribution::uniform(low, high),
             // 95 % of a normal distribution lie within 1.96 deviations.
             Shape::Normal => Distribution::normal(0.5 * (low + high), 0.5 * (high - low) / 1.959964),
             Shape::Triangular => {
-                let mode = varied.start().unwrap_or(0.5 * (low + high));
+                let mode = range.varied.start().unwrap_or(0.5 * (low + high));
                 Distribution::triangular(low, mode.clamp(low, high), high)
             }
         };
-        let distribution = distribution.map_err(|reason| wrong(reason, "give a range that is wider than nothing"))?;
+        let wrong = |reason: String| {
+            let message = format!("{}: {reason}", entry.range.path);
+            runner.wrong(path, message, "give a range that is wider than nothing")
+        };
         Ok(Self {
-            varied,
+            distribution: distribution.map_err(wrong)?,
             range,
-            distribution,
         })
     }
 
     fn value(&self, share: f64) -> Result<f64, String> {
-        let [least, greatest] = self.varied.range;
+        let [least, greatest] = self.range.varied.range;
         Ok(self.distribution.value(share)?.clamp(least, greatest))
     }
 }
@@ -146,16 +106,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
             .enumerate()
             .map(|(i, input)| Input::new(runner, &format!("{path}.inputs.{i}"), input, &built))
             .collect::<Result<_, _>>()?;
-        for (i, input) in inputs.iter().enumerate() {
-            let twice = |other: &&Input| other.varied.paths.iter().any(|p| input.varied.paths.contains(p));
-            if let Some(other) = inputs[..i].iter().find(twice) {
-                let message = format!(
-                    "`{}` and `{}` change the same value",
-                    other.varied.pattern, input.varied.pattern
-                );
-                return Err(runner.wrong(&format!("{path}.inputs.{i}"), message, "name every value once"));
-            }
-        }
+        let varied: Vec<_> = inputs.iter().map(|input| &input.range.varied).collect();
+        once(runner, &format!("{path}.inputs"), &varied)?;
         let (samples, failed) = sample(runner, entry, &built, &inputs, &points, out)?;
         all.push(Sampled {
             built,
@@ -208,8 +160,7 @@ fn sample(
 ) -> Result<(Vec<(Vec<f64>, Vec<PointResult>)>, Vec<String>), Failure> {
     let failed = |reason: String| runner.wrong("analyses", reason, "use fewer inputs");
     let sobol = Sobol::new(inputs.len()).map_err(failed)?;
-    let set = built.set();
-    let (study, language, gearbox): (_, _, &Gearbox) = (runner.study, runner.language, built.gearbox);
+    let trial = Trial::new(runner, built);
     let bar = runner.bar(u64::from(entry.samples), &built.name);
     let one = |i: u32| -> Result<Sample, String> {
         let place = sobol.point(i);
@@ -218,21 +169,13 @@ fn sample(
             .zip(place)
             .map(|(input, share)| input.value(share))
             .collect::<Result<_, _>>()?;
-        let mut choice = study.choice(set);
-        for (input, value) in inputs.iter().zip(&values) {
-            choice.overrides.extend(input.varied.overrides(*value));
-        }
-        let first = |findings: gearloss_framework::gearbox::Findings| {
-            findings.list.first().map_or_else(String::new, |d| d.message.clone())
-        };
-        let resolved = gearbox.resolve(language, &choice).map_err(first)?;
-        let transmission = gearbox.build(language, &resolved).map_err(first)?;
-        let solved = run_grid(&transmission, points, &|_| !interrupt::pressed());
-        let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
+        let changes = inputs.iter().zip(&values);
+        let changes = changes.flat_map(|(input, value)| input.range.varied.overrides(*value));
+        let transmission = trial.build(changes)?;
+        let solved = trial.solve(&transmission, points)?;
         bar.inc(1);
-        let left = solved.as_ref().map_or_else(Vec::new, |s| notes(&transmission, &s.seen));
-        let left = left.into_iter().filter(|n| n.outside > 0).map(|n| (n.path, n.name));
-        Ok((values, solved.map(|s| s.points).unwrap_or_default(), left.collect()))
+        let left = left(&transmission, &solved.seen).collect();
+        Ok((values, solved.points, left))
     };
     let all: Vec<_> = (0..entry.samples).into_par_iter().map(one).collect();
     ProgressBar::finish_and_clear(&bar);
@@ -240,7 +183,7 @@ fn sample(
         return Err(Failure::Interrupted);
     }
     let (mut samples, mut failed) = (Vec::new(), Vec::new());
-    let mut left: Vec<(String, &'static str)> = Vec::new();
+    let mut left = Left::new();
     for result in all {
         match result {
             Ok((values, points, more)) => {
@@ -250,14 +193,7 @@ fn sample(
             Err(reason) => failed.push(reason),
         }
     }
-    left.sort_unstable();
-    left.dedup();
-    runner.left.set(runner.left.get() + left.len());
-    for (path, name) in left {
-        out.line(format!(
-            "outside: {path}: {name} leaves its stated range at some samples"
-        ))?;
-    }
+    runner.left_at_samples(&left, out)?;
     if samples.len() < 2 {
         let message = format!(
             "hardly a sample could be built: {}",
@@ -305,8 +241,8 @@ impl Sampled<'_> {
         let input = |(k, correlation): &(usize, Option<f64>)| {
             let input = &self.inputs[*k];
             json!({
-                "path": input.varied.pattern, "paths": input.varied.paths, "unit": input.varied.unit.symbol,
-                "from": input.range[0], "to": input.range[1], "correlation_with_mean_loss": correlation,
+                "path": input.range.varied.pattern, "paths": input.range.varied.paths, "unit": input.range.varied.unit.symbol,
+                "from": input.range.ends[0], "to": input.range.ends[1], "correlation_with_mean_loss": correlation,
             })
         };
         let point = |(i, p): (usize, &PointResult)| {
@@ -341,9 +277,9 @@ fn show(
     for (k, correlation) in ranked {
         let input = &s.inputs[*k];
         table.row(vec![
-            input.varied.pattern.clone(),
-            input.varied.words(input.range[0]),
-            input.varied.words(input.range[1]),
+            input.range.varied.pattern.clone(),
+            input.range.varied.words(input.range.ends[0]),
+            input.range.varied.words(input.range.ends[1]),
             number(*correlation, 3),
         ]);
     }

@@ -142,6 +142,9 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
                 }
             }
         }
+        if let Some((cell, _)) = map.crossed.as_ref().filter(|(cell, _)| *cell < map.values.len()) {
+            cross(root, place(((cell % xs.len()) as f64, (cell / xs.len()) as f64)))?;
+        }
         let every = |count: usize| count.div_ceil(16).max(1);
         for (i, x) in xs.iter().enumerate().step_by(every(xs.len())) {
             let at = (i32::midpoint(x_at(i as i32), x_at(i as i32 + 1)), TOP + HEIGHT + 6);
@@ -162,9 +165,25 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
         if let Some(level) = map.unseen.filter(|_| lined) {
             words.push_str(&format!("; thick: accuracy of the instrument, {}", short(level)));
         }
+        if let Some((_, what)) = &map.crossed {
+            words.push_str(&format!("; cross: {what}"));
+        }
         names(root, &words, &map.y.0)?;
         bar_of_colours(root, range, map.diverging)
     })
+}
+
+/// A cross that is seen on dark and on light cells.
+fn cross(root: &Area<'_>, (x, y): (i32, i32)) -> Result<(), PlotFault> {
+    const ARM: i32 = 7;
+    for (colour, width) in [(&WHITE, 5), (&BLACK, 2)] {
+        for arm in [ARM, -ARM] {
+            let stroke = vec![(x - ARM, y - arm), (x + ARM, y + arm)];
+            root.draw(&PathElement::new(stroke, colour.stroke_width(width)))
+                .map_err(fault)?;
+        }
+    }
+    Ok(())
 }
 
 fn short_level(level: f64) -> String {
@@ -285,10 +304,11 @@ mod tests {
             hatched: (0..25).map(|k| k < 3).collect(),
             marks: vec![(2.5, 3.0), (99.0, 0.0)],
             unseen: Some(93.5),
+            crossed: Some((7, "the least".to_owned())),
             ..Map::default()
         })
         .unwrap();
-        for word in ["96", "hatched", "thick"] {
+        for word in ["96", "hatched", "thick", "cross: the least"] {
             assert!(svg.contains(word), "{word}");
         }
         assert_eq!(

@@ -2,8 +2,8 @@
 
 use gearloss_framework::analysis::{Note, PointResult, Statistics, bands};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::measured::{Measured, Row, Seen};
-use gearloss_framework::study::{CompareEntry, Data, Difference, Quantity};
+use gearloss_framework::measured::{Measured, Row, Seen, counted};
+use gearloss_framework::study::{CompareEntry, Data};
 use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, outside};
@@ -266,17 +266,9 @@ fn verdict(
     Ok(())
 }
 
-/// Accuracy of the measurement, root of the mean square over the points, counted as the difference is: a share is a hundred
-/// points.
+/// Accuracy of the measurement, root of the mean square over the points, counted as the difference is.
 fn accuracy(entry: &CompareEntry, c: &Compared<'_>) -> Option<f64> {
-    let of = |p: &Pair| {
-        let value = p.accuracy?;
-        match entry.quantity {
-            _ if entry.difference == Difference::Percent => p.measured.filter(|m| *m != 0.0).map(|m| 100.0 * value / m),
-            Quantity::Efficiency => Some(100.0 * value),
-            _ => Some(value),
-        }
-    };
+    let of = |p: &Pair| counted(entry.quantity, entry.difference, p.accuracy?, p.measured);
     Statistics::of(c.pairs.iter().filter_map(of))
         .map(|s| s.rms)
         .or(entry.accuracy)

@@ -1,0 +1,26 @@
+//! A quantity of a gearbox and the range over which a study varies it.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::varied::Tie;
+
+/// One quantity and its range: `plus_minus`, `percent`, or `from` and `to`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct RangeEntry {
+    /// Resolved path; with `*` all that it meets move together.
+    pub path: String,
+    /// How several quantities move together.
+    #[serde(default)]
+    pub tie: Tie,
+    /// Half of the range about the value of the gearbox, as a quantity of the path: `0.1 um`.
+    pub plus_minus: Option<Value>,
+    /// The same in percent of the value of the gearbox. [-]
+    #[schemars(range(min = 1e-9, max = 1000.0))]
+    pub percent: Option<f64>,
+    /// Lower end of the range.
+    pub from: Option<Value>,
+    /// Upper end of the range.
+    pub to: Option<Value>,
+}

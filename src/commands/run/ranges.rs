@@ -1,0 +1,116 @@
+//! Quantities that a study varies over ranges.
+
+use gearloss_framework::study::RangeEntry;
+use gearloss_framework::varied::Varied;
+use serde_json::Value;
+
+use super::{Built, Runner};
+use crate::output::Failure;
+
+/// A varied quantity with its range, in the unit of the path.
+pub struct Range {
+    pub varied: Varied,
+    /// Lower and upper end; the upper one is greater.
+    pub ends: [f64; 2],
+}
+
+impl Range {
+    /// `path` is the entry's place in the study.
+    pub fn new(runner: &Runner<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Failure> {
+        let wrong = |message: String, mend: &str| runner.wrong(path, format!("{}: {message}", entry.path), mend);
+        let varied = varied(runner, path, (&entry.path, entry.tie), b)?;
+        let about = || {
+            varied.start().ok_or_else(|| {
+                wrong(
+                    "the gearbox states no value".to_owned(),
+                    "state one, or give `from` and `to`",
+                )
+            })
+        };
+        let quantity = |value: &Value, difference: bool| {
+            varied
+                .quantity(value, difference)
+                .map_err(|reason| wrong(reason, "write a quantity of the path, such as `0.1 um`"))
+        };
+        let ends = match (&entry.plus_minus, entry.percent, &entry.from, &entry.to) {
+            (Some(half), None, None, None) => {
+                let (middle, half) = (about()?, quantity(half, true)?.abs());
+                [middle - half, middle + half]
+            }
+            (None, Some(percent), None, None) => {
+                let middle = about()?;
+                let half = 0.01 * percent * middle.abs();
+                [middle - half, middle + half]
+            }
+            (None, None, Some(from), Some(to)) => [quantity(from, false)?, quantity(to, false)?],
+            _ => {
+                return Err(wrong(
+                    "one of `plus_minus`, `percent`, or both of `from` and `to` are due".to_owned(),
+                    "write `percent: 10`, say",
+                ));
+            }
+        };
+        if ends[0] >= ends[1] {
+            let said = format!(
+                "a range needs two finite ends in order, not {} and {}",
+                varied.words(ends[0]),
+                varied.words(ends[1])
+            );
+            return Err(wrong(said, "give a range that is wider than nothing"));
+        }
+        Ok(Self { varied, ends })
+    }
+
+    /// Refuses a range that leaves what the schema allows.
+    pub fn inside(&self, runner: &Runner<'_>, path: &str) -> Result<(), Failure> {
+        let ([low, high], [least, greatest]) = (self.ends, self.varied.range);
+        if low >= least && high <= greatest {
+            return Ok(());
+        }
+        let said = format!(
+            "{}: {} to {} leaves {least} to {greatest}",
+            self.varied.pattern,
+            self.varied.words(low),
+            self.varied.words(high)
+        );
+        Err(runner.wrong(path, said, "narrow the range"))
+    }
+
+    /// The value at a share of the range.
+    pub fn at(&self, share: f64) -> f64 {
+        let [low, high] = self.ends;
+        (low + share * (high - low)).clamp(low, high)
+    }
+}
+
+/// A varied quantity of a study; `path` is its place there.
+pub fn varied(
+    runner: &Runner<'_>,
+    path: &str,
+    (pattern, tie): (&str, gearloss_framework::varied::Tie),
+    b: &Built<'_>,
+) -> Result<Varied, Failure> {
+    let varied = Varied::new(runner.language, &b.resolved, pattern, tie).map_err(|mut error| {
+        error.message = format!("`{pattern}`: {}", error.message);
+        path.clone_into(&mut error.path);
+        Failure::from(runner.study.findings(vec![error]))
+    })?;
+    let fixed = runner.study.entry.conditions.oil_temperature.is_some();
+    if fixed && varied.paths.iter().any(|path| path == "thermal.oil") {
+        let message = "the conditions fix the temperature, so it cannot change";
+        return Err(runner.wrong(path, message, "leave `conditions.oil_temperature` out"));
+    }
+    Ok(varied)
+}
+
+/// Refuses a value that two quantities change; `place` is the key of a list in the study.
+pub fn once(runner: &Runner<'_>, place: &str, all: &[&Varied]) -> Result<(), Failure> {
+    for (i, own) in all.iter().enumerate() {
+        let twice = |other: &&&Varied| other.paths.iter().any(|p| own.paths.contains(p));
+        if let Some(other) = all[..i].iter().find(twice) {
+            let message = format!("`{}` and `{}` change the same value", other.pattern, own.pattern);
+            return Err(runner.wrong(&format!("{place}.{i}"), message, "name every value once"));
+        }
+    }
+    Ok(())
+}

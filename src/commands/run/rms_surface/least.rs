@@ -1,0 +1,109 @@
+//! The least value of a surface, whether it lies inside, and how flat the surface is about it.
+
+use gearloss_framework::inference::Side;
+
+/// Share of the least value by which a value counts as close to it.
+const CLOSE: f64 = 0.05;
+/// Share of a value below which a change is rounding, or what a solver leaves.
+const NOISE: f64 = 1e-7;
+
+/// First and last place along each axis.
+pub type Flat = [[usize; 2]; 2];
+
+/// The least value.
+#[derive(Debug, PartialEq)]
+pub struct Least {
+    pub value: f64,
+    /// Places along x and y.
+    pub place: [usize; 2],
+    /// End of each axis at which it lies: the values would perhaps fall beyond.
+    pub ends: [Option<Side>; 2],
+    /// Whether anything changes along each axis.
+    pub depends: [bool; 2],
+    /// Places at which some value is within 5 % of it.
+    pub close: Flat,
+    /// Places at which some value is above it by less than an accuracy, where one is known.
+    pub unseen: Option<Flat>,
+}
+
+impl Least {
+    /// Of values whose first coordinate runs first, so many in a row; absent where none has a value.
+    pub fn of(values: &[Option<f64>], columns: usize, accuracy: Option<f64>) -> Option<Self> {
+        let known = || values.iter().enumerate().filter_map(|(i, value)| Some((i, (*value)?)));
+        let (cell, value) = known().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let place = [cell % columns, cell / columns];
+        let counts = [columns, values.len() / columns];
+        let steps = [1, columns];
+        let depends = [0, 1].map(|axis| {
+            known().any(|(i, here)| {
+                let at = [i % columns, i / columns][axis];
+                let next = (at + 1 < counts[axis]).then(|| values[i + steps[axis]]).flatten();
+                next.is_some_and(|next| (next - here).abs() > NOISE * here.abs().max(next.abs()))
+            })
+        });
+        let ends = [0, 1].map(|axis| match place[axis] {
+            _ if !depends[axis] => None,
+            0 => Some(Side::Lower),
+            i if i + 1 == counts[axis] => Some(Side::Upper),
+            _ => None,
+        });
+        let below = |limit: f64| {
+            [0, 1].map(|axis| {
+                let near = known().filter(|(_, value)| *value <= limit);
+                near.fold([place[axis]; 2], |[low, high], (i, _)| {
+                    let at = [i % columns, i / columns][axis];
+                    [low.min(at), high.max(at)]
+                })
+            })
+        };
+        Some(Self {
+            value,
+            place,
+            ends,
+            depends,
+            close: below((1.0 + CLOSE) * value),
+            unseen: accuracy.map(|a| below(value + a)),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// A bowl about a place, of 5 by 4 values.
+    fn bowl(x: f64, y: f64) -> Vec<Option<f64>> {
+        let value = |i: usize| 1.0 + ((i % 5) as f64 - x).powi(2) + 0.03 * ((i / 5) as f64 - y).powi(2);
+        (0..20).map(|i| Some(value(i))).collect()
+    }
+
+    #[test]
+    fn a_bowl_has_its_least_inside_and_is_flat_along_one_axis() {
+        let least = Least::of(&bowl(2.0, 1.0), 5, Some(1.0)).unwrap();
+        assert_eq!((least.place, least.ends), ([2, 1], [None, None]));
+        assert_eq!(least.close, [[2, 2], [0, 2]]);
+        assert_eq!(least.unseen.unwrap(), [[1, 3], [0, 3]]);
+    }
+
+    #[test]
+    fn a_slope_ends_at_its_sides_and_gaps_do_not_count() {
+        let mut values = bowl(9.0, -1.0);
+        assert_eq!(
+            Least::of(&values, 5, None).unwrap().ends,
+            [Some(Side::Upper), Some(Side::Lower)]
+        );
+        values[4] = None;
+        let least = Least::of(&values, 5, None).unwrap();
+        assert_eq!((least.place, least.ends), ([4, 1], [Some(Side::Upper), None]));
+        assert!(Least::of(&[None, None], 2, None).is_none());
+    }
+
+    #[test]
+    fn an_axis_along_which_nothing_changes_has_no_end() {
+        let values: Vec<Option<f64>> = (0..6).map(|i| Some(if i % 3 == 2 { 1.0 } else { 2.0 })).collect();
+        let least = Least::of(&values, 3, None).unwrap();
+        assert_eq!((least.depends, least.ends), ([true, false], [Some(Side::Upper), None]));
+        assert_eq!(least.close, [[2, 2], [0, 1]]);
+    }
+}

@@ -1,0 +1,190 @@
+//! All measured points at every pair of values.
+
+use std::collections::BTreeMap;
+
+use gearloss_framework::analysis::{Rows, Statistics};
+use gearloss_framework::measured::{Measured, Seen, counted};
+use gearloss_framework::study::RmsSurfaceEntry;
+use indicatif::ProgressBar;
+use rayon::prelude::*;
+
+use super::super::trial::{Left, Trial};
+use super::super::{Built, Runner};
+use super::{Axis, Counted};
+use crate::interrupt;
+use crate::output::Failure;
+
+/// A row at a pair: the difference of the model from the measurement, or why there is none.
+pub type Difference = Result<f64, String>;
+
+/// A pair of values.
+pub struct Pair {
+    /// Values of x and y, in their units.
+    pub at: [f64; 2],
+    /// By row; or why the pair has no value at all.
+    pub differences: Result<Vec<Difference>, String>,
+    /// Accuracy of the measurement at each row.
+    accuracies: Vec<Option<f64>>,
+}
+
+impl Pair {
+    /// Root of the weighted mean square over some rows.
+    pub fn rms(&self, measured: &Measured, places: &[usize]) -> Option<f64> {
+        let all = self.differences.as_ref().ok()?;
+        let weight = |i: usize| measured.value(&measured.rows[i], "weight").unwrap_or(1.0);
+        let list = places
+            .iter()
+            .filter_map(|i| Some((*all[*i].as_ref().ok()?, weight(*i))));
+        Statistics::weighted(list).map(|s| s.rms)
+    }
+
+    /// The pair in words.
+    pub fn words(&self, axes: &[Axis; 2]) -> String {
+        let word = |k: usize| format!("{} = {}", axes[k].varied.pattern, axes[k].varied.words(self.at[k]));
+        format!("{}, {}", word(0), word(1))
+    }
+}
+
+/// What the measurement lacks does not hang on the pair.
+const NOTHING: &str = "nothing was measured";
+
+/// Solves all pairs of one set; the same whatever the number of threads.
+pub fn pairs(
+    runner: &Runner<'_>,
+    entry: &RmsSurfaceEntry,
+    built: &Built<'_>,
+    axes: &[Axis; 2],
+    rows: &Rows<'_>,
+    seen: &mut Left,
+) -> Result<Vec<Pair>, Failure> {
+    let [x, y] = axes;
+    let count = x.values.len() * y.values.len();
+    let bar = runner.bar(count as u64, &built.name);
+    let trial = Trial::new(runner, built);
+    let speeds = trial.speeds(rows);
+    let speeds = &speeds.map_err(|reason| runner.wrong("analyses", reason, "leave it out of `rig`"))?[..];
+    let one = |i: usize| {
+        let at = [x.values[i % x.values.len()], y.values[i / x.values.len()]];
+        let overrides: Vec<_> = x.varied.overrides(at[0]).chain(y.varied.overrides(at[1])).collect();
+        let mut seen = Left::new();
+        let solved = if interrupt::pressed() {
+            Err("interrupted".to_owned())
+        } else {
+            trial.rows(rows, speeds, &overrides, &mut seen)
+        };
+        bar.inc(1);
+        (pair(entry, rows.measured, at, solved), seen)
+    };
+    let all: Vec<(Pair, Left)> = (0..count).into_par_iter().map(one).collect();
+    ProgressBar::finish_and_clear(&bar);
+    if interrupt::pressed() {
+        return Err(Failure::Interrupted);
+    }
+    let mut pairs = Vec::with_capacity(count);
+    for (pair, left) in all {
+        seen.extend(left);
+        pairs.push(pair);
+    }
+    Ok(pairs)
+}
+
+fn pair(
+    entry: &RmsSurfaceEntry,
+    measured: &Measured,
+    at: [f64; 2],
+    solved: Result<Vec<super::super::rows::SolvedRow>, String>,
+) -> Pair {
+    let solved = match solved {
+        Ok(solved) => solved,
+        Err(reason) => {
+            return Pair {
+                at,
+                differences: Err(reason),
+                accuracies: Vec::new(),
+            };
+        }
+    };
+    let (mut differences, mut accuracies) = (Vec::new(), Vec::new());
+    for (row, (point, why)) in measured.rows.iter().zip(&solved) {
+        let seen = Seen::of(measured, row, point);
+        let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.of(point));
+        let accuracy = seen.accuracy(entry.quantity);
+        accuracies.push(accuracy.and_then(|a| counted(entry.quantity, entry.difference, a, saw)));
+        differences.push(match (saw, model) {
+            (None, _) => Err(NOTHING.to_owned()),
+            (_, None) => Err(why.clone().unwrap_or_else(|| point.status.name().to_owned())),
+            (Some(saw), Some(model)) => entry
+                .quantity
+                .difference(entry.difference, saw, model)
+                .ok_or_else(|| "zero has no percentage".to_owned()),
+        });
+    }
+    // A pair at which no point has a value would leave nothing to the others.
+    let none = differences.iter().all(Result::is_err);
+    let why = differences
+        .iter()
+        .filter_map(|d| d.as_ref().err())
+        .find(|why| *why != NOTHING);
+    let differences = match why {
+        Some(why) if none => Err(format!("no point has a value: {why}")),
+        _ => Ok(differences),
+    };
+    Pair {
+        at,
+        differences,
+        accuracies,
+    }
+}
+
+/// The rows that have a value at every pair of every set, but for pairs that have none at all.
+pub fn counted_points(
+    runner: &Runner<'_>,
+    path: &str,
+    entry: &RmsSurfaceEntry,
+    measured: &Measured,
+    sets: &[(Built<'_>, [Axis; 2])],
+    solved: &[Vec<Pair>],
+) -> Result<Counted, Failure> {
+    let mut faults: BTreeMap<usize, String> = BTreeMap::new();
+    for ((built, axes), pairs) in sets.iter().zip(solved) {
+        for pair in pairs {
+            for (i, difference) in pair.differences.iter().flatten().enumerate() {
+                if let Err(why) = difference {
+                    let said = || match why.as_str() {
+                        NOTHING => why.clone(),
+                        _ => format!("models {}, {}: {why}", built.name, pair.words(axes)),
+                    };
+                    faults.entry(i).or_insert_with(said);
+                }
+            }
+        }
+    }
+    let places: Vec<usize> = (0..measured.rows.len()).filter(|i| !faults.contains_key(i)).collect();
+    if places.is_empty() && faults.values().all(|why| why == NOTHING) {
+        let message = format!(
+            "{}: nothing gives a measured {}",
+            runner.data(path, &entry.data)?.file,
+            entry.quantity.name()
+        );
+        let mend = "name a column of it, or columns of torque and speed at both ports";
+        return Err(runner.wrong(&format!("{path}.data"), message, mend));
+    }
+    if let Some(why) = faults
+        .values()
+        .find(|why| *why != NOTHING)
+        .filter(|_| places.is_empty())
+    {
+        let message = format!("no point has a value at every pair; {why}");
+        return Err(runner.wrong(path, message, "leave values of `x` and `y` out"));
+    }
+    // Speeds follow from the gear state alone, so one pair tells the accuracies for all.
+    let first = solved.iter().flatten().find(|pair| pair.differences.is_ok());
+    let own = places
+        .iter()
+        .filter_map(|i| first?.accuracies.get(*i).copied().flatten());
+    Ok(Counted {
+        accuracy: Statistics::of(own).map(|s| s.rms).or(entry.accuracy),
+        places,
+        left_out: faults.into_iter().collect(),
+    })
+}

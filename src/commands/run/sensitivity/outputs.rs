@@ -1,0 +1,140 @@
+//! What depends: means over the points of a grid.
+
+use gearloss_framework::analysis::PointResult;
+use gearloss_framework::study::By;
+use gearloss_framework::transmission::Transmission;
+
+use super::super::super::solve::RPM;
+use super::super::map::tidy;
+use super::super::shares::{Shares, together};
+use super::super::trial::why;
+
+/// What an output is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// All losses.
+    Loss,
+    /// Those of a mechanism.
+    Mechanism,
+    /// Those of a named term of a mechanism.
+    Term,
+    /// Power out over power in.
+    Efficiency,
+}
+
+impl Kind {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Loss => "loss",
+            Self::Mechanism => "mechanism",
+            Self::Term => "term",
+            Self::Efficiency => "efficiency",
+        }
+    }
+}
+
+/// One output.
+pub struct Output {
+    pub kind: Kind,
+    /// `loss`, a mechanism, a mechanism and its term, or `efficiency`.
+    pub name: String,
+    /// Whether a term vanishes with the load; absent for what is no term, and where models of a mechanism differ in it.
+    pub load_dependent: Option<bool>,
+}
+
+impl Output {
+    /// Unit in results.
+    pub fn unit(&self) -> &'static str {
+        if self.kind == Kind::Efficiency { "-" } else { "w" }
+    }
+}
+
+/// All outputs, in the order of their values: the loss, mechanisms, terms, and the efficiency where a point has one.
+pub struct Outputs {
+    pub list: Vec<Output>,
+    mechanisms: Vec<String>,
+    terms: Vec<String>,
+    /// Points that have an efficiency at the values of the gearbox: a mean is taken over the same points everywhere.
+    efficient: Vec<usize>,
+}
+
+impl Outputs {
+    pub fn of(t: &Transmission, nominal: &[PointResult]) -> Self {
+        let [mechanisms, terms] = [By::Mechanism, By::Term].map(|by| together(std::iter::once(t), by));
+        let has = |(i, p): (usize, &PointResult)| p.efficiency.map(|_| i);
+        let efficient: Vec<usize> = nominal.iter().enumerate().filter_map(has).collect();
+        let output = |kind: Kind, name: &str| Output {
+            kind,
+            name: name.to_owned(),
+            load_dependent: (kind == Kind::Term).then(|| load_dependent(t, name)).flatten(),
+        };
+        let mut list = vec![output(Kind::Loss, "loss")];
+        list.extend(mechanisms.iter().map(|name| output(Kind::Mechanism, name)));
+        list.extend(terms.iter().map(|name| output(Kind::Term, name)));
+        if !efficient.is_empty() {
+            list.push(output(Kind::Efficiency, "efficiency"));
+        }
+        Self {
+            list,
+            mechanisms,
+            terms,
+            efficient,
+        }
+    }
+
+    /// Values of the outputs, with numbers of parameters changed at most.
+    ///
+    /// # Errors
+    /// The first point without a loss, or without an efficiency that it should have.
+    pub fn values(&self, t: &Transmission, points: &[PointResult]) -> Result<Vec<f64>, String> {
+        let all = points
+            .iter()
+            .map(|p| p.loss.ok_or_else(|| format!("no loss at {}: {}", place(p), why(t, p))));
+        let all: Vec<f64> = all.collect::<Result<_, _>>()?;
+        let count = points.len().max(1) as f64;
+        let mut values = vec![all.iter().sum::<f64>() / count];
+        for (by, names) in [(By::Mechanism, &self.mechanisms), (By::Term, &self.terms)] {
+            let shares = Shares::of(t, by).under(names);
+            let mut sums = vec![0.0; names.len()];
+            for point in points {
+                for (sum, watts) in sums.iter_mut().zip(shares.stack(point).unwrap_or_default()) {
+                    *sum += watts;
+                }
+            }
+            values.extend(sums.into_iter().map(|sum| sum / count));
+        }
+        if !self.efficient.is_empty() {
+            let of = |i: &usize| {
+                let point = &points[*i];
+                let none = || format!("no efficiency at {}", place(point));
+                point.efficiency.ok_or_else(none)
+            };
+            let list: Vec<f64> = self.efficient.iter().map(of).collect::<Result<_, _>>()?;
+            values.push(list.iter().sum::<f64>() / list.len() as f64);
+        }
+        if values.iter().all(|x| x.is_finite()) {
+            Ok(values)
+        } else {
+            Err("a loss is too large to be added".to_owned())
+        }
+    }
+}
+
+/// Whether the terms of a name vanish with the load; absent where models differ.
+fn load_dependent(t: &Transmission, name: &str) -> Option<bool> {
+    let of = |part: &gearloss_framework::transmission::PartInfo| {
+        let terms = t.instances()[part.notes.instance].entry.terms;
+        let own = terms
+            .iter()
+            .find(|term| format!("{} {}", part.mechanism, term.name) == name);
+        own.map(|term| term.load_dependent)
+    };
+    let mut all = t.parts().iter().filter_map(of);
+    let first = all.next()?;
+    all.all(|other| other == first).then_some(first)
+}
+
+fn place(p: &PointResult) -> String {
+    format!("{} Nm, {:.0} rpm", tidy(p.torque), p.speed * RPM)
+}

@@ -1,0 +1,105 @@
+//! A gearbox under one set with some values changed, built and solved anew; on any thread.
+
+use std::collections::BTreeSet;
+
+use gearloss_framework::analysis::{
+    GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid,
+};
+use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::language::Language;
+use gearloss_framework::loss::Extent;
+use gearloss_framework::transmission::Transmission;
+use serde_json::Value;
+
+use super::super::study_files::Study;
+use super::{Built, Runner};
+use crate::interrupt;
+use crate::output::{Failure, Out};
+
+/// Stated ranges that were left: path and quantity.
+pub type Left = BTreeSet<(String, &'static str)>;
+
+/// What is built anew. A runner holds its report and cannot be shared among threads; this can.
+pub struct Trial<'a> {
+    language: &'a Language,
+    study: &'a Study,
+    gearbox: &'a Gearbox,
+    set: Option<&'a str>,
+}
+
+impl<'a> Trial<'a> {
+    pub fn new(runner: &Runner<'a>, built: &'a Built<'_>) -> Self {
+        Self {
+            language: runner.language,
+            study: runner.study,
+            gearbox: built.gearbox,
+            set: built.set(),
+        }
+    }
+
+    /// The transmission with overrides, or the first thing that is wrong with it.
+    pub fn build(&self, overrides: impl IntoIterator<Item = (String, Value)>) -> Result<Transmission, String> {
+        let mut choice = self.study.choice(self.set);
+        choice.overrides.extend(overrides);
+        let resolved = self.gearbox.resolve(self.language, &choice).map_err(first)?;
+        self.gearbox.build(self.language, &resolved).map_err(first)
+    }
+
+    /// All points of it. Their temperature follows the overrides, where nothing else gives it.
+    pub fn solve(&self, transmission: &Transmission, points: &Points) -> Result<GridResult, String> {
+        let points = Points {
+            oil: OilTemperature::of(transmission, self.study.entry.conditions.oil_temperature),
+            ..points.clone()
+        };
+        let solved = run_grid(transmission, &points, &|_| !interrupt::pressed());
+        let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
+        solved.ok_or_else(|| "interrupted".to_owned())
+    }
+
+    /// Rows of a file with overrides.
+    pub(super) fn solved_rows(
+        &self,
+        rows: &Rows<'_>,
+        overrides: &[(String, Value)],
+        on: Option<OnRig<'_>>,
+    ) -> Result<SolvedRows, String> {
+        let mut choice = self.study.choice(self.set);
+        choice.overrides.extend_from_slice(overrides);
+        let built = rows.build(self.language, self.gearbox, &choice).map_err(first)?;
+        let solved = rows.solve(built, on, &|_| !interrupt::pressed());
+        let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
+        solved.ok_or_else(|| "interrupted".to_owned())
+    }
+}
+
+fn first(findings: Findings) -> String {
+    findings.list.first().map_or_else(String::new, |d| d.message.clone())
+}
+
+/// The stated ranges that a solved trial left.
+pub fn left(transmission: &Transmission, seen: &[Extent]) -> impl Iterator<Item = (String, &'static str)> {
+    let outside = notes(transmission, seen).into_iter().filter(|n| n.outside > 0);
+    outside.map(|n| (n.path, n.name))
+}
+
+/// Why a point has no loss.
+pub fn why(t: &Transmission, p: &PointResult) -> String {
+    match (p.undefined, p.balance) {
+        (Some((part, undefined)), _) => format!("{}: {undefined}", t.parts()[part].path),
+        (None, Some(outcome)) => format!("balance: {}", outcome.name()),
+        (None, None) => p.status.name().to_owned(),
+    }
+}
+
+impl Runner<'_> {
+    /// Counts and prints the stated ranges that trials left.
+    pub(super) fn left_at_samples(&self, left: &Left, out: &mut Out) -> Result<(), Failure> {
+        self.left.set(self.left.get() + left.len());
+        for (path, name) in left {
+            out.line(format!(
+                "outside: {path}: {name} leaves its stated range at some samples"
+            ))?;
+        }
+        Ok(())
+    }
+}
