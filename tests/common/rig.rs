@@ -3,12 +3,16 @@
 
 use std::fmt::Write as _;
 
+use gearloss_framework::analysis::Rows;
 use gearloss_framework::document::read_yaml;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::identify::{Faults, Identification};
 use gearloss_framework::language::Language;
+use gearloss_framework::measured::{Measured, MeasuredEntry};
 use gearloss_framework::resolve::Choice;
+use gearloss_framework::study::{Analysis, StudyEntry};
 use serde_json::{Map, Value, json};
 
 use super::RPM;
@@ -25,6 +29,17 @@ pub const HIDDEN: [(&str, &str); 6] = [
 ];
 /// What the torque meters at the input and at the output show too much. \[Nm\]
 pub const OFFSETS: [f64; 2] = [0.03, 0.0];
+/// The hidden value of each parameter of `identify` in the study of the example, in the unit of its path.
+pub const TRUTH: [(&str, f64); 8] = [
+    ("viscosity", 0.85),
+    ("roughness", 0.45),
+    ("level", 4.0),
+    ("loads", 1.15),
+    ("boundary", 0.12),
+    ("seals", 1.3),
+    ("torque_offset", OFFSETS[0]),
+    ("rig_bearing", SUPPORT[0]),
+];
 /// Drag of the rig's own bearing at the input: torque at 1000 rpm in Nm, exponent of the speed. It runs in grease, so that the
 /// temperature of the oil does not touch it.
 pub const SUPPORT: [f64; 2] = [0.02, 0.667];
@@ -64,6 +79,58 @@ pub fn sets(language: &Language) -> Map<String, Value> {
         .as_object()
         .cloned()
         .unwrap()
+}
+
+/// The study of the example.
+pub fn study(language: &Language) -> StudyEntry {
+    let text = std::fs::read_to_string(super::file("examples/two-speed-ev/study.yaml")).unwrap();
+    let walked = language.walk_study(&read_yaml(0, &text).node);
+    assert!(walked.findings.is_empty(), "{:?}", walked.findings);
+    serde_json::from_value(walked.value).unwrap()
+}
+
+/// The identification `identify` of the study on a file of measured points.
+pub fn identification<'a>(
+    language: &'a Language,
+    gearbox: &'a Gearbox,
+    study: &'a StudyEntry,
+    measured: &'a Measured,
+) -> Identification<'a> {
+    let Some(Analysis::Identify(entry)) = study.analyses.get("identify") else {
+        panic!("the study identifies");
+    };
+    let rows = Rows {
+        measured,
+        bind: Vec::new(),
+        gear: None,
+        torque_at: "input",
+        speed_at: "input",
+        oil: study.conditions.oil_temperature,
+        flow: study.conditions.power_flow,
+        terms: false,
+    };
+    let choice = Choice {
+        set: Some("complete".to_owned()),
+        sets: sets(language),
+        overrides: Vec::new(),
+    };
+    let found = Identification::new(
+        language,
+        gearbox,
+        choice,
+        rows,
+        entry.parameters.iter(),
+        &entry.residuals,
+    );
+    found.unwrap_or_else(|faults| match faults {
+        Faults::Study(list) => panic!("{list:?}"),
+        Faults::Gearbox(findings) => panic!("{}", findings.render()),
+    })
+}
+
+/// What the study says of the file.
+pub fn entry(study: &StudyEntry) -> &MeasuredEntry {
+    study.measurements.get("rig").unwrap()
 }
 
 /// The gearbox of the example.

@@ -20,6 +20,8 @@ const SETTLED: f64 = 0.01;
 /// Remaining shift in standard errors at which a search ends. Loss models have kinks, where a regime or a clamp begins: beside one
 /// derivatives do not settle further, and no interval would change.
 const REMAINING: f64 = 1e-3;
+/// Relative step at which a search ends: at a kink no direction lowers the misfit, and the predictions of derivatives are never met.
+const SMALLEST: f64 = 1e-6;
 /// Relative noise of residuals beside their optimum, as searches from far find it: the remaining change of the iterated flow of power.
 const NOISE: f64 = 1e-8;
 
@@ -91,6 +93,8 @@ impl Settings<'_> {
             ..Options::fit()
         };
         options.central.relative_offset = REMAINING;
+        options.central.step = SMALLEST;
+        options.central.cost = SMALLEST * SMALLEST;
         options
     }
 }

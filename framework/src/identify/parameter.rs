@@ -7,7 +7,7 @@ use crate::inference;
 use crate::language::Language;
 use crate::least_squares::{self, Prior};
 use crate::measured::Rig;
-use crate::resolve::Resolved;
+use crate::resolve::{Resolved, lookup};
 use crate::study::{IdentifiedEntry, PriorEntry, ScaleEntry};
 use crate::varied::Varied;
 
@@ -185,6 +185,12 @@ impl Identified {
                 "write `from:` with a value above zero, or `scale: linear`",
             ));
         }
+        // A curve of factors may be stated already.
+        let curve = entry
+            .over
+            .as_ref()
+            .and_then(|over| curve_at(resolved, &target, &over.torques));
+        let stated = stated.or_else(|| curve.as_ref().and_then(|list| list.first().copied()));
         let start = match &entry.start {
             Some(value) => quantity("start", value)?,
             None => stated.ok_or_else(|| {
@@ -227,7 +233,10 @@ impl Identified {
                 "leave `over` out",
             ));
         };
-        if !entry.path.ends_with("_factor") {
+        if ![".radial_factor", ".axial_factor"]
+            .iter()
+            .any(|end| entry.path.ends_with(end))
+        {
             return Err(fault(
                 &place("over"),
                 format!("`{}` is no load factor", entry.path),
@@ -241,8 +250,11 @@ impl Identified {
                 "sort them, and name each once",
             ));
         }
+        let own = |place: usize| curve.as_ref().and_then(|list| list.get(place).copied());
         let at = |(place, torque): (usize, &f64)| Self {
             name: format!("{name} at {torque} Nm"),
+            stated: own(place).or(one.stated),
+            start: own(place).filter(|_| entry.start.is_none()).unwrap_or(one.start),
             target: Target::Over {
                 varied: varied.clone(),
                 port: over.port.clone(),
@@ -353,6 +365,26 @@ impl Identified {
             _ => &self.name,
         }
     }
+}
+
+/// Factors at some torques of the curve that the first path states; absent where it states none.
+fn curve_at(resolved: &Resolved, target: &Target, torques: &[f64]) -> Option<Vec<f64>> {
+    let Target::Path(varied) = target else { return None };
+    let stated = lookup(&resolved.value, varied.paths.first()?)?;
+    let numbers = |key: &str| -> Option<Vec<f64>> { stated[key].as_array()?.iter().map(Value::as_f64).collect() };
+    let (at, factors) = (numbers("torques")?, numbers("factors")?);
+    let factor = |torque: &f64| {
+        let place = at.iter().position(|t| t >= torque);
+        match place {
+            None => factors.last().copied(),
+            Some(0) => factors.first().copied(),
+            Some(k) => {
+                let share = (torque - at[k - 1]) / (at[k] - at[k - 1]);
+                Some(factors.get(k - 1)? + share * (factors.get(k)? - factors.get(k - 1)?))
+            }
+        }
+    };
+    torques.iter().map(factor).collect()
 }
 
 fn words(unit: &Unit, value: f64) -> String {

@@ -9,16 +9,13 @@ pub type Deviation = (f64, f64, Option<f64>);
 /// As a map where the points lie on a grid, but for the scatter of a rig; else as dots. `unseen` is the accuracy of the
 /// measurement, `ends` those of the colours where several pictures share them.
 pub fn picture(title: String, points: &[Deviation], unseen: Option<f64>, ends: Option<(f64, f64)>) -> Figure {
-    let over = |f: fn(&Deviation) -> f64| points.iter().map(f).collect::<Vec<_>>();
-    let (torques, speeds) = (levels(&over(|p| p.0)), levels(&over(|p| p.1)));
+    let (torques, speeds) = lines(points);
     let mut values = vec![None; torques.len() * speeds.len()];
-    let mut on_grid = torques.len() > 1 && speeds.len() > 1 && values.len() == points.len();
-    for (i, point) in points.iter().enumerate() {
-        let line = |lines: &[Vec<usize>]| lines.iter().position(|line| line.contains(&i)).unwrap_or(0);
-        let place = line(&torques) * speeds.len() + line(&speeds);
-        on_grid &= values.get(place).is_some_and(Option::is_none);
-        if let Some(value) = values.get_mut(place) {
-            *value = point.2;
+    let on_grid = torques.len() > 1 && speeds.len() > 1 && values.len() == points.len();
+    for (row, line) in torques.iter().enumerate().filter(|_| on_grid) {
+        for i in line {
+            let column = speeds.iter().position(|line| line.contains(i)).unwrap_or(0);
+            values[row * speeds.len() + column] = points[*i].2;
         }
     }
     let axes = ("speed rpm".to_owned(), "torque Nm".to_owned());
@@ -45,4 +42,63 @@ pub fn picture(title: String, points: &[Deviation], unseen: Option<f64>, ends: O
         ends,
         ..Map::default()
     })
+}
+
+/// Places of the points by torque, and by speed. Speeds are set, while torques are shown with what the rig adds: the first torque
+/// of every speed is one line, the second the next; none where speeds have not as many points each, or lines overlap.
+fn lines(points: &[Deviation]) -> (Vec<Vec<usize>>, Vec<Vec<usize>>) {
+    let speeds = levels(&points.iter().map(|p| p.1).collect::<Vec<_>>());
+    let count = speeds.first().map_or(0, Vec::len);
+    if speeds.iter().any(|line| line.len() != count) {
+        return (Vec::new(), speeds);
+    }
+    let mut torques: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for column in &speeds {
+        let mut column = column.clone();
+        column.sort_by(|a, b| points[*a].0.total_cmp(&points[*b].0));
+        for (line, i) in torques.iter_mut().zip(column) {
+            line.push(i);
+        }
+    }
+    let end = |line: &[usize], sign: f64| {
+        line.iter()
+            .map(|i| sign * points[*i].0)
+            .fold(f64::NEG_INFINITY, f64::max)
+    };
+    if torques.windows(2).any(|w| end(&w[0], 1.0) >= -end(&w[1], -1.0)) {
+        torques.clear();
+    }
+    (torques, speeds)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn torques_that_drift_with_the_speed_are_lines_all_the_same() {
+        let at = |torque: f64, speed: f64| (torque + 1e-5 * speed, speed, Some(torque));
+        let points = [at(2.0, 1000.0), at(4.0, 1000.0), at(4.0, 9000.0), at(2.0, 9000.0)];
+        let (torques, speeds) = lines(&points);
+        assert_eq!(
+            (torques, speeds),
+            (vec![vec![0, 3], vec![1, 2]], vec![vec![0, 1], vec![2, 3]])
+        );
+        let Figure::Map(map) = picture(String::new(), &points, None, None) else {
+            panic!("a grid is a map");
+        };
+        assert_eq!(map.values, [Some(2.0), Some(2.0), Some(4.0), Some(4.0)]);
+    }
+
+    #[test]
+    fn what_is_no_grid_is_a_cloud() {
+        let at = |torque: f64, speed: f64| (torque, speed, Some(1.0));
+        for points in [
+            vec![at(2.0, 1000.0), at(4.0, 1000.0), at(3.0, 9000.0)],
+            vec![at(2.0, 1000.0), at(4.0, 1000.0), at(4.0, 9000.0), at(6.0, 9000.0)],
+            vec![],
+        ] {
+            assert!(matches!(picture(String::new(), &points, None, None), Figure::Cloud(_)));
+        }
+    }
 }

@@ -60,7 +60,8 @@ impl Checks {
         let list = |places: &[usize]| {
             let shown: Vec<String> = places.iter().take(8).map(|p| line(p).to_string()).collect();
             let more = if places.len() > 8 { ", ..." } else { "" };
-            format!("{}{more}", shown.join(", "))
+            let noun = if places.len() == 1 { "line" } else { "lines" };
+            format!("{noun} {}{more}", shown.join(", "))
         };
         let mut words: Vec<String> = self.lack.and_then(|lack| lack.words()).into_iter().collect();
         if let Some(pure) = self.pure.filter(|pure| pure.probability < SUSPECT) {
@@ -100,15 +101,18 @@ impl Checks {
         }
         if !self.outliers.is_empty() {
             words.push(format!(
-                "{} points are more than 3.5 standard deviations off: lines {}",
-                self.outliers.len(),
+                "{} more than 3.5 standard deviations off: {}",
+                if self.outliers.len() == 1 {
+                    "one point is".to_owned()
+                } else {
+                    format!("{} points are", self.outliers.len())
+                },
                 list(&self.outliers)
             ));
         }
         if !self.weighty.is_empty() {
             words.push(format!(
-                "{} points decide more than half of their own calculated value: lines {}",
-                self.weighty.len(),
+                "points that decide more than half of their own calculated value: {}",
                 list(&self.weighty)
             ));
         }

@@ -93,6 +93,16 @@ impl<'a> Outcome<'a> {
         })
     }
 
+    /// Root of the mean square of the residuals of a quantity, before and after.
+    pub fn weighted_rms(&self, quantity: Quantity) -> [f64; 2] {
+        [0, 1].map(|k| {
+            let all = self.identification.observations().iter().zip(&self.pairs[k]);
+            let own = all.filter(|(o, _)| o.quantity == quantity);
+            let list: Vec<f64> = own.map(|(o, p)| (p.model - p.measured) / o.deviation).collect();
+            (list.iter().map(|r| r * r).sum::<f64>() / list.len().max(1) as f64).sqrt()
+        })
+    }
+
     /// Rows and calculated less measured for a quantity, before (0) or after (1), in efficiency points, W, Nm or K.
     pub fn deviations(&self, quantity: Quantity, which: usize) -> Vec<(usize, f64)> {
         let all = self.identification.observations().iter().zip(&self.pairs[which]);

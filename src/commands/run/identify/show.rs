@@ -14,6 +14,9 @@ const CONDITION: [f64; 2] = [30.0, 1000.0];
 /// Singular value of columns times range above which a combination is resolved: a 95 % half-width under half of the range.
 pub const RESOLVED: f64 = 4.0;
 
+/// Residual below which nothing but rounding is left.
+const ROUNDING: f64 = 1e-6;
+
 /// A verdict in two or three words.
 pub fn verdict(verdict: Verdict) -> String {
     match verdict {
@@ -51,22 +54,7 @@ pub fn show(
             out.line(format!("`{}` {}", parameter.name, inference.sentence(k)))?;
         }
     }
-    let ranged = inference.ranged_singular_values();
-    let resolved = ranged.iter().filter(|value| **value > RESOLVED).count();
-    let condition = inference.condition();
-    let condition = match condition {
-        None => "columns are parallel".to_owned(),
-        Some(c) if c > CONDITION[1] => format!("condition {c:.0}: columns are nearly parallel"),
-        Some(c) if c > CONDITION[0] => format!("condition {c:.0}: watch combinations"),
-        Some(c) => format!("condition {c:.0}"),
-    };
-    runner.verdict(
-        format!(
-            "{name}: the points resolve {resolved} of {} combinations of parameters ({condition})",
-            ranged.len()
-        ),
-        out,
-    )?;
+    resolved(runner, name, o, out)?;
     for words in o.checks.words(&o.identification) {
         runner.verdict(format!("{name}: {words}"), out)?;
     }
@@ -77,6 +65,30 @@ pub fn show(
     next(runner, name, entry, o, out)?;
     out.line(outside(&o.notes))?;
     Ok(())
+}
+
+/// How many combinations of parameters the points tell.
+fn resolved(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
+    let inference = &o.fitted.inference;
+    let ranged = inference.ranged_singular_values();
+    if ranged.is_empty() {
+        return runner.verdict(
+            format!("{name}: no parameter is free: each is held or stands on a bound"),
+            out,
+        );
+    }
+    let resolved = ranged.iter().filter(|value| **value > RESOLVED).count();
+    let condition = match inference.condition() {
+        None => "columns are parallel".to_owned(),
+        Some(c) if c > CONDITION[1] => format!("condition {c:.0}: columns are nearly parallel"),
+        Some(c) if c > CONDITION[0] => format!("condition {c:.0}: watch combinations"),
+        Some(c) => format!("condition {c:.0}"),
+    };
+    let count = ranged.len();
+    runner.verdict(
+        format!("{name}: the points resolve {resolved} of {count} combinations of free parameters ({condition})"),
+        out,
+    )
 }
 
 /// How the search went.
@@ -127,9 +139,16 @@ fn misfit(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> Re
     for quantity in o.quantities() {
         let (what, unit) = quantity.words(Difference::Points);
         let [before, after] = o.rms(quantity);
+        let weighted = match o.fitted.inference.accuracy() {
+            Accuracy::Given => {
+                let [before, after] = o.weighted_rms(quantity).map(short);
+                format!("; over the accuracy of the points {before} and {after}")
+            }
+            Accuracy::Estimated => String::new(),
+        };
         runner.verdict(
             format!(
-                "{name}: {}: {what} {} {unit} rms off the points before, {} after",
+                "{name}: {}: {what} {} {unit} rms off the points before, {} after{weighted}",
                 o.name,
                 short(before),
                 short(after)
@@ -213,7 +232,8 @@ fn folds(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
                 validation.rms,
                 folds.len()
             ))?;
-            for place in validation.strange(inside) {
+            let strange = validation.strange(inside).into_iter();
+            for place in strange.filter(|_| validation.rms > ROUNDING) {
                 let [from, to] = folds[place].band;
                 out.line(format!(
                     "{name}: the model does not extrapolate to {from:.1} to {to:.1} Nm: {:.3} rms there",

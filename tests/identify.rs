@@ -1,0 +1,575 @@
+//! Identification: what went into made-up points comes out of them, and what cannot be identified is told with its place.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use common::rig::{SEED, TRUTH};
+use common::{RPM, language};
+use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::identify::Settings;
+use gearloss_framework::inference::Standing;
+use gearloss_framework::inference::probability::chi_square_quantile;
+use gearloss_framework::least_squares::Loss;
+use gearloss_framework::resolve::Choice;
+use serde_json::{Value, json};
+
+/// Runs a study with files beside it.
+fn run_of(name: &str, study: &str, files: &[(&str, &str)], threads: &str) -> (PathBuf, String) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("identify-{name}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("study.yaml"), study).unwrap();
+    for (file, text) in files {
+        std::fs::write(folder.join(file), text).unwrap();
+    }
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .arg("run")
+        .arg(folder.join("study.yaml"))
+        .env("RAYON_NUM_THREADS", threads)
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    (folder, text)
+}
+
+fn run(name: &str, study: &str, files: &[(&str, &str)]) -> (PathBuf, String) {
+    run_of(name, study, files, "2")
+}
+
+/// A study of the two-speed example under its own models at 80 degC.
+fn study(analyses: &str) -> String {
+    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
+    format!(
+        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ oil_temperature: 80 degC }}\n{analyses}",
+        gearbox.display()
+    )
+}
+
+fn first(folder: &Path, name: &str) -> Value {
+    let path = folder.join(format!("results/{name}.json"));
+    let value: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    value["identifications"][0].clone()
+}
+
+/// Points of the example under its own models and further overrides: torque in Nm, speed in rpm, loss in W, torque and speed at
+/// the output.
+fn points(overrides: &[(&str, Value)], torques: &[f64], speeds: &[f64]) -> Vec<[f64; 5]> {
+    let language = language();
+    let gearbox = common::rig::gearbox(&language);
+    let overrides = overrides
+        .iter()
+        .map(|(path, value)| ((*path).to_owned(), value.clone()));
+    let choice = Choice {
+        overrides: overrides.collect(),
+        ..Choice::default()
+    };
+    let t = gearbox
+        .transmission(&language, &choice)
+        .unwrap_or_else(|f| panic!("{}", f.render()));
+    let case = t.case("first", &["input"], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let out = t.port("output").unwrap();
+    let mut all = Vec::new();
+    for torque in torques {
+        for speed in speeds {
+            let point = Point {
+                speeds: &[speed * RPM],
+                torques: &[*torque],
+                flow: PowerFlow::Real,
+                tolerance: Tolerance::default(),
+            };
+            let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+            let turning = solution.speed(t.ports()[out].member) / RPM;
+            all.push([*torque, *speed, solution.loss().unwrap(), solution.torque(out), turning]);
+        }
+    }
+    all
+}
+
+const TORQUES: [f64; 6] = [2.0, 5.0, 8.0, 12.0, 16.0, 20.0];
+const SPEEDS: [f64; 6] = [1000.0, 4000.0, 8000.0, 12000.0, 17000.0, 22000.0];
+
+fn losses(points: &[[f64; 5]], accuracy: f64) -> String {
+    let mut csv = "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n".to_owned();
+    for [torque, speed, loss, ..] in points {
+        let _ = writeln!(csv, "{torque},{speed},{loss},{accuracy}");
+    }
+    csv
+}
+
+/// Ends of a search lie within a thousandth of a standard error of the optimum, which is exact where there is no noise.
+fn near(found: &Value, name: &str, expected: f64) {
+    let all = found["parameters"].as_array().unwrap();
+    let parameter = all.iter().find(|p| p["name"] == name).unwrap();
+    let x = parameter["value"].as_f64().unwrap();
+    let [low, high] = [0, 1].map(|i| parameter["interval"][i].as_f64().unwrap_or(x));
+    let room = 0.01 * (high - low) + 1e-6 * expected.abs();
+    assert!(
+        (x - expected).abs() <= room,
+        "{name}: {x} instead of {expected}\n{parameter}"
+    );
+}
+
+#[test]
+fn the_example_finds_its_hidden_parameters() {
+    let language = language();
+    let (gearbox, study) = (common::rig::gearbox(&language), common::rig::study(&language));
+    let file = std::fs::read(common::file("examples/two-speed-ev/rig.csv")).unwrap();
+    let measured = common::rig::entry(&study).read(&file, &[]).unwrap();
+    assert!(String::from_utf8_lossy(&file).contains(&format!("seed {SEED}")));
+    let mut identification = common::rig::identification(&language, &gearbox, &study, &measured);
+    let fitted = identification.fit(&Settings::default()).unwrap();
+    assert!(fitted.fit().converged());
+    let inference = &fitted.inference;
+    assert!(inference.parameters().iter().all(|p| p.standing == Standing::Free));
+    // The hidden parameters together lie in the 99 % region, by the sum of squares itself.
+    let hidden: Vec<f64> = TRUTH.iter().map(|(_, truth)| *truth).collect();
+    let squares: f64 = identification.residuals(&hidden).unwrap().iter().map(|r| r * r).sum();
+    let rise = squares - inference.objective();
+    let limit = chi_square_quantile(0.99, 8.0).unwrap();
+    assert!(rise > 0.0 && rise < limit, "{rise} {limit}");
+    // The measurement is as accurate as the study says.
+    let lack = inference.lack_of_fit().unwrap();
+    assert!((0.01..0.99).contains(&lack.probability), "{}", lack.probability);
+    for (k, (name, _)) in TRUTH.iter().enumerate() {
+        let interval = inference.interval(k, 0.9999, 1.0).unwrap();
+        assert!(
+            (interval.uncut[0]..=interval.uncut[1]).contains(&hidden[k]),
+            "{name}: {interval:?}"
+        );
+    }
+}
+
+#[test]
+fn what_went_in_without_noise_comes_out() {
+    let overrides = [
+        ("lubricants.sump.viscosity.factor", json!(0.8)),
+        (
+            "bearings.*.radial_factor",
+            json!({ "port": "input", "torques": [2, 20], "factors": [1.3, 0.8] }),
+        ),
+        ("meshes.M1.loss_factor", json!(1.2)),
+    ];
+    let csv = losses(&points(&overrides, &TORQUES, &SPEEDS), 1.0);
+    let study = study(
+        "analyses:
+  all:
+    type: identify
+    data: { file: rig.csv, stated_as: standard }
+    residuals: [loss]
+    parameters:
+      viscosity: { path: lubricants.sump.viscosity.factor, from: 0.3, to: 3, scale: log }
+      loads: { path: \"bearings.*.radial_factor\", from: 0.3, to: 3, over: { port: input, torques: [2 Nm, 20 Nm] } }
+      mesh: { path: meshes.M1.loss_factor, from: 0.5, to: 2 }
+",
+    );
+    let (folder, text) = run("exact", &study, &[("rig.csv", &csv)]);
+    let found = first(&folder, "all");
+    assert_eq!(found["search"]["status"], "converged", "{text}");
+    near(&found, "viscosity", 0.8);
+    near(&found, "loads at 2 Nm", 1.3);
+    near(&found, "loads at 20 Nm", 0.8);
+    near(&found, "mesh", 1.2);
+    assert!(found["misfit"]["quantities"][0]["rms"].as_f64().unwrap() < 0.01);
+    // The values go back into a study as they were written.
+    let values = std::fs::read_to_string(folder.join("results/all-own.yaml")).unwrap();
+    let set = values.split("conditions:\n").nth(1).unwrap().split('#').next().unwrap();
+    let head = "conditions: { oil_temperature: 80 degC }\n";
+    let again = study.replace(head, &format!("conditions:\n  oil_temperature: 80 degC\n{set}"));
+    let (folder, text) = run("again", &again, &[("rig.csv", &csv)]);
+    let before = first(&folder, "all")["misfit"]["quantities"][0]["rms_before"].as_f64();
+    assert!(before.unwrap_or_else(|| panic!("{text}")) < 0.01, "{before:?}\n{again}");
+}
+
+#[test]
+fn offsets_and_bearings_of_the_rig_are_found_at_either_port() {
+    // The meters show 0.05 and -0.4 Nm too much; the rig's bearings brake by 0.02 Nm at 1000 rpm, with the speed.
+    let mut csv = "torque [Nm],speed [rpm],torque_out [Nm],speed_out [rpm]\n".to_owned();
+    let mut back = csv.clone();
+    for [torque, speed, _, out, turning] in points(&[], &TORQUES, &SPEEDS) {
+        let shown = torque + 0.05 + 0.02 * speed / 1000.0;
+        let there = out.abs() - 0.4;
+        let _ = writeln!(csv, "{shown},{speed},{there},{}", turning.abs());
+        // The same with the torque given at the output, signed as applied to the transmission there.
+        let given = out + 0.4 * turning.signum() * speed.signum();
+        let _ = writeln!(back, "{given},{turning},{shown},{speed}");
+    }
+    let data = "stated_as: standard, rig: { support_in: { torque: 0.01 Nm, speed: 1000 rpm, exponent: 1 }, torque_in: { absolute: 0.01 Nm }, torque_out: { absolute: 0.1 Nm } }";
+    let parameters = "{ offset_in: { path: rig.torque_offset_in, from: -0.2 Nm, to: 0.2 Nm }, offset_out: { path: rig.torque_offset_out, from: -1 Nm, to: 1 Nm, prior: { mean: -0.4 Nm, deviation: 0.001 Nm } }, support: { path: rig.support_in.torque, from: 0 Nm, to: 0.1 Nm } }";
+    let analyses = format!(
+        "analyses:\n  there: {{ type: identify, data: {{ file: rig.csv, {data} }}, residuals: [loss], folds: 0, profiles: false, parameters: {parameters} }}\n"
+    );
+    let (folder, text) = run("rig", &study(&analyses), &[("rig.csv", &csv)]);
+    let found = first(&folder, "there");
+    for (name, expected) in [("offset_in", 0.05), ("offset_out", -0.4), ("support", 0.02)] {
+        near(&found, name, expected);
+    }
+    assert!(
+        found["misfit"]["quantities"][0]["rms"].as_f64().unwrap() < 0.05,
+        "{text}"
+    );
+    let conditions = "conditions: { oil_temperature: 80 degC, torque_at: output, speed_at: output }";
+    let other = study(&analyses).replace("conditions: { oil_temperature: 80 degC }", conditions);
+    let (folder, text) = run("rig-back", &other, &[("rig.csv", &back)]);
+    let found = first(&folder, "there");
+    for (name, expected) in [("offset_in", 0.05), ("offset_out", -0.4), ("support", 0.02)] {
+        near(&found, name, expected);
+    }
+    assert!(
+        found["misfit"]["quantities"][0]["rms"].as_f64().unwrap() < 0.05,
+        "{text}"
+    );
+}
+
+#[test]
+fn a_known_rig_is_taken_out_of_a_comparison() {
+    let mut csv = "torque [Nm],speed [rpm],torque_out [Nm],speed_out [rpm]\n".to_owned();
+    for [torque, speed, _, out, turning] in points(&[], &TORQUES, &SPEEDS) {
+        let _ = writeln!(
+            csv,
+            "{},{speed},{},{}",
+            torque + 0.05 + 0.02,
+            out.abs() - 0.4,
+            turning.abs()
+        );
+    }
+    let data = "data: { file: rig.csv, rig: { torque_offset_in: 0.05 Nm, torque_offset_out: -0.4 Nm, support_in: { torque: 0.02 Nm } } }";
+    let analyses = format!("analyses:\n  seen: {{ type: compare, against: [ours/own], quantity: loss, {data} }}\n");
+    let (folder, text) = run("known", &study(&analyses), &[("rig.csv", &csv)]);
+    let path = folder.join("results/seen.json");
+    let value: Value =
+        serde_json::from_str(&std::fs::read_to_string(path).unwrap_or_else(|_| panic!("{text}"))).unwrap();
+    let rms = value["comparisons"][0]["difference"]["rms"].as_f64().unwrap();
+    // Nothing is left but rounding of the flow, a billionth of the power.
+    assert!(rms < 1e-4, "{rms}");
+}
+
+#[test]
+fn temperatures_are_fitted_where_the_model_finds_its_own() {
+    let gearbox = common::file("examples/planetary-reducer/gearbox.yaml");
+    let head = format!(
+        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ set: {{ thermal.heat_dissipation.casing.alpha: 20 W/(m2 K) }} }}\n",
+        gearbox.display()
+    );
+    let grid = "grids: { g: { gear: reducing, torque: [2 Nm, 3 Nm], speed: [1000 rpm, 2000 rpm, 3000 rpm] } }\nanalyses:\n  map: { type: map, grid: g }\n";
+    let (folder, text) = run("map", &(head.clone() + grid), &[]);
+    let map: Value = serde_json::from_str(&std::fs::read_to_string(folder.join("results/map.json")).unwrap()).unwrap();
+    let mut csv =
+        "torque [Nm],speed [rpm],oil_temperature [degC],oil_temperature_accuracy [K],loss [W],loss_accuracy [W]\n"
+            .to_owned();
+    for p in map["maps"][0]["points"].as_array().expect(&text) {
+        let number = |key: &str| p[key].as_f64().unwrap();
+        let _ = writeln!(
+            csv,
+            "{},{},{},1,{},2",
+            number("torque_nm"),
+            number("speed_rpm"),
+            number("oil_temperature_degc"),
+            number("loss_w")
+        );
+    }
+    let analysis = "analyses:
+  warm:
+    type: identify
+    gear: reducing
+    data: { file: rig.csv, stated_as: standard }
+    residuals: [temperature, loss]
+    parameters:
+      alpha: { path: thermal.heat_dissipation.casing.alpha, from: 5 W/(m2 K), to: 60 W/(m2 K), scale: log }
+      viscosity: { path: \"lubricants.*.viscosity.factor\", from: 0.3, to: 3, scale: log }
+";
+    let head = head.replace("alpha: 20 W", "alpha: 35 W");
+    let (folder, text) = run("warm", &(head + analysis), &[("rig.csv", &csv)]);
+    let found = first(&folder, "warm");
+    assert_eq!(found["search"]["status"], "converged", "{text}");
+    near(&found, "alpha", 20.0);
+    near(&found, "viscosity", 1.0);
+    assert_eq!(found["misfit"]["quantities"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn factors_of_accuracies_are_found_and_outliers_pull_less() {
+    let language = language();
+    let (gearbox, study) = (common::rig::gearbox(&language), common::rig::study(&language));
+    let text = std::fs::read_to_string(common::file("examples/two-speed-ev/rig.csv")).unwrap();
+    // Every ninth efficiency is off by five standard deviations or more.
+    let mut spoilt = String::new();
+    for (i, line) in text.lines().enumerate() {
+        let mut cells: Vec<String> = line.split(';').map(str::to_owned).collect();
+        if i > 12 && i % 9 == 0 {
+            let eta: f64 = cells[5].replace(',', ".").parse().unwrap();
+            cells[5] = format!("{:.4}", eta - 6.0).replace('.', ",");
+        }
+        spoilt += &(cells.join(";") + "\n");
+    }
+    let fit = |text: &str, settings: Settings<'_>| {
+        let measured = common::rig::entry(&study).read(text.as_bytes(), &[]).unwrap();
+        let mut identification = common::rig::identification(&language, &gearbox, &study, &measured);
+        identification.fit(&settings).unwrap()
+    };
+    let sound = fit(&text, Settings::default());
+    let distance = |theta: &[f64]| -> f64 {
+        let part = |k: usize| {
+            let parameter = &sound.inference.parameters()[k];
+            let u = parameter.scale.coordinate(theta[k]).unwrap();
+            (u - parameter.u) / sound.inference.deviation(k).unwrap()
+        };
+        (0..8).map(|k| part(k).powi(2)).sum::<f64>().sqrt()
+    };
+    let pulled = fit(&spoilt, Settings::default());
+    let robust = fit(
+        &spoilt,
+        Settings {
+            loss: Loss::Cauchy,
+            ..Settings::default()
+        },
+    );
+    assert!(
+        distance(robust.theta()) < 0.2 * distance(pulled.theta()),
+        "{} {}",
+        distance(robust.theta()),
+        distance(pulled.theta())
+    );
+    assert!(robust.inference.lack_of_fit().is_none() && pulled.inference.lack_of_fit().unwrap().probability < 1e-6);
+    // The same file with accuracies that are stated half as great as they are.
+    let mut half = common::rig::study(&language);
+    let rig = &mut half.measurements.0[0].1.rig;
+    for meter in [rig.torque_in.as_mut().unwrap(), rig.torque_out.as_mut().unwrap()] {
+        meter.percent_of_full_scale *= 0.5;
+    }
+    let measured = common::rig::entry(&half).read(text.as_bytes(), &[]).unwrap();
+    let mut identification = common::rig::identification(&language, &gearbox, &half, &measured);
+    let settings = Settings {
+        accuracy_factors: true,
+        ..Settings::default()
+    };
+    let settled = identification.fit(&settings).unwrap();
+    let variance = sound.inference.objective() / sound.inference.freedom();
+    let (_, factor) = settled.factors[0];
+    // Two, times the scatter of this file; it is settled to one percent.
+    assert!(
+        (factor / (2.0 * variance.sqrt()) - 1.0).abs() < 0.01,
+        "{factor} {variance}"
+    );
+}
+
+#[test]
+fn the_same_bits_on_one_thread_and_on_two() {
+    let csv = losses(
+        &points(&[("lubricants.sump.viscosity.factor", json!(0.8))], &TORQUES, &SPEEDS),
+        1.0,
+    );
+    let study = study(
+        "grids: { g: { gear: first, torque: [5 Nm, 10 Nm], speed: [4000 rpm, 8000 rpm] } }
+analyses:
+  all:
+    type: identify
+    data: { file: rig.csv }
+    residuals: [loss]
+    starts: 3
+    next: { grid: g, points: 2 }
+    parameters:
+      viscosity: { path: lubricants.sump.viscosity.factor, from: 0.3, to: 3, scale: log }
+      mesh: { path: \"meshes.*.loss_factor\", from: 0.5, to: 2 }
+",
+    );
+    let all = ["1", "2"].map(|threads| {
+        let (folder, text) = run_of(&format!("threads-{threads}"), &study, &[("rig.csv", &csv)], threads);
+        std::fs::read_to_string(folder.join("results/all.json")).unwrap_or_else(|_| panic!("{text}"))
+    });
+    assert_eq!(all[0], all[1]);
+}
+
+#[test]
+fn what_the_points_do_not_see_is_told_and_the_rest_is_found() {
+    let csv = losses(&points(&[("meshes.*.loss_factor", json!(1.2))], &TORQUES, &SPEEDS), 1.0);
+    let study = study(
+        "analyses:
+  all:
+    type: identify
+    data: { file: rig.csv, stated_as: standard }
+    residuals: [loss]
+    parameters:
+      mesh: { path: \"meshes.*.loss_factor\", from: 0.5, to: 2 }
+      idle: { path: couplings.S1.loss_factor, from: 0.5, to: 2 }
+      held: { path: \"seals.*.loss_factor\", from: 1, to: 1 }
+",
+    );
+    let (folder, text) = run("unseen", &study, &[("rig.csv", &csv)]);
+    let found = first(&folder, "all");
+    near(&found, "mesh", 1.2);
+    assert_eq!(
+        (&found["parameters"][1]["verdict"], &found["parameters"][2]["verdict"]),
+        (&json!("not_seen"), &json!("held")),
+        "{text}"
+    );
+    assert!(
+        text.contains("`idle` is not seen") && text.contains("`held` is fixed"),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
+    let csv = losses(&points(&[], &[5.0, 10.0], &[4000.0, 8000.0]), 1.0);
+    let mesh = "mesh: { path: \"meshes.*.loss_factor\", from: 0.5, to: 2 }";
+    let bare = "torque [Nm],speed [rpm],loss [W]\n5,4000,90\n10,4000,130\n5,8000,220\n";
+    for (parameters, more, file, place, said) in [
+        (
+            "x: { path: meshes.M9.loss_factor, from: 0, to: 1 }",
+            "",
+            csv.as_str(),
+            "parameters.x.path",
+            "M9",
+        ),
+        (
+            "x: { path: rig.torque_offset, from: 0, to: 1 }",
+            "",
+            &csv,
+            "parameters.x.path",
+            "rig.torque_offset_in",
+        ),
+        (
+            "x: { path: gears.G1.shaft, from: 0, to: 1 }",
+            "",
+            &csv,
+            "parameters.x.path",
+            "is no number",
+        ),
+        (
+            "x: { path: meshes.M1.loss_factor, from: 2, to: 1 }",
+            "",
+            &csv,
+            "parameters.x.to",
+            "the bounds cross",
+        ),
+        (
+            "x: { path: meshes.M1.loss_factor, from: -1, to: 1 }",
+            "",
+            &csv,
+            "parameters.x.from",
+            "leaves what the path allows",
+        ),
+        (
+            "x: { path: meshes.M1.loss_factor, from: 0, to: 1, scale: log }",
+            "",
+            &csv,
+            "parameters.x.scale",
+            "above zero",
+        ),
+        (
+            "x: { path: rig.torque_offset_in }",
+            "",
+            &csv,
+            "parameters.x.path",
+            "add `from: ...`",
+        ),
+        (
+            "x: { path: rig.torque_offset_in, from: 1 mm, to: 2 Nm }",
+            "",
+            &csv,
+            "parameters.x.from",
+            "mend:",
+        ),
+        (
+            "x: { path: lubricants.sump.mu_ehl, from: 0.03, to: 0.2 }",
+            "",
+            &csv,
+            "parameters.x.path",
+            "add `start: ...`",
+        ),
+        (
+            "x: { path: meshes.M1.loss_factor, from: 0.5, to: 2, prior: { deviation: 0 } }",
+            "",
+            &csv,
+            "parameters.x.prior.deviation",
+            "not above zero",
+        ),
+        (
+            "x: { path: meshes.M1.loss_factor, from: 0.5, to: 2, over: { port: input, torques: [1, 2] } }",
+            "",
+            &csv,
+            "parameters.x.over",
+            "no load factor",
+        ),
+        (
+            "x: { path: \"bearings.*.radial_factor\", from: 0.5, to: 2, over: { port: input, torques: [2, 1] } }",
+            "",
+            &csv,
+            "parameters.x.over.torques",
+            "do not rise",
+        ),
+        (
+            "x: { path: meshes.M1.loss_factor, from: 0.5, to: 2 }, z: { path: \"meshes.*.loss_factor\", from: 0.5, to: 2 }",
+            "",
+            &csv,
+            "parameters.z.path",
+            "moves `meshes.M1.loss_factor` too",
+        ),
+        (
+            mesh,
+            "residuals: [temperature],",
+            &csv,
+            "data",
+            "nothing gives a measured oil temperature",
+        ),
+        (
+            mesh,
+            "residuals: [loss, loss_torque],",
+            bare,
+            "data",
+            "count together only by their accuracies",
+        ),
+        (
+            mesh,
+            "",
+            "torque [Nm],speed [rpm],loss [W]\n5,4000,90\n10,4000,NaN\n",
+            "data",
+            "line 3, column 3 `loss`: `NaN` is not a number",
+        ),
+        (
+            mesh,
+            "",
+            "torque [Nm],speed [rpm],loss [W]\n5,4000,\n",
+            "data",
+            "line 2, column 3 `loss`: empty",
+        ),
+        (
+            "a: { path: meshes.M1.loss_factor, from: 0.5, to: 2 }, b: { path: meshes.M2.loss_factor, from: 0.5, to: 2 }",
+            "",
+            "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n5,4000,90,2\n",
+            "data",
+            "1 measured numbers and 0 priors for 2 parameters",
+        ),
+        (mesh, "next: { grid: nowhere },", &csv, "grid", "nowhere"),
+    ] {
+        let residuals = if more.contains("residuals") {
+            ""
+        } else {
+            "residuals: [loss],"
+        };
+        let study = study(&format!(
+            "analyses:\n  all: {{ type: identify, data: {{ file: rig.csv }}, {residuals} {more} parameters: {{ {parameters} }} }}\n"
+        ));
+        let (_, text) = run("faults", &study, &[("rig.csv", file)]);
+        assert!(
+            text.contains(&format!("analyses.all.{place}"))
+                && text.contains(said)
+                && text.contains("mend:")
+                && text.contains("-->"),
+            "{parameters} {more}: {place}: {said}\n{text}"
+        );
+    }
+    let named = study(
+        "analyses:\n  all: { type: identify, data: nowhere, parameters: { x: { path: meshes.M1.loss_factor } } }\n",
+    );
+    let (_, text) = run("named", &named, &[]);
+    assert!(
+        text.contains("analyses.all.data") && text.contains("no measurement"),
+        "{text}"
+    );
+}
