@@ -417,7 +417,7 @@ fn what_the_points_do_not_see_is_told_and_the_rest_is_found() {
 fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
     let csv = losses(&points(&[], &[5.0, 10.0], &[4000.0, 8000.0]), 1.0);
     let mesh = "mesh: { path: \"meshes.*.loss_factor\", from: 0.5, to: 2 }";
-    let bare = "torque [Nm],speed [rpm],loss [W]\n5,4000,90\n10,4000,130\n5,8000,220\n";
+    let bare = "torque [Nm],speed [rpm],loss [W],loss_torque [Nm]\n5,4000,90,0.21\n10,4000,130,0.31\n5,8000,220,0.26\n";
     for (parameters, more, file, place, said) in [
         (
             "x: { path: meshes.M9.loss_factor, from: 0, to: 1 }",
@@ -545,7 +545,36 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "data",
             "1 measured numbers and 0 priors for 2 parameters",
         ),
-        (mesh, "next: { grid: nowhere },", &csv, "grid", "nowhere"),
+        (mesh, "next: { grid: nowhere },", &csv, "next.grid", "nowhere"),
+        (mesh, "residuals: [loss, loss],", &csv, "residuals", "stands here twice"),
+        (
+            mesh,
+            "residuals: [efficiency, loss],",
+            &csv,
+            "residuals",
+            "has no column of its own",
+        ),
+        (
+            "x: { path: \"bearings.*.radial_factor\", from: 0.5, to: 2, over: { port: outptu, torques: [1, 2] } }",
+            "",
+            &csv,
+            "parameters.x.over.port",
+            "outptu",
+        ),
+        (
+            "x: { path: meshes.M1.loss_factor, from: 0.5, to: 2, prior: { mean: 3, deviation: 1 } }",
+            "",
+            &csv,
+            "parameters.x.prior",
+            "is outside of",
+        ),
+        (
+            mesh,
+            "",
+            "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n5,4000,90,2\n10,4000,130,0\n",
+            "data",
+            "line 3: an accuracy of zero",
+        ),
     ] {
         let residuals = if more.contains("residuals") {
             ""

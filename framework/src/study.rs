@@ -254,6 +254,8 @@ pub struct Uses<'a> {
     pub gearbox: Option<&'a String>,
     /// Grid.
     pub grid: Option<&'a String>,
+    /// Key that names it.
+    pub grid_key: &'static str,
     /// Sets of models.
     pub sets: Vec<&'a String>,
     /// Gear states, beside those of the grid.
@@ -267,6 +269,7 @@ impl<'a> Uses<'a> {
         Self {
             gearbox,
             grid: None,
+            grid_key: "grid",
             sets: sets.into_iter().collect(),
             gears: Vec::new(),
             data: Vec::new(),
@@ -325,6 +328,7 @@ impl Analysis {
             },
             Self::Identify(e) => Uses {
                 grid: e.next.as_ref().map(|next| &next.grid),
+                grid_key: "next.grid",
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
                     .at(&e.gear)
                     .with("data", Some(&e.data))

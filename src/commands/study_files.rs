@@ -156,6 +156,7 @@ impl Study {
             let Uses {
                 gearbox,
                 grid,
+                grid_key,
                 sets,
                 gears,
                 data,
@@ -166,7 +167,7 @@ impl Study {
                 }
             }
             if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
-                found.push(dangling(&format!("{path}.grid"), "grid", grid, &grids));
+                found.push(dangling(&format!("{path}.{grid_key}"), "grid", grid, &grids));
             }
             let (_, gearbox) = self.gearbox(&path, gearbox)?;
             let mut built = Vec::new();

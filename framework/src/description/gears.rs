@@ -51,7 +51,8 @@ pub struct GearEntry {
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
-    /// Factor on the drag losses of the gear, for what a model does not know; identification moves it. [-]
+    /// Factor on the drag losses of the gear, for what a model does not know; drags at a mesh take the mean of both gears.
+    /// Identification moves it. [-]
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
@@ -145,7 +146,7 @@ pub struct MeshEntry {
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
-    /// Factor on the losses of the mesh, for what a model does not know; identification moves it. [-]
+    /// Factor on the loss of the teeth in mesh, without drags, for what a model does not know; identification moves it. [-]
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,

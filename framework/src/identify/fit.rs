@@ -17,13 +17,18 @@ const FOUND: f64 = 1e-3;
 const ROUNDS: usize = 10;
 const SETTLED: f64 = 0.01;
 
-/// Remaining shift in standard errors at which a search ends. Loss models have kinks, where a regime or a clamp begins: beside one
-/// derivatives do not settle further, and no interval would change.
+/// Remaining shift in standard errors at which a search ends.
 const REMAINING: f64 = 1e-3;
-/// Relative step at which a search ends: at a kink no direction lowers the misfit, and the predictions of derivatives are never met.
-const SMALLEST: f64 = 1e-6;
-/// Relative noise of residuals beside their optimum, as searches from far find it: the remaining change of the iterated flow of power.
-const NOISE: f64 = 1e-8;
+/// Relative noise of the residuals: the remaining change of the iterated flow of power.
+const NOISE: f64 = 1e-9;
+/// The same for a search: jumps of published laws make the misfit uneven. A search ends where derivatives promise a fall that is a
+/// thousand times this share of the misfit or less, in the worst case a fifth of a standard error along one combination.
+const UNEVEN: f64 = 1e-7;
+/// Jumps of single residuals over all: published laws change at a regime without meeting, by a percent of one component's loss. Steps
+/// of differences are a hundredth of usual sizes, so that a jump inside of one is no slope.
+const JUMPS: f64 = 1e-6;
+/// Relative step at which a search ends: beside a jump no direction lowers the misfit, and what derivatives promise is never met.
+const SMALLEST: f64 = 1e-5;
 
 /// A hook that says whether to stop.
 type Interrupt<'s> = Option<&'s (dyn Fn() -> bool + Sync)>;
@@ -87,8 +92,8 @@ impl Settings<'_> {
             loss: self.loss,
             loss_scale: self.loss_scale,
             estimate_spread: accuracy == inference::Accuracy::Estimated,
-            // The flow of power is iterated, and a balance of heat may be.
-            noise: Noise::Estimated,
+            noise: Noise::Known(UNEVEN),
+            jumps: JUMPS,
             interrupt: self.interrupt,
             ..Options::fit()
         };
@@ -106,12 +111,30 @@ impl Identification<'_> {
     /// If the problem makes no sense, or the end of the search says nothing of the parameters.
     pub fn fit(&mut self, settings: &Settings<'_>) -> Result<Fitted, Fault> {
         let options = settings.options(self.accuracy);
-        let minima = multistart(&self.problem(), &options, settings.starts.max(1))?;
+        let mut minima = multistart(&self.problem(), &options, settings.starts.max(1))?;
+        for minimum in &mut minima.minima {
+            self.keep_unseen(&mut minimum.fit);
+        }
         let mut fitted = self.fitted(minima, &options)?;
         if settings.accuracy_factors && self.accuracy == inference::Accuracy::Given {
             self.settle(&mut fitted, &options)?;
         }
         Ok(fitted)
+    }
+
+    /// What no residual depends on stays where the search of the user began, whichever start led to the minimum.
+    fn keep_unseen(&self, fit: &mut crate::least_squares::Fit) {
+        let Some(derivative) = &fit.derivative else { return };
+        let start = self.start();
+        for (k, parameter) in self.parameters.iter().enumerate() {
+            if derivative.unseen[k] && !fit.fixed[k] {
+                fit.theta[k] = start[k];
+                fit.u[k] = match parameter.fitted().scale {
+                    Scale::Linear => start[k],
+                    Scale::Log => start[k].ln(),
+                };
+            }
+        }
     }
 
     /// Finds factors of the accuracies: the scatter of each quantity, less what its points have lost to the parameters.
@@ -261,6 +284,7 @@ impl Identification<'_> {
             // It begins near its end, and a hundredth of a standard error raises the misfit by no more than a thousandth.
             differences: Differences::Forward,
             noise: Noise::Known(NOISE),
+            jumps: JUMPS,
             attempts: false,
             interrupt,
             ..Options::fit()
@@ -309,7 +333,6 @@ impl Identification<'_> {
             let partial = Problem::new(partial, problem.parameters().to_vec());
             let mut options = settings.options(self.accuracy);
             options.differences = Differences::Forward;
-            options.noise = Noise::Known(NOISE);
             options.attempts = false;
             let fit = solve(&partial, &options).map_err(|fault| fault.to_string())?;
             if fit.status == Status::Interrupted {

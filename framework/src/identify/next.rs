@@ -9,8 +9,8 @@ use crate::measured::{Measured, Row, Seen};
 use crate::sensitivity::gradients;
 use crate::study::Quantity;
 
-/// Relative noise of the calculated points: that of the iterated flow of power.
-const NOISE: f64 = 1e-10;
+/// Relative noise of the calculated points: jumps of published laws.
+const NOISE: f64 = 1e-6;
 /// Draws from the joint region at which the plan is made again, and its confidence.
 const DRAWS: (u32, f64) = (5, 0.95);
 
@@ -34,7 +34,7 @@ pub struct NextPlan {
     pub deviations: Vec<f64>,
     /// Gain of measuring each candidate once, alone.
     pub gains: Vec<f64>,
-    /// Candidates of the plan that plans for other parameters of the joint region lack; a number for each such plan.
+    /// Candidates of the plan that plans for other parameters of the joint region lack at least once, with the number of such plans.
     pub lacking: Vec<(usize, usize)>,
     /// Plans for other parameters that could be made.
     pub others: usize,
@@ -102,7 +102,8 @@ impl Identification<'_> {
             // A draw may lie where the gearbox has no value: the plan is then about the others.
             let Ok((other, _)) = plan(&u) else { continue };
             others += 1;
-            for candidate in best.lacking_in(&other) {
+            let lacking_here: std::collections::BTreeSet<usize> = best.lacking_in(&other).into_iter().collect();
+            for candidate in lacking_here {
                 *lacking.entry(candidate).or_insert(0) += 1;
             }
         }

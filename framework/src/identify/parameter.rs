@@ -209,9 +209,21 @@ impl Identified {
             fault(
                 &place(&format!("prior.{key}")),
                 reason,
-                "write `prior: { mean: 0 Nm, deviation: 0.01 Nm }`, say",
+                "write a quantity of the path above zero; for `scale: log` a number, relative to the mean",
             )
         })?;
+        if let Some(prior) = prior.filter(|p| p.mean < bounds[0] || p.mean > bounds[1]) {
+            return Err(fault(
+                &place("prior"),
+                format!(
+                    "its mean, {}, is outside of {} to {}",
+                    said(prior.mean),
+                    said(bounds[0]),
+                    said(bounds[1])
+                ),
+                "widen the bounds, or correct the mean",
+            ));
+        }
         let one = Self {
             name: name.to_owned(),
             path: entry.path.clone(),

@@ -88,6 +88,15 @@ impl<'a> Identification<'a> {
         if parameters.is_empty() && found.is_empty() {
             found.push(Diagnostic::error("parameters", "there is nothing to identify").mend("name a parameter"));
         }
+        for parameter in &parameters {
+            if let Target::Over { port, .. } = &parameter.target
+                && let Err(error) = built[0].1.port(port)
+            {
+                let path = format!("parameters.{}.over.port", parameter.base_name());
+                found.push(Diagnostic { path, ..error });
+                break;
+            }
+        }
         if !found.is_empty() {
             return Err(Faults::Study(found));
         }
@@ -254,9 +263,41 @@ impl<'a> Identification<'a> {
         Problem::new(|theta: &[f64]| self.residuals(theta), parameters)
     }
 
+    /// Refuses quantities that follow from the same measured numbers.
+    fn counted_once(&self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
+        let wrong = |message: String, mend: &str| Err(vec![Diagnostic::error("residuals", message).mend(mend)]);
+        let powers: Vec<Quantity> = residuals
+            .iter()
+            .copied()
+            .filter(|q| *q != Quantity::Temperature)
+            .collect();
+        for (i, quantity) in residuals.iter().enumerate() {
+            let what = quantity.words(crate::study::Difference::Points).0;
+            if residuals[..i].contains(quantity) {
+                return wrong(format!("the {what} stands here twice"), "name every quantity once");
+            }
+            let column = match quantity {
+                Quantity::Efficiency => "efficiency",
+                Quantity::Loss => "loss",
+                Quantity::LossTorque => "loss_torque",
+                Quantity::Temperature => continue,
+            };
+            if powers.len() > 1 && !self.rows.measured.holds(column) {
+                let message =
+                    format!("the {what} has no column of its own: it follows from the same numbers as the others");
+                return wrong(
+                    message,
+                    "name one of efficiency, loss and loss torque, or give each its column",
+                );
+            }
+        }
+        Ok(())
+    }
+
     /// Chooses what is fitted, with its standard deviations at the start.
     fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
         let data = |message: String, mend: &str| vec![Diagnostic::error("data", message).mend(mend)];
+        self.counted_once(residuals)?;
         let start = self.calculate(&self.start());
         let start = start.map_err(|reason| data(reason, "begin with other values"))?;
         let measured = self.rows.measured;
@@ -274,7 +315,14 @@ impl<'a> Identification<'a> {
                 }
                 drowned += usize::from(drowns);
                 let unit = if quantity == Quantity::Efficiency { 0.01 } else { 1.0 };
-                let accuracy = seen.accuracy(quantity).filter(|a| *a > 0.0);
+                let accuracy = seen.accuracy(quantity);
+                if accuracy == Some(0.0) {
+                    let message = format!("line {}: an accuracy of zero", row.line);
+                    return Err(data(
+                        message,
+                        "state how accurate the instruments are, or leave all accuracies out",
+                    ));
+                }
                 let observation = Observation {
                     row: i,
                     quantity,
@@ -292,6 +340,15 @@ impl<'a> Identification<'a> {
                     Diagnostic::error("residuals", "the temperature of the oil is given, not calculated")
                         .mend("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
                 ]);
+            }
+            let below = |(o, _): &&(Observation, Option<f64>)| {
+                let row = &measured.rows[o.row];
+                let loss = Seen::on(&start.rig, measured, row, start.point(o.row)).loss;
+                loss.is_some_and(|loss| loss < 0.0)
+            };
+            let below = found[before..].iter().filter(below).count();
+            if below > 0 && *quantity != Quantity::Temperature {
+                self.notes.push(format!("{below} measured losses are below zero"));
             }
             if drowned > 0 {
                 self.notes.push(format!(

@@ -5,8 +5,8 @@ use crate::inference::{Breakdown, Derived, ProfileInterval, Reach, Standing, hul
 use crate::sensitivity::gradients;
 use crate::transmission::Transmission;
 
-/// Relative noise of the calculated losses: that of the iterated flow of power.
-const NOISE: f64 = 1e-10;
+/// Relative noise of the calculated losses: jumps of published laws.
+const NOISE: f64 = 1e-6;
 /// Half-width of a 95 % band in standard deviations.
 const DEVIATIONS: f64 = 1.959_963_985;
 

@@ -38,6 +38,8 @@ pub struct Fit {
     priors: usize,
     pub(super) objective: f64,
     pub(super) variance: f64,
+    /// Standard deviation of a residual.
+    pub(super) scatter: f64,
     /// Whether outliers pull less: the objective then follows no chi-square.
     pub(super) robust: bool,
 }
@@ -101,6 +103,7 @@ impl Fit {
             accuracy,
             root: DMatrix::zeros(0, 0),
             robust: false,
+            scatter: variance.sqrt(),
             norms,
             gradient,
             residuals: residuals[..rows - priors].to_vec(),
@@ -134,6 +137,11 @@ impl Fit {
         self.accuracy
     }
 
+    /// Whether outliers pull less.
+    pub fn is_robust(&self) -> bool {
+        self.robust
+    }
+
     /// Residuals of the points, without those of priors.
     pub fn residuals(&self) -> &[f64] {
         &self.residuals
@@ -159,7 +167,12 @@ impl Fit {
         (self.residuals.len() + self.priors) as f64 - self.factors.resolved as f64
     }
 
-    /// Variance of a residual: one where the accuracies are given, else estimated.
+    /// Standard deviation of a residual: one where the accuracies are given, else estimated; under a robust loss by the median.
+    pub fn scatter(&self) -> f64 {
+        self.scatter
+    }
+
+    /// Variance by which the covariance is scaled: one where the accuracies are given, else estimated.
     pub fn variance(&self) -> f64 {
         self.variance
     }

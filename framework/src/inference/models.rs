@@ -75,7 +75,8 @@ impl Comparison {
 
     /// What there is to say of two models with these names.
     pub fn words(&self, first: &str, second: &str) -> String {
-        if self.is_indistinguishable() {
+        let far = self.difference.abs() >= DIFFERENCE;
+        if self.is_indistinguishable() && !far {
             return format!("the points do not tell {first} and {second} apart");
         }
         let [better, other] = if self.difference < 0.0 {
@@ -83,6 +84,11 @@ impl Comparison {
         } else {
             [second, first]
         };
+        if self.is_indistinguishable() {
+            return format!(
+                "{better} describes the points better than {other}, but does not predict bands of torque that were left out better"
+            );
+        }
         format!("{better} describes the points better than {other}")
     }
 }
@@ -156,6 +162,8 @@ mod tests {
             "a describes the points better than c"
         );
         assert!(Comparison::of(&a, &near).words("a", "b").contains("do not tell"));
+        let both = Comparison::of(&a, &scattered).words("a", "d");
+        assert!(both.starts_with("a describes the points better than d, but"), "{both}");
         assert_eq!(ranking(&[a, near, far, scattered]), [3, 1, 0, 2]);
         assert!(ranking(&[]).is_empty());
     }

@@ -20,8 +20,8 @@ impl Fit {
     /// whatever they say.
     pub fn standardised(&self) -> Vec<f64> {
         let of = |(r, h): (&f64, &f64)| {
-            let variance = self.variance() * (1.0 - h);
-            if variance > MET * self.variance() {
+            let variance = self.scatter().powi(2) * (1.0 - h);
+            if variance > MET * self.scatter().powi(2) {
                 r / variance.sqrt()
             } else {
                 0.0

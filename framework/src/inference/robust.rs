@@ -78,6 +78,9 @@ impl Fit {
         let mut fit = Self::new(parameters, &curved, residuals, priors, accuracy)?;
         fit.robust = true;
         fit.variance = 1.0;
+        if accuracy == Accuracy::Estimated {
+            fit.scatter = scatter(&residuals[..data]);
+        }
         fit.objective = rows.objective + residuals[data..].iter().map(|r| r * r).sum::<f64>();
         for (k, gradient) in fit.gradient.iter_mut().enumerate() {
             let slope = |i: usize| rows.slope.get(i).copied().unwrap_or(residuals[i]);
@@ -100,6 +103,22 @@ impl Fit {
         }
         Ok(fit)
     }
+}
+
+/// Standard deviation of residuals by the median of their distances from the median; 1 where most are equal.
+fn scatter(residuals: &[f64]) -> f64 {
+    let median = |mut list: Vec<f64>| {
+        list.sort_by(f64::total_cmp);
+        let half = list.len() / 2;
+        match list.len() {
+            0 => 0.0,
+            n if n % 2 == 1 => list[half],
+            _ => 0.5 * (list[half - 1] + list[half]),
+        }
+    };
+    let middle = median(residuals.to_vec());
+    let spread = 1.4826 * median(residuals.iter().map(|r| (r - middle).abs()).collect());
+    if spread > 0.0 { spread } else { 1.0 }
 }
 
 /// The inverse transpose of the factor of B, times A: its product with itself is A B^-1 A. Absent where B has no inverse.

@@ -67,6 +67,11 @@ pub struct Determination {
 impl Fit {
     /// What the data say of a parameter.
     pub fn determination(&self, parameter: usize) -> Determination {
+        self.determination_widened(parameter, 1.0)
+    }
+
+    /// As [`Fit::determination`], where checks of the residuals say that intervals are too small by a factor.
+    pub fn determination_widened(&self, parameter: usize, widening: f64) -> Determination {
         let mut found = Determination {
             verdict: Verdict::Held,
             width: None,
@@ -87,8 +92,8 @@ impl Fit {
         let quantile = self.quantile(CONFIDENCE).unwrap_or(f64::MAX);
         let alone = self.variance().sqrt() / self.column(parameter);
         let deviation = self.deviation(parameter);
-        found.width = deviation.map(|d| quantile * d / range);
-        found.alone = Some(quantile * alone / range).filter(|w| w.is_finite());
+        found.width = deviation.map(|d| widening * quantile * d / range);
+        found.alone = Some(widening * quantile * alone / range).filter(|w| w.is_finite());
         found.own = match deviation {
             Some(d) if d > 0.0 => (alone / d).min(1.0),
             // Without any scatter every parameter is known exactly.

@@ -43,6 +43,8 @@ pub(super) struct Context<'a> {
     pub robust: Robust,
     /// Relative noise of one call.
     pub noise: f64,
+    /// The same for steps of differences, which jumps make longer.
+    pub rough: f64,
     /// Whether the noise leaves central differences no digits, so that one-sided ones end the run.
     pub noisy: bool,
 }
@@ -111,7 +113,7 @@ impl Run<'_> {
         loop {
             let differences = Differences {
                 evaluator,
-                noise: context.noise,
+                noise: context.rough,
                 central: self.central,
             };
             let jacobian = match differences.jacobian(&self.point.u, &self.point.r) {

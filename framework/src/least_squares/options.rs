@@ -78,6 +78,9 @@ pub struct Options<'a> {
     pub differences: Differences,
     /// Relative noise of one call.
     pub noise: Noise,
+    /// Jumps of single residuals over the whole, where the law behind them changes: steps of differences are chosen as for a noise
+    /// of this size, while changes of the cost are trusted as before. 0 where there are none. \[-\]
+    pub jumps: f64,
     /// Where runs with one-sided differences stop.
     pub forward: Tolerances,
     /// Where runs with central differences stop.
@@ -112,6 +115,7 @@ impl Options<'_> {
             subproblem: Subproblem::Cone,
             differences: Differences::Switched,
             noise: Noise::Rounding,
+            jumps: 0.0,
             forward: Tolerances {
                 first_order: 1e-6,
                 relative_offset: 0.0,

@@ -69,6 +69,7 @@ pub(super) fn solve_from(problem: &Problem<'_>, options: &Options<'_>, space: &S
             rows: evaluator.rows,
         },
         noise,
+        rough: noise.max(options.jumps),
         noisy: noise > NOISIEST,
     };
     let mut record = Record::default();
@@ -153,7 +154,7 @@ impl Context<'_> {
         if end.jacobian.is_none() && end.reason != Reason::Interrupted {
             let differences = Differences {
                 evaluator: self.evaluator,
-                noise: self.noise,
+                noise: self.rough,
                 central: true,
             };
             end.jacobian = differences.jacobian(u, r).ok();

@@ -46,7 +46,8 @@ pub struct IdentifyEntry {
     #[serde(default = "folds")]
     #[schemars(range(min = 0, max = 20))]
     pub folds: u32,
-    /// Torque of the points whose losses are stacked beside the measured total; absent, the middle one. [Nm]
+    /// Torque of the points whose losses are stacked beside the measured total; absent, those nearest to half of the
+    /// greatest. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub stack_at: Option<f64>,
     /// What to measure next.

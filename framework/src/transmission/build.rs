@@ -466,11 +466,13 @@ fn drags(
             mates: [mates(a, meshes), mates(b, meshes)],
             count: mesh.count,
         };
+        let factor = |gear: usize| entry.gears.0[gear].1.loss_factor;
         let both = part(entry, body(&gears[a], a, mesh), Some(body(&gears[b], b, mesh)));
         let common = Common {
             lubricant: written.lubricant.clone(),
             temperature_offset: written.temperature_offset,
-            loss_factor: written.loss_factor,
+            // What brakes both gears at the mesh is their drag, not the loss of the mesh.
+            loss_factor: 0.5 * (factor(a) + factor(b)),
             ..Common::default()
         };
         // A model asked once for each mesh may meet a gear in several meshes without counting it twice: what it covers

@@ -32,6 +32,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let built = runner.built(gearbox, &entry.model_sets)?;
     let mut outcomes: Vec<Outcome<'_>> = Vec::new();
+    let mut moved: Vec<String> = Vec::new();
     for b in &built {
         let rows = runner.rows(&measured, &entry.bind, entry.gear.as_deref(), false);
         let choice = runner.study.choice(b.set());
@@ -57,9 +58,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
             }
         })?;
         for parameter in identification.parameters() {
-            if parameter.paths().len() > 1 {
-                let paths = parameter.paths().join(", ");
-                out.line(format!("{name}: `{}` moves {paths}", parameter.name))?;
+            let line = format!("{name}: `{}` moves {}", parameter.name, parameter.paths().join(", "));
+            // Sets that move the same need not say so again.
+            if parameter.paths().len() > 1 && !moved.contains(&line) {
+                out.line(&line)?;
+                moved.push(line);
             }
         }
         for note in identification.notes() {

@@ -79,8 +79,13 @@ fn conditions(runner: &Runner<'_>) -> String {
 /// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that
 /// the analyses use.
 fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<GearboxPage, Failure> {
-    let resolved = gearbox.resolve(runner.language, &runner.study.choice(None))?;
-    let transmission = gearbox.build(runner.language, &resolved)?;
+    let sets = sets(runner, name, first);
+    // Overrides may be meant for the models of a set, which the own models of the gearbox do not take.
+    let own = runner.built(gearbox, &[]).or_else(|fault| match &sets[..] {
+        [] => Err(fault),
+        [first, ..] => runner.built(gearbox, std::slice::from_ref(first)),
+    })?;
+    let (resolved, transmission) = (&own[0].resolved, &own[0].transmission);
     let text = |key: &str| {
         resolved
             .value
@@ -94,7 +99,6 @@ fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Resu
         .get("assumed")
         .and_then(|list| serde_json::from_value(list.clone()).ok())
         .unwrap_or_default();
-    let sets = sets(runner, name, first);
     let built = runner.built(gearbox, &sets)?;
     let point = point::page(runner, &built, &assumed);
     Ok(GearboxPage {
@@ -103,8 +107,8 @@ fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Resu
         point_tables: point.map(|p| p.tables).unwrap_or_default(),
         title: text("title"),
         source: text("source"),
-        drawing: schematic(&transmission, &resolved.value),
-        tables: vec![gears(&transmission), meshes(&transmission), states(&transmission)],
+        drawing: schematic(transmission, &resolved.value),
+        tables: vec![gears(transmission), meshes(transmission), states(transmission)],
         assumed,
         resolved: serde_saphyr::to_string(&resolved.value).unwrap_or_default(),
     })

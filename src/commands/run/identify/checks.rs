@@ -11,6 +11,9 @@ use super::lines::{Sheet, of_residuals};
 /// Probability of a test below which it is told.
 const SUSPECT: f64 = 0.01;
 
+/// Ratio of mean squares from which on repeated points are copies, which say nothing.
+const MOST: f64 = 1e6;
+
 /// What the residuals of a fit say against it.
 pub struct Checks {
     pub lack: Option<LackOfFit>,
@@ -64,7 +67,8 @@ impl Checks {
             format!("{noun} {}{more}", shown.join(", "))
         };
         let mut words: Vec<String> = self.lack.and_then(|lack| lack.words()).into_iter().collect();
-        if let Some(pure) = self.pure.filter(|pure| pure.probability < SUSPECT) {
+        let pure = self.pure.filter(|pure| pure.probability < SUSPECT && pure.ratio < MOST);
+        if let Some(pure) = pure {
             words.push(format!(
                 "repeated points scatter {:.2} times less than the rest: it is the model that misses, not the rig",
                 pure.ratio.sqrt()
@@ -89,11 +93,14 @@ impl Checks {
             let far = means.iter().filter(|band| band.mean.abs() > 1.5 * band.limit);
             if let Some(worst) = far.max_by(|a, b| (a.mean / a.limit).abs().total_cmp(&(b.mean / b.limit).abs())) {
                 let side = if worst.mean > 0.0 { "above" } else { "below" };
+                let [from, to] = worst.band;
+                let place = if to - from < 0.005 * to.abs() {
+                    format!("at {to:.0}")
+                } else {
+                    format!("from {from:.0} to {to:.0}")
+                };
                 words.push(format!(
-                    "from {:.0} to {:.0} {unit} the model lies {side} the points: {:.2} standard deviations on average, +-{:.2} \
-                     by chance",
-                    worst.band[0],
-                    worst.band[1],
+                    "{place} {unit} the model lies {side} the points: {:.2} standard deviations on average, +-{:.2} by chance",
                     worst.mean.abs(),
                     worst.limit
                 ));

@@ -2,7 +2,7 @@
 
 use gearloss_framework::analysis::{Note, notes};
 use gearloss_framework::identify::{Calculated, Fitted, Identification, Pair, Profiled, Settings, ShareBands};
-use gearloss_framework::inference::{Fold, Validation};
+use gearloss_framework::inference::{Fold, Succession, Validation};
 use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
 
 use super::super::{Built, Runner};
@@ -122,8 +122,19 @@ impl<'a> Outcome<'a> {
         list
     }
 
-    /// Factor by which intervals are too small at least, where the model does not reproduce the points.
+    /// Factor by which intervals are too small, where the model does not reproduce the points or neighbours err together: the
+    /// greater of the two.
     pub fn widening(&self) -> Option<f64> {
-        self.checks.lack.and_then(|lack| lack.widening())
+        let lack = self.checks.lack.and_then(|lack| lack.widening());
+        let together = self
+            .checks
+            .succession
+            .filter(Succession::is_suspect)
+            .map(|s| s.widening());
+        [lack, together]
+            .into_iter()
+            .flatten()
+            .filter(|w| *w > 1.0)
+            .reduce(f64::max)
     }
 }

@@ -172,7 +172,8 @@ fn stacks(name: &str, entry: &IdentifyEntry, o: &Outcome<'_>) -> Vec<(String, Fi
     let mut figures = Vec::new();
     for (number, sheet) in o.sheets.iter().enumerate() {
         let lines = sheet.lines(measured);
-        let wanted = entry.stack_at.unwrap_or_else(|| lines[lines.len() / 2].0);
+        let most = lines.iter().map(|(torque, _)| *torque).fold(0.0, f64::max);
+        let wanted = entry.stack_at.unwrap_or(0.5 * most);
         let nearest = lines
             .iter()
             .min_by(|a, b| (a.0 - wanted).abs().total_cmp(&(b.0 - wanted).abs()));
@@ -290,9 +291,11 @@ fn joint(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
             let angle = std::f64::consts::TAU * f64::from(i) / f64::from(BORDER);
             let (x, y) = (angle.cos(), angle.sin());
             let along = correlation * x + (1.0 - correlation * correlation).max(0.0).sqrt() * y;
+            let inside =
+                |p: &gearloss_framework::inference::Parameter, u: f64| p.scale.theta(u.clamp(p.bounds[0], p.bounds[1]));
             Some((
-                one.scale.theta(one.u + radius * a * x),
-                other.scale.theta(other.u + radius * b * along),
+                inside(one, one.u + radius * a * x),
+                inside(other, other.u + radius * b * along),
             ))
         };
         let units = [*j, *k].map(|k| o.identification.parameters()[k].unit.symbol);

@@ -88,14 +88,14 @@ fn misfit(o: &Outcome<'_>) -> Value {
         "degrees_of_freedom": o.fitted.inference.freedom(),
         "probability": lack.map(|l| l.probability),
         "widening": o.widening(),
-        "standard_deviation_of_residuals": o.fitted.inference.variance().sqrt(),
+        "standard_deviation_of_residuals": o.fitted.inference.scatter(),
     })
 }
 
 fn parameter(o: &Outcome<'_>, k: usize) -> Value {
     let inference = &o.fitted.inference;
     let (parameter, of) = (&o.identification.parameters()[k], &inference.parameters()[k]);
-    let found = inference.determination(k);
+    let found = inference.determination_widened(k, o.widening().unwrap_or(1.0));
     let interval = inference.interval(k, 0.95, 1.0);
     let names =
         |list: &[usize]| -> Vec<&str> { list.iter().map(|k| inference.parameters()[*k].name.as_str()).collect() };

@@ -14,6 +14,8 @@ const CONDITION: [f64; 2] = [30.0, 1000.0];
 /// Singular value of columns times range above which a combination is resolved: a 95 % half-width under half of the range.
 pub const RESOLVED: f64 = 4.0;
 
+/// Remaining shift in standard errors that is told.
+const LEFT: f64 = 0.02;
 /// Residual below which nothing but rounding is left.
 const ROUNDING: f64 = 1e-6;
 
@@ -49,7 +51,7 @@ pub fn show(
     parameters(o, out)?;
     let inference = &o.fitted.inference;
     for (k, parameter) in inference.parameters().iter().enumerate() {
-        let found = inference.determination(k);
+        let found = inference.determination_widened(k, o.widening().unwrap_or(1.0));
         if found.verdict != Verdict::WellDetermined {
             out.line(format!("`{}` {}", parameter.name, inference.sentence(k)))?;
         }
@@ -110,15 +112,30 @@ fn search(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         (1, _) => String::new(),
         (starts, 1) => format!("; all {starts} starts lead there"),
         (starts, several) => format!(
-            "; {} of {starts} starts lead there, the others to {} worse minima or equal ones",
+            "; {} of {starts} starts lead there, the others to {}",
             minima.minima[0].starts.len(),
-            several - 1
+            if several == 2 {
+                "another minimum".to_owned()
+            } else {
+                format!("{} other minima", several - 1)
+            }
         ),
     };
     out.line(format!(
         "search {ended} after {} steps and {} evaluations of all points{many}",
         fit.counts.steps, minima.evaluations
     ))?;
+    let left = fit
+        .log
+        .last()
+        .and_then(|step| step.relative_offset)
+        .filter(|left| *left > LEFT);
+    if let Some(left) = left.filter(|_| fit.converged()) {
+        out.line(format!(
+            "the search ends beside a jump of a law: derivatives point {} standard errors further, where the misfit is no smaller",
+            short(left)
+        ))?;
+    }
     for note in fit.notes.iter().chain(&minima.notes) {
         out.line(format!("note: {note}"))?;
     }
@@ -159,13 +176,22 @@ fn misfit(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> Re
     let inference = &o.fitted.inference;
     match (inference.accuracy(), &o.checks.lack) {
         (Accuracy::Given, Some(lack)) => out.line(format!(
-            "sum of squares over the stated accuracies {:.1} at {:.0} degrees of freedom, p = {:.3}",
-            lack.objective, lack.freedom, lack.probability
+            "sum of squares over the stated accuracies {:.1} at {:.0} degrees of freedom, {}",
+            lack.objective,
+            lack.freedom,
+            if lack.probability < 0.001 {
+                "p < 0.001".to_owned()
+            } else {
+                format!("p = {:.3}", lack.probability)
+            }
         ))?,
         (Accuracy::Given, None) => {}
         (Accuracy::Estimated, _) => out.line(format!(
-            "no accuracy is stated: intervals follow from the scatter, {} (residuals as above)",
-            short(inference.variance().sqrt())
+            "no accuracy is stated: intervals follow from the scatter of the points, {}{}",
+            short(inference.scatter()),
+            o.quantities()
+                .first()
+                .map_or_else(String::new, |q| format!(" {}", q.words(Difference::Points).1))
         ))?,
     }
     Ok(())
@@ -210,13 +236,26 @@ fn parameters(o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
                 };
                 format!("{}{remark}", span(profile.theta))
             }
-            Some(Err(reason)) => reason.clone(),
+            Some(Err(_)) => "failed".to_owned(),
             None => "-".to_owned(),
         });
-        row.push(verdict(inference.determination(k).verdict));
+        row.push(verdict(
+            inference.determination_widened(k, o.widening().unwrap_or(1.0)).verdict,
+        ));
         table.row(row);
     }
     out.text(&table.render())?;
+    for (k, profile) in o.profiles.iter().enumerate() {
+        if let Some(Err(reason)) = profile {
+            out.line(format!(
+                "no profile of `{}`: {reason}",
+                o.identification.parameters()[k].name
+            ))?;
+        }
+    }
+    if o.fitted.inference.is_robust() {
+        out.line("a robust loss has no intervals by profile")?;
+    }
     Ok(())
 }
 
@@ -268,11 +307,20 @@ fn next(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, o: &Outcome<'_>,
         "gain",
         "hangs on the parameters",
     ]);
-    for (place, choice) in plan.choices.iter().enumerate() {
+    let mut place = 0;
+    for group in plan.choices.chunk_by(|a, b| a.candidate == b.candidate) {
+        let choice = &group[0];
         let at = &next.candidates[choice.candidate];
+        let first = place + 1;
+        place += group.len();
+        let measure = if group.len() == 1 {
+            first.to_string()
+        } else {
+            format!("{first} to {place}")
+        };
         let lacking = next.plan.lacking.iter().find(|(c, _)| *c == choice.candidate);
         table.row(vec![
-            (place + 1).to_string(),
+            measure,
             short(at.torque),
             format!("{:.0}", at.speed * RPM),
             at.oil.map_or_else(|| "-".to_owned(), short),

@@ -202,7 +202,10 @@ fn parameters(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Out
             ]);
             cells.extend([0, 1].map(|e| cell(interval.map(|i| i[e]))));
             cells.extend([0, 1].map(|e| cell(profile.map(|p| p.theta[e]))));
-            cells.extend([verdict(inference.determination(k).verdict), inference.sentence(k)]);
+            cells.extend([
+                verdict(inference.determination_widened(k, o.widening().unwrap_or(1.0)).verdict),
+                inference.sentence(k),
+            ]);
             table.push(&cells)?;
         }
     }
@@ -255,6 +258,11 @@ fn values(name: &str, o: &Outcome<'_>) -> String {
     text.push_str("conditions:\n  set:\n");
     let mut any = false;
     for (i, (parameter, value)) in parameters.iter().zip(theta).enumerate() {
+        // What the points do not see at all is as it was.
+        if o.fitted.inference.column(i) == 0.0 {
+            let _ = writeln!(text, "    # not seen: {}", parameter.name);
+            continue;
+        }
         any |= !matches!(parameter.target, Target::Rig(_));
         match &parameter.target {
             Target::Path(varied) => {
