@@ -79,8 +79,10 @@ impl Fitted {
 /// An interval by profile, or why there is none.
 pub type Profiled = Result<ProfileInterval, String>;
 
-impl Settings<'_> {
-    fn options(&self, accuracy: inference::Accuracy) -> Options<'_> {
+impl<'s> Settings<'s> {
+    /// With what the search is called, for those who call it themselves: on [`Identification::problem`], say, with every call
+    /// noted down.
+    pub fn options(&self, accuracy: inference::Accuracy) -> Options<'s> {
         let mut options = Options {
             loss: self.loss,
             loss_scale: self.loss_scale,
