@@ -86,20 +86,26 @@ impl Fitted {
 /// An interval by profile, or why there is none.
 pub type Profiled = Result<ProfileInterval, String>;
 
-impl Settings<'_> {
-    fn options(&self, accuracy: inference::Accuracy) -> Options<'_> {
+impl<'s> Settings<'s> {
+    /// With what the search is called, for those who call it themselves: on [`Identification::problem`], say, with every call
+    /// noted down.
+    pub fn options(&self, accuracy: inference::Accuracy) -> Options<'s> {
         let mut options = Options {
             loss: self.loss,
             loss_scale: self.loss_scale,
             estimate_spread: accuracy == inference::Accuracy::Estimated,
+            // Central differences are taken once, at the end, for the intervals.
+            differences: Differences::Forward,
             noise: Noise::Known(UNEVEN),
             jumps: JUMPS,
             interrupt: self.interrupt,
             ..Options::fit()
         };
-        options.central.relative_offset = REMAINING;
-        options.central.step = SMALLEST;
-        options.central.cost = SMALLEST * SMALLEST;
+        options.forward.relative_offset = REMAINING;
+        options.forward.step = SMALLEST;
+        options.forward.cost = SMALLEST * SMALLEST;
+        // A tenth of a step tells no curvature where laws have kinks.
+        options.steps.second_order = false;
         options
     }
 }
@@ -332,7 +338,6 @@ impl Identification<'_> {
             };
             let partial = Problem::new(partial, problem.parameters().to_vec());
             let mut options = settings.options(self.accuracy);
-            options.differences = Differences::Forward;
             options.attempts = false;
             let fit = solve(&partial, &options).map_err(|fault| fault.to_string())?;
             if fit.status == Status::Interrupted {
