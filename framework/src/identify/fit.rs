@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::Identification;
 use crate::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation, folds};
 use crate::least_squares::{
-    Differences, Fault, Loss, Minima, Noise, Options, Problem, Scale, Status, multistart, solve,
+    Differences, Fault, Loss, Minima, Noise, Options, Problem, Reason, Scale, Status, multistart, solve,
 };
 use crate::study::Quantity;
 
@@ -25,8 +25,10 @@ const NOISE: f64 = 1e-9;
 /// thousand times this share of the misfit or less, in the worst case a fifth of a standard error along one combination.
 const UNEVEN: f64 = 1e-7;
 /// Jumps of single residuals over all: published laws change at a regime without meeting, by a percent of one component's loss. Steps
-/// of differences are a hundredth of usual sizes, so that a jump inside of one is no slope.
-const JUMPS: f64 = 1e-6;
+/// of differences are a hundredth of usual sizes and more, so that a jump inside of one is no slope.
+const JUMPS: f64 = 1e-5;
+/// Remaining shift in standard errors up to which a search that shrank to nothing stands at a minimum beside a jump.
+const BESIDE: f64 = 0.25;
 /// Relative step at which a search ends: beside a jump no direction lowers the misfit, and what derivatives promise is never met.
 const SMALLEST: f64 = 1e-5;
 
@@ -98,6 +100,8 @@ impl<'s> Settings<'s> {
             differences: Differences::Forward,
             noise: Noise::Known(UNEVEN),
             jumps: JUMPS,
+            // Other starts take the place of other steps.
+            attempts: false,
             interrupt: self.interrupt,
             ..Options::fit()
         };
@@ -107,6 +111,14 @@ impl<'s> Settings<'s> {
         // A tenth of a step tells no curvature where laws have kinks.
         options.steps.second_order = false;
         options
+    }
+}
+
+/// A search that shrank to nothing while derivatives promised hardly anything stands beside a jump of a law, and at a minimum.
+fn beside_a_jump(fit: &mut crate::least_squares::Fit) {
+    let left = fit.log.last().and_then(|step| step.relative_offset);
+    if fit.reason == Reason::Radius && fit.derivative.is_some() && left.is_some_and(|left| left < BESIDE) {
+        fit.status = Status::Converged;
     }
 }
 
@@ -120,6 +132,7 @@ impl Identification<'_> {
         let mut minima = multistart(&self.problem(), &options, settings.starts.max(1))?;
         for minimum in &mut minima.minima {
             self.keep_unseen(&mut minimum.fit);
+            beside_a_jump(&mut minimum.fit);
         }
         let mut fitted = self.fitted(minima, &options)?;
         if settings.accuracy_factors && self.accuracy == inference::Accuracy::Given {
@@ -337,8 +350,7 @@ impl Identification<'_> {
                 Ok(others.iter().map(|i| all[*i]).collect())
             };
             let partial = Problem::new(partial, problem.parameters().to_vec());
-            let mut options = settings.options(self.accuracy);
-            options.attempts = false;
+            let options = settings.options(self.accuracy);
             let fit = solve(&partial, &options).map_err(|fault| fault.to_string())?;
             if fit.status == Status::Interrupted {
                 return Err("broken off".to_owned());

@@ -10,7 +10,7 @@ use crate::sensitivity::gradients;
 use crate::study::Quantity;
 
 /// Relative noise of the calculated points: jumps of published laws.
-const NOISE: f64 = 1e-6;
+const NOISE: f64 = 1e-4;
 /// Draws from the joint region at which the plan is made again, and its confidence.
 const DRAWS: (u32, f64) = (5, 0.95);
 

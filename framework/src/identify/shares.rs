@@ -6,7 +6,7 @@ use crate::sensitivity::gradients;
 use crate::transmission::Transmission;
 
 /// Relative noise of the calculated losses: jumps of published laws.
-const NOISE: f64 = 1e-6;
+const NOISE: f64 = 1e-4;
 /// Half-width of a 95 % band in standard deviations.
 const DEVIATIONS: f64 = 1.959_963_985;
 
