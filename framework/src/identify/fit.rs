@@ -183,10 +183,15 @@ impl Identification<'_> {
                 }
             }
             let problem = self.problem_from(fitted.theta(), None);
-            let again = multistart(&problem, options, 1)?;
-            let notes = std::mem::take(&mut fitted.minima.notes);
-            *fitted = self.fitted(again, options)?;
-            fitted.minima.notes.extend(notes);
+            let mut again = multistart(&problem, options, 1)?;
+            let mut fit = again.minima.swap_remove(0).fit;
+            self.keep_unseen(&mut fit);
+            beside_a_jump(&mut fit);
+            // Other starts and minima are those of the first round.
+            let mut minima = fitted.minima.clone();
+            minima.minima[0].fit = fit;
+            minima.evaluations += again.evaluations;
+            *fitted = self.fitted(minima, options)?;
             if settled {
                 break;
             }

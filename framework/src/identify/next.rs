@@ -59,6 +59,9 @@ impl Identification<'_> {
         let free: Vec<usize> = (0..self.parameters.len())
             .filter(|k| inference.parameters()[*k].standing == Standing::Free && inference.column(*k) > 0.0)
             .collect();
+        if free.is_empty() {
+            return Err("no parameter can move".to_owned());
+        }
         let quantity = self.observations.first().map_or(Quantity::Efficiency, |o| o.quantity);
         let shown = self.shown(fitted, candidates, gear, quantity)?;
         let observations: Vec<Observation> = (0..candidates.len())
@@ -83,7 +86,7 @@ impl Identification<'_> {
         let ranges: Vec<f64> = free.iter().map(|k| inference.parameters()[*k].range()).collect();
         let derivative = fitted.fit().derivative.as_ref().ok_or("the fit has no derivatives")?;
         // Without accuracies residuals are not in units of their deviation, which the scatter tells.
-        let known = known(&derivative.jacobian, &free, &ranges, inference.variance().sqrt(), |k| {
+        let known = known(&derivative.jacobian, &free, &ranges, inference.scatter(), |k| {
             self.parameters[k].prior.is_some()
         });
         let information = Information::new(&ranges, &known)?;
@@ -152,16 +155,22 @@ impl Identification<'_> {
         let there = self.with_rows(&measured, Vec::new())?;
         let calculated = there.calculate(fitted.theta())?;
         let (mut losses, mut oils, mut deviations) = (Vec::new(), Vec::new(), Vec::new());
-        let variance = fitted.inference.variance().sqrt();
+        let scatter = fitted.inference.scatter();
+        let factor = fitted
+            .factors
+            .iter()
+            .find(|(q, _)| *q == quantity)
+            .map_or(1.0, |(_, factor)| *factor);
         for (i, candidate) in candidates.iter().enumerate() {
             let point = calculated.point(i);
-            let loss = point.loss.ok_or_else(|| {
-                let speed = candidate.speed * 30.0 / std::f64::consts::PI;
-                format!("no loss at {} Nm and {speed:.0} rpm", candidate.torque)
-            })?;
+            let speed = candidate.speed * 30.0 / std::f64::consts::PI;
+            let none = |what: &str| format!("no {what} at {} Nm and {speed:.0} rpm", candidate.torque);
+            let loss = point.loss.ok_or_else(|| none("loss"))?;
+            let what = quantity.words(crate::study::Difference::Points).0;
+            quantity.of(point).ok_or_else(|| none(what))?;
             let seen = Seen::on(&calculated.rig, &measured, &measured.rows[i], point);
             let own = seen.accuracy(quantity).filter(|a| *a > 0.0);
-            deviations.push(own.unwrap_or_else(|| self.nearest(candidate, quantity) * variance));
+            deviations.push(own.map_or_else(|| self.nearest(candidate, quantity) * scatter, |own| own * factor));
             losses.push(
                 loss + calculated
                     .rig

@@ -192,7 +192,22 @@ impl Identified {
             .and_then(|over| curve_at(resolved, &target, &over.torques));
         let stated = stated.or_else(|| curve.as_ref().and_then(|list| list.first().copied()));
         let start = match &entry.start {
-            Some(value) => quantity("start", value)?,
+            Some(value) => {
+                let start = quantity("start", value)?;
+                if start < bounds[0] || start > bounds[1] {
+                    return Err(fault(
+                        &place("start"),
+                        format!(
+                            "{} is outside of {} to {}",
+                            said(start),
+                            said(bounds[0]),
+                            said(bounds[1])
+                        ),
+                        "begin between the bounds",
+                    ));
+                }
+                start
+            }
             None => stated.ok_or_else(|| {
                 fault(
                     &place("path"),
@@ -371,7 +386,7 @@ impl Identified {
     }
 
     /// The name of the entry, without the torque of a factor.
-    pub(super) fn base_name(&self) -> &str {
+    pub fn base_name(&self) -> &str {
         match self.target {
             Target::Over { .. } => self.name.split(" at ").next().unwrap_or(&self.name),
             _ => &self.name,

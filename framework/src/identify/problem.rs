@@ -314,6 +314,14 @@ impl<'a> Identification<'a> {
                     continue;
                 }
                 drowned += usize::from(drowns);
+                if drowns
+                    && residuals
+                        .iter()
+                        .any(|q| matches!(q, Quantity::Loss | Quantity::LossTorque))
+                {
+                    // The other quantity counts the point already.
+                    continue;
+                }
                 let unit = if quantity == Quantity::Efficiency { 0.01 } else { 1.0 };
                 let accuracy = seen.accuracy(quantity);
                 if accuracy == Some(0.0) {
@@ -376,8 +384,25 @@ impl<'a> Identification<'a> {
         }
         self.accuracy = if with > 0 { Accuracy::Given } else { Accuracy::Estimated };
         self.observations = found.into_iter().map(|(observation, _)| observation).collect();
-        let free = self.parameters.iter().filter(|p| p.bounds[0] < p.bounds[1]).count();
-        let priors = self.parameters.iter().filter(|p| p.prior.is_some()).count();
+        let free = self.parameters.iter().filter(|p| p.bounds[0] < p.bounds[1]);
+        let prior = free.clone().find(|p| p.prior.is_some());
+        let priors = free.clone().filter(|p| p.prior.is_some()).count();
+        let free = free.count();
+        if let Some(parameter) = prior.filter(|_| with == 0) {
+            let place = format!("parameters.{}.prior", parameter.base_name());
+            let message = "a prior and the points count together only by their accuracies, and none is stated";
+            let mend = "state the instruments under `rig`, or columns such as `loss_accuracy`, or leave the prior out";
+            return Err(vec![Diagnostic::error(place, message).mend(mend)]);
+        }
+        if with == 0 && self.observations.len() <= free {
+            return Err(data(
+                format!(
+                    "{} measured numbers without accuracies for {free} parameters",
+                    self.observations.len()
+                ),
+                "identify fewer parameters, or state the accuracies",
+            ));
+        }
         if self.observations.len() + priors < free {
             return Err(data(
                 format!(

@@ -22,9 +22,9 @@ pub struct ShareBands {
     pub bands: Vec<Vec<Option<[f64; 2]>>>,
 }
 
-/// Which mechanism each part belongs to.
-fn places(t: &Transmission, mechanisms: &[&'static str]) -> Vec<usize> {
-    let place = |mechanism: &str| mechanisms.iter().position(|m| *m == mechanism).unwrap_or(0);
+/// Which mechanism each part belongs to; none where its model is `none` in all transmissions.
+fn places(t: &Transmission, mechanisms: &[&'static str]) -> Vec<Option<usize>> {
+    let place = |mechanism: &str| mechanisms.iter().position(|m| *m == mechanism);
     t.parts().iter().map(|part| place(part.mechanism)).collect()
 }
 
@@ -40,12 +40,13 @@ impl Identification<'_> {
         profiles: &[Option<Result<ProfileInterval, String>>],
     ) -> Result<ShareBands, String> {
         let at_optimum = self.calculate(fitted.theta())?;
-        let first = &at_optimum.solved.transmissions[0].1;
         let mut mechanisms: Vec<&'static str> = Vec::new();
-        for part in first.parts() {
-            let lossless = first.instances()[part.notes.instance].entry.name == "none";
-            if !lossless && !mechanisms.contains(&part.mechanism) {
-                mechanisms.push(part.mechanism);
+        for (_, t) in &at_optimum.solved.transmissions {
+            for part in t.parts() {
+                let lossless = t.instances()[part.notes.instance].entry.name == "none";
+                if !lossless && !mechanisms.contains(&part.mechanism) {
+                    mechanisms.push(part.mechanism);
+                }
             }
         }
         let width = mechanisms.len();
@@ -56,7 +57,9 @@ impl Identification<'_> {
                 let places = places(&calculated.solved.transmissions[*number].1, &mechanisms);
                 let mut sums = vec![0.0; width];
                 for (place, watts) in places.iter().zip(&point.parts) {
-                    sums[*place] += watts;
+                    if let Some(place) = place {
+                        sums[*place] += watts;
+                    }
                 }
                 all.extend(sums);
             }

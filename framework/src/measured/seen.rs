@@ -46,31 +46,30 @@ impl Seen {
         let added = rig.power([point.reference_speed, point.output_speed.unwrap_or(0.0)]);
         let reference = point.reference_speed.abs();
         let there = value("torque_out").zip(value("speed_out")).map(|(t, w)| (t * w).abs());
-        let loss = value("loss")
-            .or_else(|| value("loss_torque").map(|t| t * reference))
-            // Rigs write the torque of the brake with either sign; where power goes in, the sign here tells. Noise may make the
-            // difference negative.
-            .or_else(|| there.map(|there| if shown > 0.0 { shown - there } else { there + shown }))
-            .or_else(|| {
-                let eta = value("efficiency")?;
-                if shown > 0.0 {
-                    Some(shown * (1.0 - eta))
-                } else {
-                    (eta > 0.0).then(|| -shown * (1.0 / eta - 1.0))
-                }
-            })
-            .map(|loss| loss - added);
-        let own = value("efficiency").filter(|_| rig.is_silent());
-        let efficiency = own.or_else(|| {
-            let loss = loss?;
+        // Each quantity from its own column first: other columns may be rounded, or say something else.
+        let of_efficiency = value("efficiency").and_then(|eta| {
+            if shown > 0.0 {
+                Some(shown * (1.0 - eta))
+            } else {
+                (eta > 0.0).then(|| -shown * (1.0 / eta - 1.0))
+            }
+        });
+        let of_torque = value("loss_torque").map(|t| t * reference);
+        let own = value("loss");
+        // Rigs write the torque of the brake with either sign; where power goes in, the sign here tells. Noise may make the
+        // difference negative.
+        let of_ports = there.map(|there| if shown > 0.0 { shown - there } else { there + shown });
+        let left = |loss: Option<f64>| loss.map(|loss| loss - added);
+        let loss = left(own.or(of_torque).or(of_ports).or(of_efficiency));
+        let efficiency = if rig.is_silent() { value("efficiency") } else { None }.or_else(|| {
+            let loss = left(of_efficiency).or(loss)?;
             if here > 0.0 {
                 Some((here - loss) / here)
             } else {
                 (here < 0.0).then(|| -here / (loss - here))
             }
         });
-        let own = value("loss_torque").filter(|_| rig.is_silent());
-        let loss_torque = own.or_else(|| Some(loss? / reference));
+        let loss_torque = left(of_torque).or(loss).map(|loss| loss / reference);
         let accuracy = |quantity: &str| value(quantity).map(|a| a / measured.divisor);
         Self {
             efficiency: efficiency.filter(|eta| eta.is_finite()),
@@ -185,6 +184,11 @@ mod tests {
 
     /// A point with given torque at a port that turns at 10 rad/s while the reference port turns at 100 rad/s.
     fn seen(text: &str) -> Seen {
+        on(text, 0.0)
+    }
+
+    /// The same with an offset of the meter at `in`.
+    fn on(text: &str, offset: f64) -> Seen {
         let entry = MeasuredEntry {
             about: None,
             file: String::new(),
@@ -223,7 +227,11 @@ mod tests {
             passes: 0,
             evaluations: 0,
         };
-        Seen::of(&measured, &measured.rows[0], &point)
+        let rig = Rig {
+            offset: [offset, 0.0],
+            ..Rig::default()
+        };
+        Seen::on(&rig, &measured, &measured.rows[0], &point)
     }
 
     #[test]
@@ -237,6 +245,16 @@ mod tests {
         let drive = seen("torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n100,955,50,5\n");
         assert!((drive.efficiency.unwrap() - 0.95).abs() < 1e-12);
         assert!((drive.accuracy(Quantity::Efficiency).unwrap() - 0.005).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_rig_that_adds_next_to_nothing_changes_next_to_nothing() {
+        let text = "torque [Nm],speed [rpm],efficiency [%],loss [W],loss_torque [Nm]\n100,955,95,60,0.7\n";
+        let (silent, touched) = (seen(text), on(text, 1e-12));
+        for quantity in [Quantity::Efficiency, Quantity::Loss, Quantity::LossTorque] {
+            let [a, b] = [&silent, &touched].map(|s| s.quantity(quantity).unwrap());
+            assert!((a - b).abs() < 1e-9 * a.abs(), "{quantity:?} {a} {b}");
+        }
     }
 
     #[test]

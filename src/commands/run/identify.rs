@@ -9,8 +9,8 @@ mod results;
 mod show;
 mod tables;
 
-use gearloss_framework::identify::{Faults, Identification, Settings};
-use gearloss_framework::inference::{Comparison, FittedModel, akaike, ranking};
+use gearloss_framework::identify::{Faults, Identification, Observation, Settings};
+use gearloss_framework::inference::{Accuracy, Comparison, FittedModel, akaike, ranking};
 use gearloss_framework::least_squares::{Fault, Loss};
 use gearloss_framework::study::{IdentifyEntry, RobustLoss};
 use serde_json::Value;
@@ -21,6 +21,9 @@ use super::{Built, Runner, gear_of};
 use crate::interrupt;
 use crate::output::{Failure, Out};
 
+/// Relative difference of accuracies up to which points weigh the same under two sets.
+const ALIKE: f64 = 0.05;
+
 pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let bind: Vec<&str> = entry.bind.ids().collect();
@@ -28,6 +31,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     let file = &runner.data(&format!("{path}.data"), &entry.data)?.file;
     for note in &measured.notes {
         out.line(format!("{name}: {file}: {note}"))?;
+    }
+    if entry.folds == 1 {
+        let message = "one group of torques cannot be predicted from others";
+        return Err(runner.wrong(&format!("{path}.folds"), message, "write 2 or more, or 0 for none"));
+    }
+    if entry.accuracy_factors && loss(entry) != Loss::Linear {
+        let message = "a robust loss takes far points as such, a factor of the accuracy takes them as scatter";
+        return Err(runner.wrong(&format!("{path}.accuracy_factors"), message, "leave one of them out"));
     }
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let built = runner.built(gearbox, &entry.model_sets)?;
@@ -58,7 +69,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
             }
         })?;
         for parameter in identification.parameters() {
-            let line = format!("{name}: `{}` moves {}", parameter.name, parameter.paths().join(", "));
+            let line = format!(
+                "{name}: `{}` moves {}",
+                parameter.base_name(),
+                parameter.paths().join(", ")
+            );
             // Sets that move the same need not say so again.
             if parameter.paths().len() > 1 && !moved.contains(&line) {
                 out.line(&line)?;
@@ -68,6 +83,13 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
         for note in identification.notes() {
             out.line(format!("{name}: {note}"))?;
         }
+        if entry.accuracy_factors && identification.accuracy() == Accuracy::Estimated {
+            let message = "no accuracy is stated that could be wrong by a factor";
+            let mend = "state the accuracies, or leave it out";
+            return Err(runner.wrong(&format!("{path}.accuracy_factors"), message, mend));
+        }
+        let candidates = entry.next.as_ref().map(|next| next::candidates(runner, name, next, b));
+        let candidates = candidates.transpose()?;
         let pressed = interrupt::pressed;
         let settings = Settings {
             loss: loss(entry),
@@ -86,7 +108,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
             Err(fault) => return Err(of_search(runner, &path, &fault)),
         };
         let gear = gear_of(entry.gear.as_deref(), &b.transmission);
-        let outcome = Outcome::new(runner, (name, entry), &settings, gear, (b, identification, fitted))?;
+        let outcome = Outcome::new(
+            runner,
+            (name, entry),
+            &settings,
+            gear,
+            (b, identification, fitted),
+            candidates,
+        )?;
         show::show(runner, name, entry, &outcome, out)?;
         outcomes.push(outcome);
     }
@@ -137,20 +166,23 @@ fn compare(runner: &Runner<'_>, name: &str, outcomes: &[Outcome<'_>], out: &mut 
             validation: o.folds.as_ref().and_then(|folds| Some(folds.as_ref().ok()?.1.clone())),
         })
     };
-    // Sets are compared over the same numbers with the same weights only.
+    if outcomes.len() < 2 {
+        return Ok(());
+    }
+    // Sets are compared over the same numbers with the same weights only, by sums of squares that were made small.
     let same = outcomes.windows(2).all(|w| {
-        let key = |o: &Outcome<'_>| {
-            let of = |o: &gearloss_framework::identify::Observation| (o.row, o.quantity);
-            o.identification.observations().iter().map(of).collect::<Vec<_>>()
+        let [a, b] = [&w[0], &w[1]].map(|o| o.identification.observations());
+        let alike = |(a, b): (&Observation, &Observation)| {
+            (a.row, a.quantity) == (b.row, b.quantity) && (a.deviation / b.deviation - 1.0).abs() < ALIKE
         };
-        key(&w[0]) == key(&w[1])
+        a.len() == b.len() && a.iter().zip(b).all(alike)
     });
-    let Some(models) = outcomes
-        .iter()
-        .map(model)
-        .collect::<Option<Vec<_>>>()
-        .filter(|m| same && m.len() > 1)
-    else {
+    let squares = |o: &Outcome<'_>| o.fitted.factors.is_empty() && !o.fitted.inference.is_robust();
+    if !same || !outcomes.iter().all(squares) {
+        let words = "the sets are not compared: they were fitted with different weights, or by another loss";
+        return Ok(out.line(format!("{name}: {words}\n"))?);
+    }
+    let Some(models) = outcomes.iter().map(model).collect::<Option<Vec<_>>>() else {
         return Ok(());
     };
     let order = ranking(&models);

@@ -7,6 +7,14 @@ use gearloss_framework::study::{NextEntry, RuleEntry};
 use super::super::{Built, Runner, grid_axes};
 use crate::output::Failure;
 
+/// All points that the rig can run.
+pub struct Candidates {
+    all: Vec<Candidate>,
+    gear: String,
+    axes: (Vec<f64>, Vec<f64>),
+    oils: Vec<Option<f64>>,
+}
+
 /// Points to be measured, with all candidates.
 pub struct Next {
     pub candidates: Vec<Candidate>,
@@ -19,14 +27,13 @@ pub struct Next {
     pub rule: RuleEntry,
 }
 
-pub fn plan(
+/// The candidates of an entry, before anything is fitted.
+pub fn candidates(
     runner: &Runner<'_>,
     name: &str,
     entry: &NextEntry,
     built: &Built<'_>,
-    identification: &Identification<'_>,
-    fitted: &Fitted,
-) -> Result<Next, Failure> {
+) -> Result<Candidates, Failure> {
     let path = format!("analyses.{name}.next");
     let grid = runner.study.grid(&path, &entry.grid)?;
     if !grid.bind.is_empty() || grid.envelope.is_some() {
@@ -39,16 +46,31 @@ pub fn plan(
         [] => vec![None],
         list => list.iter().map(|oil| Some(*oil)).collect(),
     };
-    let mut candidates = Vec::new();
+    let mut all = Vec::new();
     for oil in &oils {
         for torque in &torques {
-            candidates.extend(speeds.iter().map(|speed| Candidate {
+            all.extend(speeds.iter().map(|speed| Candidate {
                 torque: *torque,
                 speed: *speed,
                 oil: *oil,
             }));
         }
     }
+    Ok(Candidates {
+        all,
+        gear,
+        axes: (torques, speeds),
+        oils,
+    })
+}
+
+/// What to measure next, or why nothing can be said.
+pub fn plan(
+    entry: &NextEntry,
+    candidates: Candidates,
+    identification: &Identification<'_>,
+    fitted: &Fitted,
+) -> Result<Next, String> {
     let rule = match entry.rule {
         RuleEntry::Worst => Rule::Worst,
         RuleEntry::Trace => Rule::Trace,
@@ -63,19 +85,13 @@ pub fn plan(
         let oil = if a.oil == b.oil { 0.0 } else { entry.cost_of_temperature };
         torque + oil
     };
-    let plan = identification.next(fitted, &candidates, &gear, (rule, entry.points as usize), change);
-    let plan = plan.map_err(|reason| {
-        runner.wrong(
-            &path,
-            reason,
-            "leave such points out of the grid, or identify other parameters",
-        )
-    })?;
+    let Candidates { all, gear, axes, oils } = candidates;
+    let plan = identification.next(fitted, &all, &gear, (rule, entry.points as usize), change)?;
     Ok(Next {
-        candidates,
+        candidates: all,
         plan,
         gear,
-        axes: (torques, speeds),
+        axes,
         oils,
         rule: entry.rule,
     })

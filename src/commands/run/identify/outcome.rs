@@ -8,7 +8,7 @@ use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
 use super::super::{Built, Runner};
 use super::checks::Checks;
 use super::lines::{Sheet, sheets};
-use super::next::{self, Next};
+use super::next::{self, Candidates, Next};
 use crate::interrupt;
 use crate::output::Failure;
 
@@ -31,7 +31,7 @@ pub struct Outcome<'a> {
     pub shares: Result<ShareBands, String>,
     /// Rows that belong together.
     pub sheets: Vec<Sheet>,
-    pub next: Option<Next>,
+    pub next: Option<Result<Next, String>>,
     /// What was seen of limits at the end.
     pub notes: Vec<Note>,
 }
@@ -43,6 +43,7 @@ impl<'a> Outcome<'a> {
         settings: &Settings<'_>,
         gear: &str,
         (built, identification, fitted): (&Built<'_>, Identification<'a>, Fitted),
+        candidates: Option<Candidates>,
     ) -> Result<Self, Failure> {
         let path = format!("analyses.{name}");
         let failed = |reason: String| runner.wrong(&path, reason, "begin with other values, or narrow the bounds");
@@ -65,8 +66,8 @@ impl<'a> Outcome<'a> {
         }
         let all: Vec<usize> = (0..identification.measured().rows.len()).collect();
         let shares = identification.share_bands(&fitted, &all, &profiles);
-        let next = entry.next.as_ref();
-        let next = next.map(|next| next::plan(runner, name, next, built, &identification, &fitted));
+        let next = entry.next.as_ref().zip(candidates);
+        let next = next.map(|(entry, candidates)| next::plan(entry, candidates, &identification, &fitted));
         let transmission = &after.solved.transmissions[0].1;
         runner.seen(transmission, &after.solved.seen);
         Ok(Self {
@@ -75,7 +76,7 @@ impl<'a> Outcome<'a> {
             notes: notes(transmission, &after.solved.seen),
             pairs: [pairs_before, pairs_after],
             calculated: [before, after],
-            next: next.transpose()?,
+            next,
             identification,
             fitted,
             profiles,

@@ -330,7 +330,7 @@ fn joint(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
 
 /// What one more point would tell, over speed and torque, with the points of the plan.
 fn next(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
-    let Some(next) = &o.next else {
+    let Some(Ok(next)) = &o.next else {
         return Vec::new();
     };
     let (torques, speeds) = &next.axes;

@@ -35,7 +35,7 @@ pub fn of(o: &Outcome<'_>) -> Value {
         "checks": checks(o),
         "folds": folds(o),
         "points": points(o),
-        "next": o.next.as_ref().map(|_| next(o)),
+        "next": next(o),
         "outside": o.notes,
     })
 }
@@ -222,7 +222,7 @@ fn points(o: &Outcome<'_>) -> Value {
 }
 
 fn next(o: &Outcome<'_>) -> Value {
-    let Some(next) = &o.next else {
+    let Some(Ok(next)) = &o.next else {
         return Value::Null;
     };
     let choice = |c: &gearloss_framework::design::Choice| {

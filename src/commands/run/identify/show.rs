@@ -1,7 +1,7 @@
 //! A fit on the terminal: a table of the parameters, and what the points say in sentences.
 
 use gearloss_framework::inference::{Accuracy, Reach, Verdict};
-use gearloss_framework::least_squares::Status;
+use gearloss_framework::least_squares::{Reason, Status};
 use gearloss_framework::study::{Difference, IdentifyEntry, RuleEntry};
 
 use super::super::super::solve::{RPM, outside};
@@ -125,12 +125,11 @@ fn search(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         "search {ended} after {} steps and {} evaluations of all points{many}",
         fit.counts.steps, minima.evaluations
     ))?;
-    let left = fit
-        .log
-        .last()
-        .and_then(|step| step.relative_offset)
-        .filter(|left| *left > LEFT);
-    if let Some(left) = left.filter(|_| fit.converged()) {
+    // Of a step that was taken the log tells the offset before it.
+    let last = fit.log.last().filter(|step| !step.accepted);
+    let left = last.and_then(|step| step.relative_offset).filter(|left| *left > LEFT);
+    let small = matches!(fit.reason, Reason::Step | Reason::Cost | Reason::Radius);
+    if let Some(left) = left.filter(|_| fit.converged() && small) {
         out.line(format!(
             "the search ends beside a jump of a law: derivatives point {} standard errors further, where the misfit is no smaller",
             short(left)
@@ -285,7 +284,10 @@ fn folds(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
 }
 
 fn next(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
-    let Some(next) = &o.next else {
+    if let Some(Err(reason)) = &o.next {
+        out.line(format!("nothing can be said of what to measure next: {reason}"))?;
+    }
+    let Some(Ok(next)) = &o.next else {
         return Ok(());
     };
     let plan = &next.plan.plan;

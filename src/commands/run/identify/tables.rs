@@ -225,7 +225,7 @@ fn next(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome<'
     ]);
     let mut table = TableFile::new(runner, &format!("{name}-next"), &entry.write, &header)?;
     for o in all {
-        let Some(next) = &o.next else { continue };
+        let Some(Ok(next)) = &o.next else { continue };
         for (i, at) in next.candidates.iter().enumerate() {
             let choices = next.plan.plan.choices.iter().enumerate();
             let places: Vec<String> = choices
@@ -258,12 +258,18 @@ fn values(name: &str, o: &Outcome<'_>) -> String {
     text.push_str("conditions:\n  set:\n");
     let mut any = false;
     for (i, (parameter, value)) in parameters.iter().zip(theta).enumerate() {
-        // What the points do not see at all is as it was.
-        if o.fitted.inference.column(i) == 0.0 {
+        // What the points do not see at all is as it was; a curve is written where one of its torques is seen.
+        let seen = |k: usize| o.fitted.inference.column(k) > 0.0;
+        let unseen = match &parameter.target {
+            Target::Over { torques, place: 0, .. } => !(i..i + torques.len()).any(seen),
+            Target::Over { .. } => false,
+            Target::Path(_) | Target::Rig(_) => !seen(i),
+        };
+        if unseen {
             let _ = writeln!(text, "    # not seen: {}", parameter.name);
             continue;
         }
-        any |= !matches!(parameter.target, Target::Rig(_));
+        any |= matches!(parameter.target, Target::Path(_) | Target::Over { place: 0, .. });
         match &parameter.target {
             Target::Path(varied) => {
                 for (path, own) in varied.overrides(*value) {
