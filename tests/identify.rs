@@ -555,6 +555,20 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
         ),
         (
             mesh,
+            "residuals: [efficiency],",
+            "torque [Nm],speed [rpm],efficiency [-],efficiency_accuracy [-]\n5,4000,0.96,0.01\n0,4000,0.96,0.01\n",
+            "data",
+            "line 3: no calculated efficiency",
+        ),
+        (
+            mesh,
+            "",
+            "torque [Nm],speed [rpm],loss [W],weight\n5,4000,90,0\n10,4000,130,0\n",
+            "data",
+            "all points have no weight",
+        ),
+        (
+            mesh,
             "accuracy_factors: true,",
             bare,
             "accuracy_factors",

@@ -37,6 +37,11 @@ pub struct Findings {
 }
 
 impl Findings {
+    /// What the first of them says, for places that hold no more than a sentence.
+    pub fn first(&self) -> String {
+        self.list.first().map_or_else(String::new, |d| d.message.clone())
+    }
+
     /// All findings rendered, with their number at the end.
     pub fn render(&self) -> String {
         let mut text = String::new();

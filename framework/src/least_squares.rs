@@ -55,5 +55,6 @@ pub use options::{Differences, Noise, Options, Steps, Subproblem, Tolerances};
 pub use points::{halton, spread};
 pub use problem::{Parameter, Prior, Problem, Scale};
 pub use robust::Loss;
-pub use solve::solve;
+pub(crate) use robust::{FLOOR, median_spread};
+pub use solve::{SINGULAR, solve};
 pub use subproblem::How;

@@ -132,18 +132,17 @@ impl Varied {
 
     /// A value with its unit.
     pub fn words(&self, value: f64) -> String {
-        if self.unit.dimension == Dimension::None {
-            format!("{value:.6}")
-                .trim_end_matches('0')
-                .trim_end_matches('.')
-                .to_owned()
-        } else {
-            let digits = format!("{value:.6}");
-            format!(
-                "{} {}",
-                digits.trim_end_matches('0').trim_end_matches('.'),
-                self.unit.symbol
-            )
-        }
+        words(self.unit, value)
+    }
+}
+
+/// A value with its unit.
+pub(crate) fn words(unit: &Unit, value: f64) -> String {
+    let digits = format!("{value:.6}");
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    if unit.dimension == Dimension::None {
+        digits.to_owned()
+    } else {
+        format!("{digits} {}", unit.symbol)
     }
 }

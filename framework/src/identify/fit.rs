@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::Identification;
 use crate::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation, folds};
 use crate::least_squares::{
-    Differences, Fault, Loss, Minima, Noise, Options, Problem, Reason, Scale, Status, multistart, solve,
+    Differences, Fault, Loss, Minima, Noise, Options, Problem, Reason, SINGULAR, Scale, Status, multistart, solve,
 };
 use crate::study::Quantity;
 
@@ -25,8 +25,9 @@ const NOISE: f64 = 1e-9;
 /// thousand times this share of the misfit or less, in the worst case a fifth of a standard error along one combination.
 const UNEVEN: f64 = 1e-7;
 /// Jumps of single residuals over all: published laws change at a regime without meeting, by a percent of one component's loss. Steps
-/// of differences are a hundredth of usual sizes and more, so that a jump inside of one is no slope.
-const JUMPS: f64 = 1e-5;
+/// of differences are a hundredth of usual sizes, so that a jump inside of one is no slope. The needle cages of the two-speed example
+/// jump by 2e-5 of its residuals where Palmgren's product of viscosity and speed passes 2000.
+pub(super) const JUMPS: f64 = 1e-5;
 /// Remaining shift in standard errors up to which a search that shrank to nothing stands at a minimum beside a jump.
 const BESIDE: f64 = 0.25;
 /// Relative step at which a search ends: beside a jump no direction lowers the misfit, and what derivatives promise is never met.
@@ -117,8 +118,14 @@ impl<'s> Settings<'s> {
 /// A search that shrank to nothing while derivatives promised hardly anything stands beside a jump of a law, and at a minimum.
 fn beside_a_jump(fit: &mut crate::least_squares::Fit) {
     let left = fit.log.last().and_then(|step| step.relative_offset);
-    if fit.reason == Reason::Radius && fit.derivative.is_some() && left.is_some_and(|left| left < BESIDE) {
-        fit.status = Status::Converged;
+    let Some(derivative) = &fit.derivative else { return };
+    if fit.reason == Reason::Radius && left.is_some_and(|left| left < BESIDE) {
+        // A combination that changes nothing is no success here either.
+        fit.status = if derivative.independence < SINGULAR {
+            Status::Singular
+        } else {
+            Status::Converged
+        };
     }
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::fit::JUMPS;
 use super::{Fitted, Identification, Observation};
 use crate::design::{Design, Information, Plan, Rule, uniform_row};
 use crate::inference::Standing;
@@ -9,8 +10,6 @@ use crate::measured::{Measured, Row, Seen};
 use crate::sensitivity::gradients;
 use crate::study::Quantity;
 
-/// Relative noise of the calculated points: jumps of published laws.
-const NOISE: f64 = 1e-4;
 /// Draws from the joint region at which the plan is made again, and its confidence.
 const DRAWS: (u32, f64) = (5, 0.95);
 
@@ -77,7 +76,7 @@ impl Identification<'_> {
             for (parameter, u) in parameters.iter_mut().zip(u) {
                 parameter.u = *u;
             }
-            let slopes = gradients(&parameters, NOISE, |theta| there.residuals(theta))?;
+            let slopes = gradients(&parameters, JUMPS, |theta| there.residuals(theta))?;
             Ok(slopes
                 .iter()
                 .map(|row| free.iter().map(|k| row[*k]).collect())

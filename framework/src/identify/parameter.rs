@@ -9,7 +9,7 @@ use crate::least_squares::{self, Prior};
 use crate::measured::Rig;
 use crate::resolve::{Resolved, lookup};
 use crate::study::{IdentifiedEntry, PriorEntry, ScaleEntry};
-use crate::varied::Varied;
+use crate::varied::{Varied, words};
 
 /// A quantity of the rig.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -412,15 +412,6 @@ fn curve_at(resolved: &Resolved, target: &Target, torques: &[f64]) -> Option<Vec
         }
     };
     torques.iter().map(factor).collect()
-}
-
-fn words(unit: &Unit, value: f64) -> String {
-    let digits = format!("{value:.6}");
-    let digits = digits.trim_end_matches('0').trim_end_matches('.');
-    match unit.symbol {
-        "-" | "" => digits.to_owned(),
-        symbol => format!("{digits} {symbol}"),
-    }
 }
 
 /// A quantity as written: a number in the unit of the path, or a text with a unit.

@@ -141,8 +141,9 @@ impl<'a> Identification<'a> {
             measured,
             ..self.rows.clone()
         };
-        let first = |findings: Findings| findings.list.first().map_or_else(String::new, |d| d.message.clone());
-        let built = rows.build(self.language, self.gearbox, &self.choice).map_err(first)?;
+        let built = rows
+            .build(self.language, self.gearbox, &self.choice)
+            .map_err(|findings| findings.first())?;
         let solved = rows.solve(built, None, &|_| true);
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         let speeds = solved.map_or(Ok(Vec::new()), |solved| rows.speeds(&solved, false));
@@ -199,8 +200,10 @@ impl<'a> Identification<'a> {
     pub fn calculate(&self, theta: &[f64]) -> Result<Calculated, String> {
         let mut choice = self.choice.clone();
         choice.overrides.extend(Identified::overrides(&self.parameters, theta));
-        let first = |findings: Findings| findings.list.first().map_or_else(String::new, |d| d.message.clone());
-        let built = self.rows.build(self.language, self.gearbox, &choice).map_err(first)?;
+        let built = self
+            .rows
+            .build(self.language, self.gearbox, &choice)
+            .map_err(|findings| findings.first())?;
         let rig = Identified::rig(&self.parameters, theta, &self.rows.measured.rig);
         let on = OnRig {
             rig,
@@ -339,6 +342,16 @@ impl<'a> Identification<'a> {
                 found.push((observation, accuracy));
             }
             let what = quantity.words(crate::study::Difference::Points).0;
+            if measured
+                .rows
+                .iter()
+                .all(|row| measured.value(row, "weight") == Some(0.0))
+            {
+                return Err(data(
+                    "all points have no weight".to_owned(),
+                    "give some of them a weight",
+                ));
+            }
             if found.len() == before {
                 let mend = "name a column of it, or columns of torque and speed at both ports";
                 return Err(data(format!("nothing gives a measured {what}"), mend));
@@ -363,6 +376,13 @@ impl<'a> Identification<'a> {
                     "{drowned} points with less torque than three times its accuracy count by their loss torque"
                 ));
             }
+        }
+        // What has no value at the start is told by its line, before the search and before its accuracy.
+        if let Some(reason) = found.iter().find_map(|(o, _)| self.pair(o, &start).err()) {
+            return Err(data(
+                format!("{reason}, at the start of the search"),
+                "begin with other values, or give the line no weight",
+            ));
         }
         let with = found.iter().filter(|(_, accuracy)| accuracy.is_some()).count();
         if with > 0 && with < found.len() {
@@ -412,15 +432,7 @@ impl<'a> Identification<'a> {
                 "identify fewer parameters, or give some of them a `prior`",
             ));
         }
-        // What has no value at the start is told by its line, before the search.
-        let undefined = self.observations.iter().find_map(|o| self.pair(o, &start).err());
-        match undefined {
-            Some(reason) => Err(data(
-                format!("{reason}, at the start of the search"),
-                "begin with other values, or leave the line out",
-            )),
-            None => Ok(()),
-        }
+        Ok(())
     }
 }
 

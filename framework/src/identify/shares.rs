@@ -1,12 +1,11 @@
 //! Losses by mechanism at the measured points, with the bands that the parameters leave them.
 
+use super::fit::JUMPS;
 use super::{Fitted, Identification};
 use crate::inference::{Breakdown, Derived, ProfileInterval, Reach, Standing, hull};
 use crate::sensitivity::gradients;
 use crate::transmission::Transmission;
 
-/// Relative noise of the calculated losses: jumps of published laws.
-const NOISE: f64 = 1e-4;
 /// Half-width of a 95 % band in standard deviations.
 const DEVIATIONS: f64 = 1.959_963_985;
 
@@ -67,7 +66,7 @@ impl Identification<'_> {
         };
         let values = losses(&at_optimum);
         let outputs = |theta: &[f64]| self.calculate(theta).map(|c| losses(&c));
-        let slopes = gradients(fitted.inference.parameters(), NOISE, outputs)?;
+        let slopes = gradients(fitted.inference.parameters(), JUMPS, outputs)?;
         let breakdown = |i: usize| {
             let own = i * width..(i + 1) * width;
             fitted.inference.breakdown(&values[own.clone()], &slopes[own])

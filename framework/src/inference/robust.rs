@@ -7,18 +7,18 @@ use nalgebra::DMatrix;
 
 use super::factors::Factors;
 use super::{Accuracy, Fit, Parameter, Standing};
-use crate::least_squares::Loss;
+use crate::least_squares::{FLOOR, Loss, median_spread};
 
-/// Least share of the slope that the curvature of a row keeps, as in the search.
-const FLOOR: f64 = 0.1;
 /// Pivot over the greatest below which what the residuals scatter about has no inverse.
 const REGULAR: f64 = 1e-12;
 
 /// What rows of data do under a loss, one number of each for every row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobustRows {
-    /// Second derivative of the cost by the residual: rho' + 2 rho'' s.
+    /// Second derivative of the cost by the residual: rho' + 2 rho'' s. Below zero far out, under losses that flatten.
     curvature: Vec<f64>,
+    /// The same with the floor of the search.
+    kept: Vec<f64>,
     /// First derivative of the cost by the residual: rho' r.
     slope: Vec<f64>,
     /// Twice the cost.
@@ -30,13 +30,16 @@ impl RobustRows {
     pub fn of(loss: Loss, scale: f64, residuals: &[f64]) -> Self {
         let mut rows = Self {
             curvature: Vec::new(),
+            kept: Vec::new(),
             slope: Vec::new(),
             objective: 0.0,
         };
         for r in residuals {
             let s = (r / scale).powi(2);
             let [rho, first, second] = loss.rho(s);
-            rows.curvature.push((first + 2.0 * second * s).max(FLOOR * first));
+            let curvature = first + 2.0 * second * s;
+            rows.curvature.push(curvature);
+            rows.kept.push(curvature.max(FLOOR * first));
             rows.slope.push(first * r);
             rows.objective += scale * scale * rho;
         }
@@ -46,7 +49,8 @@ impl RobustRows {
 
 impl Fit {
     /// As [`Fit::new`], from a fit by a robust loss: the covariance is A^-1 B A^-1 m/(m - n), A from the curvature of the rows, B
-    /// from their slopes; rows of priors count as they are. Where B has no inverse the covariance is that of A alone.
+    /// from their slopes; rows of priors count as they are. Where B has no inverse, or rows far out bend A downward, the
+    /// covariance is that of A alone, with the curvature that the search keeps.
     ///
     /// The objective is twice the cost. It follows no chi-square, so that there is neither a test of the whole fit nor an interval by
     /// profile.
@@ -74,12 +78,12 @@ impl Fit {
             }
             scaled
         };
-        let curved = scaled(&|i| rows.curvature[i].sqrt());
+        let curved = scaled(&|i| rows.kept[i].sqrt());
         let mut fit = Self::new(parameters, &curved, residuals, priors, accuracy)?;
         fit.robust = true;
         fit.variance = 1.0;
         if accuracy == Accuracy::Estimated {
-            fit.scatter = scatter(&residuals[..data]);
+            fit.scatter = median_spread(&residuals[..data]);
         }
         fit.objective = rows.objective + residuals[data..].iter().map(|r| r * r).sum::<f64>();
         for (k, gradient) in fit.gradient.iter_mut().enumerate() {
@@ -90,7 +94,11 @@ impl Fit {
             .filter(|k| fit.parameters()[*k].standing == Standing::Free && fit.column(*k) > 0.0)
             .collect();
         let widening = data as f64 / (data as f64 - free.len() as f64);
-        let sandwich = sandwich(&curved, &scaled(&|i| rows.slope[i]), &free);
+        let upward = scaled(&|i| rows.curvature[i].max(0.0).sqrt());
+        let mut downward = scaled(&|i| (-rows.curvature[i]).max(0.0).sqrt());
+        // Rows of priors bend upward.
+        downward.rows_mut(data, priors).fill(0.0);
+        let sandwich = sandwich([&upward, &downward], &scaled(&|i| rows.slope[i]), &free);
         if let Some(root) = sandwich.filter(|_| widening > 0.0 && widening.is_finite()) {
             // A Jacobian of as many rows as parameters whose product with itself is the inverse of the covariance.
             let mut whole = DMatrix::zeros(root.nrows(), jacobian.ncols());
@@ -105,35 +113,27 @@ impl Fit {
     }
 }
 
-/// Standard deviation of residuals by the median of their distances from the median; 1 where most are equal.
-fn scatter(residuals: &[f64]) -> f64 {
-    let median = |mut list: Vec<f64>| {
-        list.sort_by(f64::total_cmp);
-        let half = list.len() / 2;
-        match list.len() {
-            0 => 0.0,
-            n if n % 2 == 1 => list[half],
-            _ => 0.5 * (list[half - 1] + list[half]),
-        }
-    };
-    let middle = median(residuals.to_vec());
-    let spread = 1.4826 * median(residuals.iter().map(|r| (r - middle).abs()).collect());
-    if spread > 0.0 { spread } else { 1.0 }
-}
-
-/// The inverse transpose of the factor of B, times A: its product with itself is A B^-1 A. Absent where B has no inverse.
-fn sandwich(curved: &DMatrix<f64>, sloped: &DMatrix<f64>, free: &[usize]) -> Option<DMatrix<f64>> {
-    if free.is_empty() || curved.nrows() < free.len() {
+/// The inverse transpose of the factor of B, times A: its product with itself is A B^-1 A. A has rows that bend upward and rows
+/// that bend downward. Absent where B has no inverse or A is not positive.
+fn sandwich([upward, downward]: [&DMatrix<f64>; 2], sloped: &DMatrix<f64>, free: &[usize]) -> Option<DMatrix<f64>> {
+    if free.is_empty() || upward.nrows() < free.len() {
         return None;
     }
-    let lengths: Vec<f64> = free.iter().map(|k| curved.column(*k).norm()).collect();
+    let lengths: Vec<f64> = free.iter().map(|k| upward.column(*k).norm()).collect();
     let unit =
         |matrix: &DMatrix<f64>| DMatrix::from_fn(matrix.nrows(), free.len(), |i, j| matrix[(i, free[j])] / lengths[j]);
-    let (a, b) = (unit(curved).qr().r(), unit(sloped).qr().r());
-    let greatest = b.diagonal().amax();
-    if b.diagonal().iter().any(|pivot| pivot.abs() <= REGULAR * greatest) {
+    let (up, b) = (unit(upward).qr().r(), unit(sloped).qr().r());
+    let regular = |r: &DMatrix<f64>| {
+        let greatest = r.diagonal().amax();
+        r.diagonal().iter().all(|pivot| pivot.abs() > REGULAR * greatest)
+    };
+    if !regular(&up) || !regular(&b) {
         return None;
     }
+    // A = up' (I - W' W) up: only the small product W' W is formed, never that of the rows.
+    let w = up.transpose().solve_lower_triangular(&unit(downward).transpose())?;
+    let left = DMatrix::identity(free.len(), free.len()) - &w * w.transpose();
+    let a = left.cholesky()?.l().transpose() * up;
     let mut root = b.transpose().solve_lower_triangular(&a.transpose())? * a;
     for (mut column, length) in root.column_iter_mut().zip(&lengths) {
         column *= *length;
@@ -159,10 +159,17 @@ mod tests {
 
     #[test]
     fn the_sandwich_is_that_of_its_matrices() {
-        let residuals = [0.5, -1.0, 0.3, 8.0, -0.7, 1.2, -0.1];
-        let fit = line(&residuals, Loss::SoftL1);
+        for loss in [Loss::SoftL1, Loss::Huber, Loss::Cauchy, Loss::Arctan] {
+            the_sandwich_of(loss);
+        }
+    }
+
+    /// Under the last two losses the fourth row bends downward.
+    fn the_sandwich_of(loss: Loss) {
+        let residuals = [0.5, -1.0, 0.3, 4.0, -0.7, 1.2, -0.1];
+        let fit = line(&residuals, loss);
         // The same by explicit products, two by two.
-        let rows = RobustRows::of(Loss::SoftL1, 2.0, &residuals);
+        let rows = RobustRows::of(loss, 2.0, &residuals);
         let x = |i: usize| [1.0, i as f64 - 3.0];
         let product = |weight: &dyn Fn(usize) -> f64| {
             let entry = |j: usize, k: usize| (0..7).map(|i| weight(i) * x(i)[j] * x(i)[k]).sum::<f64>();

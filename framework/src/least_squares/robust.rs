@@ -18,7 +18,7 @@ pub enum Loss {
 }
 
 /// Least share of the curvature that a row keeps: without a floor, cauchy and arctan step wildly.
-const FLOOR: f64 = 0.1;
+pub(crate) const FLOOR: f64 = 0.1;
 
 impl Loss {
     /// Name in documents and results.
@@ -125,12 +125,17 @@ impl Robust {
         }
     }
 
-    /// Standard deviation of rows of data by the median of their distances from the median; 1 where most are equal.
+    /// Standard deviation of rows of data, [`median_spread`].
     pub fn spread(&self, r: &DVector<f64>) -> f64 {
-        let middle = median(r.iter().take(self.rows).copied().collect());
-        let spread = 1.4826 * median(r.iter().take(self.rows).map(|r| (r - middle).abs()).collect());
-        if spread > 0.0 { spread } else { 1.0 }
+        median_spread(&r.as_slice()[..self.rows])
     }
+}
+
+/// Standard deviation of residuals by the median of their distances from the median; 1 where most are equal.
+pub(crate) fn median_spread(residuals: &[f64]) -> f64 {
+    let middle = median(residuals.to_vec());
+    let spread = 1.4826 * median(residuals.iter().map(|r| (r - middle).abs()).collect());
+    if spread > 0.0 { spread } else { 1.0 }
 }
 
 impl Weighted {

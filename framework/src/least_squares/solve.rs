@@ -13,8 +13,8 @@ use super::robust::{Loss, Robust};
 use super::space::Space;
 use super::{linear, noise, optimality};
 
-/// Independence of the columns below which a fit is singular.
-const SINGULAR: f64 = 1e-9;
+/// Independence of the columns below which a fit is singular. \[-\]
+pub const SINGULAR: f64 = 1e-9;
 /// Noise from which on central differences have no digits more than one-sided ones.
 const NOISIEST: f64 = 1e-6;
 /// Relative difference of costs that are equal.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use gearloss_framework::analysis::{
     GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid,
 };
-use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
@@ -41,8 +41,13 @@ impl<'a> Trial<'a> {
     pub fn build(&self, overrides: impl IntoIterator<Item = (String, Value)>) -> Result<Transmission, String> {
         let mut choice = self.study.choice(self.set);
         choice.overrides.extend(overrides);
-        let resolved = self.gearbox.resolve(self.language, &choice).map_err(first)?;
-        self.gearbox.build(self.language, &resolved).map_err(first)
+        let resolved = self
+            .gearbox
+            .resolve(self.language, &choice)
+            .map_err(|findings| findings.first())?;
+        self.gearbox
+            .build(self.language, &resolved)
+            .map_err(|findings| findings.first())
     }
 
     /// All points of it. Their temperature follows the overrides, where nothing else gives it.
@@ -65,15 +70,13 @@ impl<'a> Trial<'a> {
     ) -> Result<SolvedRows, String> {
         let mut choice = self.study.choice(self.set);
         choice.overrides.extend_from_slice(overrides);
-        let built = rows.build(self.language, self.gearbox, &choice).map_err(first)?;
+        let built = rows
+            .build(self.language, self.gearbox, &choice)
+            .map_err(|findings| findings.first())?;
         let solved = rows.solve(built, on, &|_| !interrupt::pressed());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         solved.ok_or_else(|| "interrupted".to_owned())
     }
-}
-
-fn first(findings: Findings) -> String {
-    findings.list.first().map_or_else(String::new, |d| d.message.clone())
 }
 
 /// The stated ranges that a solved trial left.
