@@ -7,6 +7,7 @@ pub mod fit;
 pub mod import;
 pub mod models;
 mod needs;
+mod network;
 mod point;
 pub mod run;
 pub mod schema;

@@ -46,7 +46,8 @@ fn balanced(t: &Transmission, speed: f64, torque: f64) -> (Equilibrium, Vec<(Str
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
     };
-    let (oil, found) = OilTemperature::Balance.find(t, &case, &point, &mut scratch);
+    let warm = OilTemperature::Balance.find(t, &case, &point, &mut scratch);
+    let (oil, found) = (warm.oil, warm.balance);
     let solution = t.evaluate(&case, &point, &[oil], &mut scratch);
     assert!(
         matches!(solution.status(), Status::Drive | Status::Dragged),

@@ -12,4 +12,4 @@ pub use notes::{Note, Stated, WeakPoint, evidence, notes};
 pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
 pub use statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use sums::{SUMS, sum_of};
-pub use temperature::OilTemperature;
+pub use temperature::{Found, OilTemperature};

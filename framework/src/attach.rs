@@ -109,6 +109,8 @@ pub struct State<'a> {
     pub speeds: &'a [f64],
     /// Oils, by number.
     pub oils: &'a [Oil],
+    /// Temperatures of the nodes, or one for all. \[degC\]
+    pub temperatures: &'a [f64],
     /// Height of the oil above the datum; minus infinity without a sump. \[m\]
     pub surface: f64,
     /// Loads of the supports.

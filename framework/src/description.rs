@@ -6,6 +6,7 @@
 pub mod gears;
 pub mod housing;
 pub mod lubricant;
+pub mod network;
 pub mod ordered;
 pub mod shafts;
 pub mod states;
@@ -17,6 +18,7 @@ use serde_json::Value;
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
 pub use housing::{HeatInto, HousingEntry, LevelOver, OilEntry, OutsideEntry, Running, Thermal, ThermalMode};
 pub use lubricant::LubricantEntry;
+pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
 pub use ordered::Ordered;
 pub use shafts::{LoadEntry, SectionEntry, ShaftEntry};
 pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, TorqueShare};

@@ -31,6 +31,17 @@ pub enum PowerFlow {
     Ideal,
 }
 
+/// What becomes of the notes of a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Noting {
+    /// Nothing is noted.
+    Muted,
+    /// They stand in the scratch, for [`Scratch::count_seen`].
+    Seen,
+    /// They count among those of all points.
+    Counted,
+}
+
 /// One operating point of a case.
 #[derive(Debug, Clone, Copy)]
 pub struct Point<'a> {
@@ -50,11 +61,12 @@ impl Transmission {
         Scratch::new(self, case)
     }
 
-    /// Evaluates a point at the temperatures of the nodes (degC, [`Transmission::nodes`] of them).
+    /// Evaluates a point at the temperatures of the nodes (degC, [`Transmission::nodes`] of them), or with one temperature for all;
+    /// the models of meshes then find those of the gears themselves.
     ///
     /// # Panics
-    /// If the point has not as many speeds and torques as the case has ports for them, or there are fewer temperatures than
-    /// nodes: a bug of the caller.
+    /// If the point has not as many speeds and torques as the case has ports for them, or there is neither one
+    /// temperature nor one for each node: a bug of the caller.
     pub fn evaluate<'s>(
         &'s self,
         case: &'s Case,
@@ -62,7 +74,7 @@ impl Transmission {
         temperatures: &[f64],
         scratch: &'s mut Scratch,
     ) -> Solution<'s> {
-        self.solve(case, point, temperatures, scratch, false);
+        self.solve(case, point, temperatures, scratch, Noting::Counted);
         Solution {
             transmission: self,
             case,
@@ -82,15 +94,32 @@ impl Transmission {
         temperatures: &[f64],
         scratch: &mut Scratch,
     ) -> Result<f64, Unbalanced> {
-        self.solve(case, point, temperatures, scratch, true);
+        self.try_point(case, point, temperatures, scratch, Noting::Muted)?;
+        Ok(scratch.sum)
+    }
+
+    /// As [`Transmission::evaluate`], where a point without losses is an error.
+    ///
+    /// # Errors
+    /// Why there are none.
+    pub(crate) fn try_point(
+        &self,
+        case: &Case,
+        point: &Point<'_>,
+        temperatures: &[f64],
+        scratch: &mut Scratch,
+        noting: Noting,
+    ) -> Result<(), Unbalanced> {
+        self.solve(case, point, temperatures, scratch, noting);
         match (scratch.undefined, scratch.status) {
             (Some((part, reason)), _) => Err(Unbalanced::Part(part, reason)),
             (None, Status::SelfLocking | Status::NoConvergence) => Err(Unbalanced::Flow),
-            (None, _) => Ok(scratch.sum),
+            (None, _) => Ok(()),
         }
     }
 
-    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, quiet: bool) {
+    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, noting_as: Noting) {
+        let quiet = noting_as == Noting::Muted;
         assert_eq!(
             point.speeds.len(),
             case.speed_ports.len(),
@@ -106,6 +135,12 @@ impl Transmission {
         case.motion.speeds(&s.prescribed, &mut s.speeds);
         s.given[..point.torques.len()].copy_from_slice(point.torques);
         s.given[point.torques.len()..].fill(0.0);
+        assert!(
+            temperatures.len() == 1 || temperatures.len() == self.nodes(),
+            "one temperature for all, or one for each node"
+        );
+        s.temperatures.clear();
+        s.temperatures.extend_from_slice(temperatures);
         self.oils.at(temperatures, &mut s.oils);
         s.surface = self.oils.surface(&s.speeds);
         s.cells.fill(Extent::EMPTY);
@@ -121,6 +156,7 @@ impl Transmission {
             let state = State {
                 speeds: &s.speeds,
                 oils: &s.oils,
+                temperatures: &s.temperatures,
                 surface: s.surface,
                 loads: &s.loads,
                 asked: &s.asked,
@@ -158,6 +194,7 @@ impl Transmission {
         let Scratch {
             speeds,
             given,
+            temperatures,
             oils,
             surface,
             loads,
@@ -178,6 +215,7 @@ impl Transmission {
         } = s;
         let asked = &*asked;
         let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
+        let temperatures = &temperatures[..];
         let (idle_drags, relative) = (&*idle_drags, &*relative);
         let cells = Cell::from_mut(cells.as_mut_slice()).as_slice_of_cells();
         let kept = Cell::from_mut(kept.as_mut_slice()).as_slice_of_cells();
@@ -201,6 +239,7 @@ impl Transmission {
             let state = State {
                 speeds,
                 oils,
+                temperatures,
                 surface,
                 loads,
                 asked,
@@ -253,12 +292,8 @@ impl Transmission {
         };
         self.rest(s, quiet);
         self.finish(standing, outcome, s);
-        if !quiet && matches!(outcome, Outcome::Converged { .. }) {
-            for (total, seen) in s.totals.iter_mut().zip(&s.cells) {
-                if seen.seen > 0 {
-                    *total = total.merge(seen.once());
-                }
-            }
+        if noting_as == Noting::Counted && matches!(outcome, Outcome::Converged { .. }) {
+            s.count_seen();
         }
     }
 
@@ -268,6 +303,7 @@ impl Transmission {
         let state = State {
             speeds: &s.speeds,
             oils: &s.oils,
+            temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
             asked: &s.asked,
@@ -346,6 +382,9 @@ impl Transmission {
     ) -> GearMeshAt<'a> {
         let mesh = &self.meshes[index];
         let oil = &state.oils[mesh.oil as usize];
+        // With one temperature for all, the bodies of the gears have none of their own.
+        let known = mesh.bodies.filter(|_| state.temperatures.len() > 1);
+        let bodies = known.map(|nodes| nodes.map(|node| state.temperatures[node]));
         GearMeshAt {
             part: &mesh.part,
             torque: (tangential * mesh.seat.pair.working_radius[0]).abs(),
@@ -359,6 +398,9 @@ impl Transmission {
             beta: oil.beta,
             conductivity: oil.conductivity,
             x_l: oil.x_l,
+            bodies_known: f64::from(u8::from(bodies.is_some())),
+            temperature_1: bodies.map_or(oil.temperature, |b| b[0]),
+            temperature_2: bodies.map_or(oil.temperature, |b| b[1]),
             notes,
         }
     }

@@ -60,6 +60,7 @@ pub struct Loss {
     measure: Measure,
     values: [f64; MOST_TERMS],
     first_share: f64,
+    first_heat: f64,
 }
 
 impl Loss {
@@ -68,6 +69,7 @@ impl Loss {
         measure: Measure::Moment,
         values: [0.0; MOST_TERMS],
         first_share: 0.5,
+        first_heat: 0.5,
     };
     /// An answer in powers, W; every term is zero.
     pub const POWERS: Self = Self {
@@ -95,10 +97,25 @@ impl Loss {
         self.first_share
     }
 
+    /// Says which share of the heat of a loss between two gears goes into the body of the first; without it, half. Where the
+    /// bodies differ in temperature heat also passes from one to the other, so that a share may lie beyond zero and one.
+    #[inline]
+    pub fn heats_first(mut self, share: f64) -> Self {
+        self.first_heat = share;
+        self
+    }
+
+    /// The share of the heat that goes into the body of the first gear of a pair. \[-\]
+    #[inline]
+    pub fn first_heat(&self) -> f64 {
+        self.first_heat
+    }
+
     /// The mean of two answers of one model, with the weight of this one; the weight of the other is what is left to one.
     #[inline]
     pub fn mean(self, weight: f64, other: Self) -> Self {
         let mut mean = self;
+        mean.first_heat = weight * self.first_heat + (1.0 - weight) * other.first_heat;
         for (value, other) in mean.values.iter_mut().zip(other.values) {
             *value = weight * *value + (1.0 - weight) * other;
         }

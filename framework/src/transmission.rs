@@ -5,6 +5,7 @@ mod case;
 mod drags;
 mod gearing;
 mod members;
+mod nodes;
 mod oils;
 mod planets;
 mod states;
@@ -15,9 +16,11 @@ use std::sync::Arc;
 pub use case::Case;
 pub use drags::DragSeat;
 pub use gearing::{GearSeat, MeshSeat};
+pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{Oils, Surface};
 pub use states::GearState;
 
+pub(crate) use nodes::NodeNames;
 pub(crate) use planets::Sharing;
 
 use crate::description::{RatingEntry, ThermalMode};
@@ -28,6 +31,7 @@ use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::registry::{Instance, Placed, Slot};
 use crate::thermal::Housing;
+use crate::thermal::network::Network;
 
 /// What a part is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,6 +76,8 @@ pub(crate) struct MeshModel {
     pub part: Arc<MeshPart>,
     pub model: Slot<GearMesh>,
     pub oil: u16,
+    /// Nodes of the bodies of both gears, where a thermal network has them.
+    pub bodies: Option<[usize; 2]>,
     /// Factor on the loss of the model.
     pub loss_factor: f64,
     /// Sharing of the set, where its planets carry different loads.
@@ -155,6 +161,7 @@ pub struct Transmission {
     /// Largest torque and speed that it is made for. \[Nm and rad/s\]
     pub rating: Option<RatingEntry>,
     pub(crate) housing: Housing,
+    pub(crate) network: Option<Network>,
 }
 
 impl Transmission {
@@ -220,9 +227,13 @@ impl Transmission {
     pub(crate) fn sump_heat(&self, temperature: f64) -> (f64, f64) {
         self.oils.heat(temperature)
     }
+    /// The thermal network.
+    pub fn network(&self) -> Option<&Network> {
+        self.network.as_ref()
+    }
     /// Number of the temperature nodes.
     pub fn nodes(&self) -> usize {
-        1
+        self.network.as_ref().map_or(1, |n| n.names().len())
     }
     /// Number of a gear state by its name.
     ///

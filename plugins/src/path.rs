@@ -113,6 +113,7 @@ impl Path {
             beta: mean.beta,
             conductivity: mean.conductivity,
             x_l: mean.x_l,
+            bodies: None,
             mean,
             notes,
         }

@@ -8,7 +8,7 @@ use gearloss_framework::transmission::{PartInfo, Transmission};
 use serde_json::Value;
 
 use super::point::prepare;
-use super::solve::{RPM, heading, of_balance};
+use super::solve::{RPM, heading, of_warmth};
 use super::warn;
 use super::{choice, language};
 use crate::args::ExplainArgs;
@@ -28,21 +28,21 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
     let point = prepared.point();
-    let (oil, balance) = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
-    let solution = transmission.evaluate(&prepared.case, &point, &vec![oil; transmission.nodes()], &mut scratch);
+    let warm = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
+    let solution = transmission.evaluate(&prepared.case, &point, warm.temperatures(), &mut scratch);
     out.text(&heading(
         &transmission,
         &solution,
         &prepared,
-        &format!("oil {} degC", significant(oil)),
+        &format!("oil {} degC", significant(warm.oil)),
     ))?;
-    if let Some(balance) = &balance {
-        out.text(&of_balance(&transmission, balance, true))?;
+    if warm.outcome().is_some() {
+        out.text(&of_warmth(&transmission, &warm))?;
         out.line("")?;
     }
     for way in ways {
-        let surface = balance.as_ref().and_then(|b| b.surface).unwrap_or(oil);
-        explain_way(&transmission, &gearbox, &resolved, way, (oil, surface), out)?;
+        let surface = warm.balance.as_ref().and_then(|b| b.surface).unwrap_or(warm.oil);
+        explain_way(&transmission, &gearbox, &resolved, way, (warm.oil, surface), out)?;
     }
     for part in chosen {
         let info = &transmission.parts()[part];

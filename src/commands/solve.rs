@@ -1,5 +1,6 @@
 //! `solve`: one operating point, every part's loss, the sum and the efficiency.
 
+use gearloss_framework::analysis::Found;
 use gearloss_framework::analysis::{Note, SUMS, evidence, notes, sum_of};
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
@@ -9,6 +10,7 @@ use gearloss_framework::transmission::Transmission;
 use serde_json::{Value, json};
 
 use super::check::grade;
+use super::network::{json_of_network, of_network};
 use super::point::{Prepared, prepare};
 use super::run::tidy;
 use super::{choice, language, warn};
@@ -27,10 +29,10 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
     let point = prepared.point();
-    let (oil, balance) = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
+    let warm = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
     // What ways of heat noted counts over all points, of which there is one.
     let of_heat = scratch.totals.clone();
-    let solution = transmission.evaluate(&prepared.case, &point, &vec![oil; transmission.nodes()], &mut scratch);
+    let solution = transmission.evaluate(&prepared.case, &point, warm.temperatures(), &mut scratch);
     let extents: Vec<Extent> = of_heat
         .iter()
         .zip(solution.extents())
@@ -42,24 +44,23 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
         Format::Json => {
             let mut value = as_json(&transmission, &solution, &prepared);
             // Without a balance there is no temperature of the oil; the losses belong to another one.
-            let found = balance.as_ref().is_none_or(|b| b.oil().is_some());
-            value["oil_temperature_degc"] = json!(found.then_some(oil));
-            value["evaluated_at_degc"] = json!(oil);
-            value["balance"] = json!(balance.as_ref().map(|b| json_of_balance(&transmission, b)));
+            value["oil_temperature_degc"] = json!(warm.is_sound().then_some(warm.oil));
+            value["evaluated_at_degc"] = json!(warm.oil);
+            value["balance"] = json!(warm.balance.as_ref().map(|b| json_of_balance(&transmission, b)));
+            value["network"] = json!(warm.network.as_ref().map(|n| json_of_network(&transmission, n)));
             value["notes"] = json!(seen);
             value["evidence"] = json!(known);
             value["unreached"] = json!(resolved.unreached);
             out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
         }
         Format::Table => {
-            let at = match &balance {
-                Some(b) if b.oil().is_none() => format!("no balance, losses at {} degC", significant(oil)),
-                _ => format!("oil {} degC", significant(oil)),
+            let at = if warm.is_sound() {
+                format!("oil {} degC", significant(warm.oil))
+            } else {
+                format!("no balance, losses at {} degC", significant(warm.oil))
             };
             out.text(&as_table(&transmission, &solution, &prepared, &at))?;
-            if let Some(balance) = &balance {
-                out.text(&of_balance(&transmission, balance, true))?;
-            }
+            out.text(&of_warmth(&transmission, &warm))?;
             out.text(&outside(&seen))?;
             for line in &resolved.unreached {
                 out.line(format!("note: {line}"))?;
@@ -74,8 +75,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             }
         }
     }
-    let balanced = balance.as_ref().is_none_or(|b| b.oil().is_some());
-    let mut end = if solution.is_complete() && balanced {
+    let mut end = if solution.is_complete() && warm.is_sound() {
         End::Fine
     } else {
         End::Finding
@@ -208,6 +208,13 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
     text
 }
 
+/// How the temperatures of a point were found, in lines; none where they are given.
+pub fn of_warmth(transmission: &Transmission, warm: &Found) -> String {
+    let balance = warm.balance.as_ref().map(|b| of_balance(transmission, b, true));
+    let network = warm.network.as_ref().map(|n| of_network(transmission, n));
+    balance.or(network).unwrap_or_default()
+}
+
 /// What became of the balance, in lines; `above` where losses were printed before.
 pub fn of_balance(transmission: &Transmission, balance: &Equilibrium, above: bool) -> String {
     let housing = transmission.housing();
@@ -268,7 +275,7 @@ pub fn of_balance(transmission: &Transmission, balance: &Equilibrium, above: boo
                 significant(housing.maximum)
             ));
         }
-        Outcome::Converged | Outcome::AtDiscontinuity | Outcome::Undefined => {}
+        Outcome::Converged | Outcome::AtDiscontinuity | Outcome::Undefined | Outcome::NoConvergence => {}
     }
     if let Some((temperature, why)) = &balance.undefined {
         text.push_str(&format!(
@@ -279,11 +286,15 @@ pub fn of_balance(transmission: &Transmission, balance: &Equilibrium, above: boo
     text
 }
 
-fn because(transmission: &Transmission, why: &Unbalanced) -> String {
+pub fn because(transmission: &Transmission, why: &Unbalanced) -> String {
     match why {
         Unbalanced::Part(part, reason) => format!("{}: {reason}", transmission.parts()[*part].path),
         Unbalanced::Way(way, reason) => format!("{}: {reason}", transmission.housing().ways()[*way].path),
-        Unbalanced::Flow => "the transmission locks itself, or loads and losses do not agree".to_owned(),
+        Unbalanced::Link(link, reason) => {
+            let path = transmission.network().and_then(|n| n.links().nth(*link));
+            format!("{}: {reason}", path.map_or("a link", |(path, _)| path))
+        }
+        Unbalanced::Flow => "the transmission locks itself, or loads, losses and temperatures do not agree".to_owned(),
     }
 }
 

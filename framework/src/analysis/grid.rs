@@ -9,7 +9,7 @@ use crate::document::Diagnostic;
 use crate::evaluate::{Point, PowerFlow};
 use crate::flow::{Status, Tolerance};
 use crate::loss::{Extent, MOST_TERMS, Undefined};
-use crate::thermal::{Equilibrium, Outcome as ThermalOutcome};
+use crate::thermal::Outcome as ThermalOutcome;
 use crate::transmission::{Case, Transmission};
 
 /// Points per task; fixed, so that the bits do not hang on the number of threads.
@@ -111,6 +111,8 @@ pub struct PointResult {
     pub surface: Option<f64>,
     /// What became of the balance, where the temperature is not given.
     pub balance: Option<ThermalOutcome>,
+    /// Temperatures of the nodes of a thermal network; none without one. \[degC\]
+    pub nodes: Vec<f64>,
     /// What the transmission does.
     pub status: Status,
     /// Power out over power in.
@@ -144,6 +146,7 @@ impl PointResult {
     fn without_temperature(self) -> Self {
         Self {
             oil: None,
+            nodes: Vec::new(),
             efficiency: None,
             loss: None,
             loss_torque: None,
@@ -203,7 +206,6 @@ pub fn run_grid(
             }
             let chunk = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
             let mut scratch = transmission.scratch(&case);
-            let mut temperatures = vec![0.0; transmission.nodes()];
             let member = |port: usize| transmission.ports()[port].member;
             let at_torque = case.torque_ports.first().map(|port| member(*port));
             let reference = member(transmission.reference_port());
@@ -230,9 +232,8 @@ pub fn run_grid(
                         tolerance: Tolerance::default(),
                     };
                     let wanted = oil.map_or(points.oil, OilTemperature::Fixed);
-                    let (oil, balance) = wanted.find(transmission, &case, &point, &mut scratch);
-                    temperatures.fill(oil);
-                    let solution = transmission.evaluate(&case, &point, &temperatures, &mut scratch);
+                    let warm = wanted.find(transmission, &case, &point, &mut scratch);
+                    let solution = transmission.evaluate(&case, &point, warm.temperatures(), &mut scratch);
                     let mut totals = [0.0; 6];
                     let mut terms = Vec::new();
                     for (part, loss) in solution.parts() {
@@ -241,7 +242,6 @@ pub fn run_grid(
                             terms.push(std::array::from_fn(|k| loss.term_watts(k)));
                         }
                     }
-                    let found = balance.as_ref().is_none_or(|b| b.oil().is_some());
                     let result = PointResult {
                         torque,
                         speed,
@@ -249,10 +249,15 @@ pub fn run_grid(
                         reference_speed: solution.speed(reference),
                         output_speed: other.map(|member| solution.speed(member)),
                         at_reference,
-                        oil: Some(oil),
-                        surface: balance.as_ref().and_then(|b| b.surface),
-                        balance: balance.as_ref().map(|b| b.outcome),
-                        evaluations: balance.as_ref().map_or(0, Equilibrium::evaluations),
+                        oil: Some(warm.oil),
+                        surface: warm.balance.as_ref().and_then(|b| b.surface),
+                        balance: warm.outcome(),
+                        evaluations: warm.evaluations(),
+                        nodes: warm
+                            .network
+                            .as_ref()
+                            .map(|n| n.temperatures.clone())
+                            .unwrap_or_default(),
                         status: solution.status(),
                         efficiency: solution.efficiency(),
                         loss: solution.loss(),
@@ -266,7 +271,11 @@ pub fn run_grid(
                         undefined: solution.undefined_part(),
                         passes: solution.passes(),
                     };
-                    if found { result } else { result.without_temperature() }
+                    if warm.is_sound() {
+                        result
+                    } else {
+                        result.without_temperature()
+                    }
                 })
                 .collect();
             if !progress(solved) {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Ordered;
+use super::{NetworkChoice, Ordered};
 use crate::mechanism::heat_dissipation::HeatDissipation;
 use crate::registry::NamedSlots;
 
@@ -175,6 +175,9 @@ pub struct Thermal {
     /// Ways on which heat leaves, by name; they add up, and take the place of those in `models`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heat_dissipation: Option<NamedSlots<HeatDissipation>>,
+    /// Nodes with temperatures of their own, for `mode: network`: `auto`, or nodes, links and flows as written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub network: Option<NetworkChoice>,
 }
 
 /// Heat that does not come from the losses.
@@ -209,6 +212,7 @@ impl Default for Thermal {
             oil_to_surface: 0.0,
             sources: Ordered::default(),
             heat_dissipation: None,
+            network: None,
         }
     }
 }
@@ -234,4 +238,6 @@ pub enum ThermalMode {
     Fixed,
     /// Losses and the heat that leaves are in balance.
     Balance,
+    /// Every node of the thermal network is in balance.
+    Network,
 }

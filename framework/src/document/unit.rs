@@ -49,8 +49,12 @@ pub enum Dimension {
     Time,
     /// Volume flow, m3/s.
     Flow,
+    /// Mass flow, kg/s.
+    MassFlow,
     /// Heat transfer coefficient, W/(m2 K).
     HeatTransfer,
+    /// Heat per temperature difference, J/K.
+    HeatCapacity,
     /// Heat flow per temperature difference, W/K.
     Conductance,
     /// Temperature difference per heat flow, K/W.
@@ -88,7 +92,9 @@ impl Dimension {
             Self::PressureCoefficient => "pressure coefficient",
             Self::Time => "time",
             Self::Flow => "volume flow",
+            Self::MassFlow => "mass flow",
             Self::HeatTransfer => "heat transfer coefficient",
+            Self::HeatCapacity => "heat capacity",
             Self::Conductance => "thermal conductance",
             Self::Resistance => "thermal resistance",
             Self::Conductivity => "thermal conductivity",
@@ -214,6 +220,9 @@ static UNITS: &[Unit] = &[
     unit("l/min", Dimension::Flow, 1e-3 / 60.0),
     unit("L/min", Dimension::Flow, 1e-3 / 60.0),
     unit("m3/s", Dimension::Flow, 1.0),
+    unit("kg/s", Dimension::MassFlow, 1.0),
+    unit("kg/min", Dimension::MassFlow, 1.0 / 60.0),
+    unit("g/s", Dimension::MassFlow, 1e-3),
     unit("W/(m2 K)", Dimension::HeatTransfer, 1.0),
     unit("W/(m² K)", Dimension::HeatTransfer, 1.0),
     unit("W/m2K", Dimension::HeatTransfer, 1.0),
@@ -221,6 +230,8 @@ static UNITS: &[Unit] = &[
     unit("K/W", Dimension::Resistance, 1.0),
     unit("W/(m K)", Dimension::Conductivity, 1.0),
     unit("W/mK", Dimension::Conductivity, 1.0),
+    unit("J/K", Dimension::HeatCapacity, 1.0),
+    unit("kJ/K", Dimension::HeatCapacity, 1e3),
     unit("J/(kg K)", Dimension::SpecificHeat, 1.0),
     unit("kJ/(kg K)", Dimension::SpecificHeat, 1e3),
 ];
@@ -298,6 +309,21 @@ mod tests {
             }
         }
         assert!((Unit::of_symbol("degF").unwrap().to_si(212.0) - 100.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn mass_flows_are_read_in_three_units() {
+        let flow = Unit::of_doc("Mass flow of the oil. [kg/s]").unwrap();
+        assert_eq!(flow.dimension, Dimension::MassFlow);
+        let symbols: Vec<&str> = Unit::symbols(Dimension::MassFlow).collect();
+        assert_eq!(symbols, ["kg/s", "kg/min", "g/s"]);
+        assert!(flow.pattern().ends_with(" ?(kg/s|kg/min|g/s)$"), "{}", flow.pattern());
+        for (symbol, si) in [("kg/s", 6.0), ("kg/min", 0.1), ("g/s", 0.006)] {
+            assert!(
+                (Unit::of_symbol(symbol).unwrap().to_si(6.0) - si).abs() < 1e-15,
+                "{symbol}"
+            );
+        }
     }
 
     #[test]

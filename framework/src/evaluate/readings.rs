@@ -55,6 +55,7 @@ impl Solution<'_> {
         State {
             speeds: &s.speeds,
             oils: &s.oils,
+            temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
             asked: &s.asked,

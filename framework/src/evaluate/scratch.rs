@@ -17,6 +17,7 @@ pub struct Scratch {
     pub(super) prescribed: Vec<f64>,
     pub(super) given: Vec<f64>,
     pub(super) speeds: Vec<f64>,
+    pub(super) temperatures: Vec<f64>,
     pub(super) oils: Vec<Oil>,
     pub(super) surface: f64,
     pub(super) loads: Vec<SupportLoad>,
@@ -56,6 +57,40 @@ impl Scratch {
         self.asked.get()
     }
 
+    /// Losses of all parts at the point that was evaluated last, in their order; zero where undefined. \[W\]
+    pub(crate) fn watts(&self) -> &[f64] {
+        &self.watts
+    }
+
+    /// Speeds of the members there. \[rad/s\]
+    pub(crate) fn speeds(&self) -> &[f64] {
+        &self.speeds
+    }
+
+    /// Power in and out there. \[W\]
+    pub(crate) fn power(&self) -> [f64; 2] {
+        [self.balance.input, self.balance.output]
+    }
+
+    /// Torque that a port of a member applies there. \[Nm\]
+    pub(crate) fn port_torque(&self, member: usize) -> f64 {
+        self.work.ports[member]
+    }
+
+    /// Share of the heat of a mesh that goes into its first gear.
+    pub(crate) fn first_heat(&self, mesh: usize) -> f64 {
+        self.mesh_losses[mesh].as_ref().map_or(0.5, Loss::first_heat)
+    }
+
+    /// What was seen at the point that was evaluated last counts as one more point.
+    pub(crate) fn count_seen(&mut self) {
+        for (total, seen) in self.totals.iter_mut().zip(&self.cells) {
+            if seen.seen > 0 {
+                *total = total.merge(seen.once());
+            }
+        }
+    }
+
     /// Where models of heat dissipation note what they saw; it counts over all points.
     pub(crate) fn heat_cells(&mut self) -> &mut [Extent] {
         &mut self.totals
@@ -68,6 +103,7 @@ impl Scratch {
             prescribed: vec![0.0; case.speed_ports.len() + case.ruled_speeds],
             given: vec![0.0; case.torque_ports.len() + case.ruled_torques],
             speeds: vec![0.0; columns],
+            temperatures: Vec::with_capacity(transmission.nodes()),
             oils: vec![Oil::default(); transmission.oils.len()],
             surface: 0.0,
             loads: vec![SupportLoad::default(); supports],

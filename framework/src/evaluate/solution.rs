@@ -221,6 +221,7 @@ impl Solution<'_> {
         let state = crate::attach::State {
             speeds: &s.speeds,
             oils: &s.oils,
+            temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
             asked: &s.asked,
@@ -255,6 +256,7 @@ impl Solution<'_> {
         let state = crate::attach::State {
             speeds: &s.speeds,
             oils: &s.oils,
+            temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
             asked: &s.asked,

@@ -210,6 +210,7 @@ mod tests {
             reference_speed: 100.0,
             output_speed: Some(10.0),
             at_reference: false,
+            nodes: Vec::new(),
             oil: None,
             surface: None,
             balance: None,

@@ -211,6 +211,19 @@ context! {
         conductivity: 0.135 in 0.05..=0.5,
         /// Lubricant factor of mean mesh friction that the oil states. [-]
         x_l: 1.0 in 0.1..=2.0,
+        /// One where a thermal network knows the temperatures of the gears, zero where a model finds them itself. [-]
+        bodies_known: 0.0 in 0.0..=1.0,
+        /// Temperature of the body of the first gear, where it is known. [degC]
+        temperature_1: 80.0 in -40.0..=200.0,
+        /// Temperature of the body of the second gear, where it is known. [degC]
+        temperature_2: 80.0 in -40.0..=200.0,
+    }
+}
+
+impl GearMeshAt<'_> {
+    /// Temperatures of the bodies of both gears, where they are known. \[degC\]
+    pub fn bodies(&self) -> Option<[f64; 2]> {
+        (self.bodies_known > 0.5).then_some([self.temperature_1, self.temperature_2])
     }
 }
 

@@ -24,11 +24,25 @@ pub trait ToothFrictionModel: Send + Sync {
     }
 
     /// Coefficients of friction at all nodes of a path, into a slice as long as the path. Pure; must not allocate.
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
+    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         for (node, mu) in path.nodes.iter().zip(mu) {
             *mu = self.mu(&path.contact(node))?;
         }
-        Ok(())
+        Ok(Along::default())
+    }
+}
+
+/// What a law knows of a whole path beside its coefficients.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Along {
+    /// Share of the heat of friction that goes into the body of the first gear. \[-\]
+    pub first_heat: f64,
+}
+
+impl Default for Along {
+    /// Half of the heat for each body.
+    fn default() -> Self {
+        Self { first_heat: 0.5 }
     }
 }
 
@@ -203,6 +217,8 @@ pub struct PathAt<'a> {
     pub conductivity: f64,
     /// Lubricant factor of mean mesh friction.
     pub x_l: f64,
+    /// Temperatures of the bodies of both gears, where a thermal network knows them. \[degC\]
+    pub bodies: Option<[f64; 2]>,
     /// The mesh as a law of mean friction sees it.
     pub mean: &'a MeanFrictionAt<'a>,
     /// Where limits, observed quantities and steps are noted.

@@ -69,6 +69,8 @@ pub enum Outcome {
     NoneBelowMaximum,
     /// A law has no value where the balance would lie.
     Undefined,
+    /// The temperatures of a network go on swinging.
+    NoConvergence,
 }
 
 impl Outcome {
@@ -80,6 +82,7 @@ impl Outcome {
             Self::Several => "several",
             Self::NoneBelowMaximum => "none_below_maximum",
             Self::Undefined => "undefined",
+            Self::NoConvergence => "no_convergence",
         }
     }
 }
@@ -454,7 +457,7 @@ mod tests {
                         t += found.spacing;
                     }
                 }
-                Outcome::Undefined => prop_assert!(false, "every law has a value everywhere"),
+                Outcome::Undefined | Outcome::NoConvergence => prop_assert!(false, "every law has a value everywhere"),
             }
         }
     }

@@ -15,7 +15,9 @@ pub enum Unbalanced {
     Part(usize, Undefined),
     /// The heat of a way, by number, is undefined.
     Way(usize, Undefined),
-    /// The transmission locks itself, or losses and loads do not agree.
+    /// The law of a link of the thermal network, by number, is undefined.
+    Link(usize, Undefined),
+    /// The transmission locks itself, or losses, loads and temperatures do not agree.
     Flow,
 }
 

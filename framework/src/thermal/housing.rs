@@ -121,6 +121,11 @@ impl Housing {
         }
     }
 
+    /// The outside, as models see it.
+    pub(crate) fn outside(&self) -> &HousingPart {
+        &self.part
+    }
+
     /// Temperature below which no heat leaves: that of the coldest sink. \[degC\]
     pub fn coldest(&self) -> f64 {
         self.ways.iter().map(|w| w.sink).fold(f64::INFINITY, f64::min)

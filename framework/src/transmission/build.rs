@@ -5,13 +5,14 @@ use std::sync::Arc;
 use super::drags::{Covered, DragSeat, body, mates, named, part, twice};
 use super::gearing::{GearSeat, MeshSeat, gearing};
 use super::members::Members;
+use super::nodes::{HeatPath, NodeNames};
 use super::oils::OilNumbers;
 use super::planets;
 use super::states::states;
 use super::statics::{imported, load_factors, shaft_loads};
 use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, Sharing, Transmission};
 use crate::attach::{Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
-use crate::description::GearboxEntry;
+use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::Diagnostic;
 use crate::language::Language;
 use crate::mechanism::Mechanism;
@@ -21,6 +22,7 @@ use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{Build, Common, Files, ModelRef, NamedSlots};
 use crate::resolve::Resolved;
 use crate::thermal::Housing;
+use crate::thermal::network::{Around, Network};
 
 impl Transmission {
     /// Builds the transmission of a resolved description.
@@ -36,7 +38,8 @@ impl Transmission {
         let ports = ports(&entry, &members, &mut found);
         let (gears, meshes) = gearing(&entry, &members, &mut found);
         let sharing = planets::sharing(&entry, &members, &mut found);
-        let mut oils = OilNumbers::new(&entry, &members, &meshes);
+        let nodes = NodeNames::new(&entry, &mut found);
+        let mut oils = OilNumbers::new(&entry, &members, &meshes, &nodes);
         let mut build = Build::new(language.registry(), files);
 
         let Placing {
@@ -47,7 +50,11 @@ impl Transmission {
         } = place(
             language, resolved, &members, &sharing, &mut oils, &mut build, &mut found,
         );
-        let mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
+        let mut mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
+        for mesh in &mut mesh_models {
+            let gears = mesh.seat.gears.map(|g| gears[g].id.as_str());
+            mesh.bodies = nodes.bodies(&mesh.seat.path, gears);
+        }
         let held = planets::models(&entry, &members, &gears, &meshes, &mut oils, &mut build, &mut found);
         let mut covered = Vec::new();
         for model in held {
@@ -68,6 +75,23 @@ impl Transmission {
 
         planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
         let housing = Housing::new(&entry, &mut build, &mut found);
+        let around = Around {
+            names: &nodes,
+            members: &members.names,
+            gears: &gears,
+            lubricants: &oils.lubricants(),
+            housing: housing.outside(),
+        };
+        let mut network = Network::new(&entry, &around, &mut build, &mut found);
+        if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
+            let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
+            nodes.unmet(written, &paths, &mut found);
+        } else if entry.thermal.mode == ThermalMode::Network {
+            found.push(
+                Diagnostic::error("thermal.mode", "no network is described")
+                    .mend("add `network: auto` under `thermal`, or nodes and links"),
+            );
+        }
         let states = if found.is_empty() {
             states(&entry, &members, &meshes, &clearances, &ports, &mut found)
         } else {
@@ -98,6 +122,16 @@ impl Transmission {
             let (instances, cells) = build.finish();
             let order = |path: &str| document_order(resolved, path);
             parts.sort_by_key(|p| order(&p.path));
+            if let Some(network) = &mut network {
+                let heat = |part: &PartInfo| match part.kind {
+                    PartKind::Mesh(i) => mesh_models[i].bodies.map(HeatPath::Gears),
+                    _ => None,
+                };
+                let heat = parts
+                    .iter()
+                    .map(|part| heat(part).unwrap_or_else(|| nodes.heat(&part.path)));
+                network.set_heat(heat.collect());
+            }
             let built = Self {
                 title: entry.title.clone().unwrap_or_default(),
                 members: members.names,
@@ -121,6 +155,7 @@ impl Transmission {
                 thermal_mode: entry.thermal.mode,
                 rating: entry.rating,
                 housing,
+                network,
             };
             built.check_states()?;
             Ok(built)
@@ -299,6 +334,7 @@ fn mesh_models(
                     notes: model.notes,
                 });
                 models.push(MeshModel {
+                    bodies: None,
                     loss_factor: written.loss_factor,
                     sharing: seat.members.iter().find_map(|m| sharing[*m]),
                     force_per_multiplier: f64::from(seat.pair.z[0]) / (seat.count * seat.pair.working_radius[0]),

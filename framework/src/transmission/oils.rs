@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::gearing::MeshSeat;
 use super::members::Members;
+use super::nodes::NodeNames;
 use super::planets::orbit;
 use crate::attach::{Level, Oil, Places, dangling};
 use crate::description::{GearboxEntry, Running};
@@ -56,10 +57,11 @@ impl Oils {
         }
     }
 
-    /// Writes the state of all oils at the temperatures of the nodes. \[degC\]
+    /// Writes the state of all oils at the temperatures of the nodes, or at one for all. \[degC\]
     pub fn at(&self, temperatures: &[f64], oils: &mut [Oil]) {
         for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
-            *oil = self.lubricants[*lubricant].at(temperatures[*node] + offset);
+            let temperature = temperatures.get(*node).unwrap_or(&temperatures[0]);
+            *oil = self.lubricants[*lubricant].at(temperature + offset);
         }
     }
 
@@ -96,11 +98,12 @@ pub struct OilNumbers<'a> {
     axes: Vec<Option<([f64; 2], f64)>>,
     up: [f64; 3],
     datum: [f64; 2],
+    nodes: &'a NodeNames,
     pub findings: Vec<Diagnostic>,
 }
 
 impl<'a> OilNumbers<'a> {
-    pub fn new(entry: &'a GearboxEntry, members: &Members, meshes: &[MeshSeat]) -> Self {
+    pub fn new(entry: &'a GearboxEntry, members: &Members, meshes: &[MeshSeat], nodes: &'a NodeNames) -> Self {
         let mut findings = Vec::new();
         let names: Vec<&str> = entry.lubricants.ids().collect();
         let mut lubricants = Vec::new();
@@ -184,6 +187,7 @@ impl<'a> OilNumbers<'a> {
             axes,
             up,
             datum,
+            nodes,
             findings,
         }
     }
@@ -195,6 +199,14 @@ impl<'a> OilNumbers<'a> {
             id: (*self.names.get(*lubricant)?).to_owned(),
             lubricant: Arc::clone(self.lubricants.get(*lubricant)?),
         })
+    }
+
+    /// All lubricants with their names; none where one has a fault that was reported.
+    pub fn lubricants(&self) -> Vec<(String, Arc<Lubricant>)> {
+        let lubricants = self.names.iter().zip(&self.lubricants);
+        lubricants
+            .map(|(name, oil)| ((*name).to_owned(), Arc::clone(oil)))
+            .collect()
     }
 
     pub fn finish(self) -> (Oils, Vec<Diagnostic>) {
@@ -233,7 +245,7 @@ impl Places for OilNumbers<'_> {
                 }
             },
         };
-        let spot = (lubricant, 0, common.temperature_offset);
+        let spot = (lubricant, self.nodes.of_oil(path), common.temperature_offset);
         let number = self.spots.iter().position(|s| *s == spot).unwrap_or_else(|| {
             self.spots.push(spot);
             self.spots.len() - 1

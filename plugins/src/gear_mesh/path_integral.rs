@@ -17,7 +17,7 @@ use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::ToothFriction;
+use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use schemars::JsonSchema;
@@ -167,15 +167,21 @@ impl GearMeshModel for Integral {
         let speed = at.speed.abs();
         let mean = MeanFrictionAt::of(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
-        let path = self.path.at(&mean, at.notes.of(self.friction.notes));
+        let path = PathAt {
+            bodies: at.bodies(),
+            ..self.path.at(&mean, at.notes.of(self.friction.notes))
+        };
         let line_load = at.show("F_bn/b", "N/m", path.line_load);
-        let sum: f64 = self.path.with_space(|mu| {
-            self.friction.along(&path, mu)?;
-            Ok(self.weights.iter().zip(&*mu).map(|(weight, mu)| weight * mu).sum())
+        let (sum, along) = self.path.with_space(|mu| {
+            let along = self.friction.along(&path, mu)?;
+            let sum: f64 = self.weights.iter().zip(&*mu).map(|(weight, mu)| weight * mu).sum();
+            Ok((sum, along))
         })?;
         at.observe(&MU_MEAN, sum / self.weight);
         at.observe(&LOSS_FACTOR, self.loss_factor);
-        let loss = Loss::POWERS.with(&SLIDING, at.show("P_s", "W", sum * normal * speed));
+        let loss = Loss::POWERS
+            .with(&SLIDING, at.show("P_s", "W", sum * normal * speed))
+            .heats_first(along.first_heat);
         if self.rolling == Rolling::None {
             return Ok(loss);
         }

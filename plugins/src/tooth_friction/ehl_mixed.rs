@@ -38,7 +38,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, MeshPart};
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
@@ -71,6 +71,9 @@ const WARMTH: Limit = Limit::new(
 );
 const PECLET: Limit = Limit::new(2, "Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
 
+/// Between bodies that differ much heat passes even without friction; as a share of little friction it has no bounds.
+const LEAST_SHARE: f64 = -0.5;
+
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 const MU_F: Observed = Observed::new(1, "mu_f", "-", "Coefficient of friction of the film alone.");
 const LAMBDA: Observed = Observed::new(2, "lambda", "-", "Film over rms roughness of both flanks.");
@@ -102,7 +105,8 @@ pub struct Params {
     /// What warms the bodies of the gears.
     #[serde(default)]
     pub bodies: Warmth,
-    /// Temperatures of the bodies of both gears, where they are known; they go before `bodies`. [degC]
+    /// Temperatures of the bodies of both gears, where they are known; they go before those of a thermal network, and both go
+    /// before `bodies`. [degC]
     #[schemars(inner(range(min = -60.0, max = 300.0)))]
     pub body_temperatures: Option<[f64; 2]>,
     /// Thermal resistances from the bodies of both gears to the oil; absent, of discs and cylinders that turn in a mist. [K/W]
@@ -249,8 +253,14 @@ impl EhlMixed {
         Warming::By(self.warmth, resistances)
     }
 
-    /// Settles a path and writes its friction; shows each place that carries load, in their order, and tells the work it took.
-    pub fn settle(&self, path: &PathAt<'_>, mu: &mut [f64], mut seen: impl FnMut(&Place<'_>, &Settled)) -> Tally {
+    /// Settles a path and writes its friction; shows each place that carries load, in their order, and tells the work it took
+    /// and the share of the heat that goes into the first gear.
+    pub fn settle(
+        &self,
+        path: &PathAt<'_>,
+        mu: &mut [f64],
+        mut seen: impl FnMut(&Place<'_>, &Settled),
+    ) -> (Tally, f64) {
         let oil = self.fluid.at(Supplied {
             temperature: path.temperature,
             nu: path.nu,
@@ -264,17 +274,31 @@ impl EhlMixed {
             laws: &self.laws,
             oil: &oil,
         };
-        let (bodies, mut tally) = march.settle(self.warming(&oil, path.speed), mu);
+        let warming = match path.bodies {
+            Some(known) if self.known.is_none() => Warming::Known(known),
+            _ => self.warming(&oil, path.speed),
+        };
+        let (bodies, mut tally) = march.settle(warming, mu);
+        let mut heats = [0.0; 2];
         let conditions = march.conditions(bodies);
         for (node, mu) in path.nodes.iter().zip(mu) {
             if let Some(place) = march.place(node, &conditions) {
                 let settled = place.after(*mu);
                 tally.passes += 1;
                 *mu = settled.mu;
+                for (sum, heat) in heats.iter_mut().zip(settled.heats) {
+                    *sum += node.weight * heat;
+                }
                 seen(&place, &settled);
             }
         }
-        tally
+        let [first, second] = heats;
+        let share = if first + second > 0.0 {
+            (first / (first + second)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
+        } else {
+            0.5
+        };
+        (tally, share)
     }
 }
 
@@ -351,11 +375,11 @@ impl ToothFrictionModel for EhlMixed {
         5
     }
 
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
-        self.settle(path, mu, |place, settled| {
+    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+        let (_, first_heat) = self.settle(path, mu, |place, settled| {
             note(path.notes, place, settled);
         });
-        super::finite(mu.iter().sum()).map(|_| ())
+        super::finite(mu.iter().sum()).map(|_| Along { first_heat })
     }
 }
 

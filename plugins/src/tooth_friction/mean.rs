@@ -9,7 +9,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Notes, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, MeshPart};
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, formula};
 use schemars::JsonSchema;
@@ -62,12 +62,12 @@ impl ToothFrictionModel for Mean {
         })
     }
 
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
+    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         mu.fill(self.friction.mu(&MeanFrictionAt {
             notes: path.notes.of(self.friction.notes),
             ..*path.mean
         })?);
-        Ok(())
+        Ok(Along::default())
     }
 }
 

@@ -13,7 +13,7 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use schemars::JsonSchema;
@@ -156,7 +156,7 @@ impl ToothFrictionModel for Mixed {
         self.boundary.order().max(self.fluid.order())
     }
 
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
+    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         for (nodes, mu) in path.nodes.chunks(CHUNK).zip(mu.chunks_mut(CHUNK)) {
             let mut fluid = [0.0; CHUNK];
             let fluid = &mut fluid[..nodes.len()];
@@ -178,7 +178,7 @@ impl ToothFrictionModel for Mixed {
                 *mu = at.observe(&MU, xi * *mu + (1.0 - xi) * *fluid);
             }
         }
-        Ok(())
+        Ok(Along::default())
     }
 }
 

@@ -10,7 +10,7 @@ use std::f64::consts::LOG10_E;
 
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
@@ -99,13 +99,13 @@ impl ToothFrictionModel for Xu {
         }
     }
 
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<(), Undefined> {
+    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         let s = self.roughness(path.ra, path.rq);
         let nu0 = check_oil(path.notes, path.eta, s)?;
         let unit = path.unit_pressure().gpa();
         if unit == 0.0 {
             mu.fill(0.0);
-            return Ok(());
+            return Ok(Along::default());
         }
         let ln_nu0 = nu0.ln();
         // Everything that is the same along the path, once.
@@ -134,7 +134,7 @@ impl ToothFrictionModel for Xu {
         path.notes.observe(&MU, least);
         path.notes.observe(&MU, most);
         if most.is_finite() {
-            Ok(())
+            Ok(Along::default())
         } else {
             Err(Undefined {
                 what: "coefficient of friction",

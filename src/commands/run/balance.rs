@@ -51,7 +51,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
         let found = t.equilibrium(&case, &point, &mut scratch);
         if let Some(oil) = found.oil() {
             // What is noted belongs to the temperature that was found.
-            t.evaluate(&case, &point, &vec![oil; t.nodes()], &mut scratch);
+            t.evaluate(&case, &point, &[oil], &mut scratch);
         }
         runner.seen(t, &scratch.totals);
         let seen = notes(t, &scratch.totals);

@@ -217,8 +217,8 @@ fn answers(
                 flow: given.flow,
                 tolerance: Tolerance::default(),
             };
-            let (oil, _) = given.oil.find(transmission, &case, &point, &mut scratch);
-            let solution = transmission.evaluate(&case, &point, &vec![oil; transmission.nodes()], &mut scratch);
+            let warm = given.oil.find(transmission, &case, &point, &mut scratch);
+            let solution = transmission.evaluate(&case, &point, warm.temperatures(), &mut scratch);
             let loss = solution.explain(part).0;
             Answer {
                 torque: *torque,

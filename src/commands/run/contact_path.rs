@@ -181,8 +181,8 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
         tolerance: Tolerance::default(),
     };
     let mut scratch = t.scratch(&case);
-    let (oil, _) = given.oil.find(t, &case, &point, &mut scratch);
-    let solution = t.evaluate(&case, &point, &vec![oil; t.nodes()], &mut scratch);
+    let warm = given.oil.find(t, &case, &point, &mut scratch);
+    let solution = t.evaluate(&case, &point, warm.temperatures(), &mut scratch);
     let at = solution.mesh_at(index);
     let part = Arc::new(at.part.clone());
     let model = &built.resolved.value["meshes"][&entry.mesh]["model"];
@@ -191,7 +191,10 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
     let friction = Friction::of(&mut build, &format!("{own}.model"), &part, model)?;
     let mean = MeanFrictionAt::of(&at, Notes::MUTED);
     let fine = Path::even(&part.pair, sharing, entry.places as usize);
-    let along: PathAt<'_> = fine.at(&mean, Notes::MUTED);
+    let along = PathAt {
+        bodies: at.bodies(),
+        ..fine.at(&mean, Notes::MUTED)
+    };
     let loaded = at.speed != 0.0 && at.torque != 0.0;
     let (mu, silent): (Option<Vec<f64>>, String) = match &friction {
         _ if !loaded => (None, "the mesh is idle or rests".to_owned()),
@@ -199,7 +202,7 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
         Friction::Local(slot) => {
             let mut mu = vec![0.0; fine.len()];
             match slot.along(&along, &mut mu) {
-                Ok(()) => (Some(mu), String::new()),
+                Ok(_) => (Some(mu), String::new()),
                 Err(undefined) => (None, undefined.to_string()),
             }
         }
@@ -236,7 +239,7 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
         sharing,
         silent,
         gear: given.gear.clone(),
-        temperature: oil,
+        temperature: warm.oil,
     })
 }
 

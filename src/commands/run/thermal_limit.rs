@@ -230,7 +230,7 @@ fn search(
                     ..start
                 };
                 found.lowest = t.equilibrium(&case, &point, &mut scratch).oil();
-                let solution = t.evaluate(&case, &point, &vec![*temperature; t.nodes()], &mut scratch);
+                let solution = t.evaluate(&case, &point, &[*temperature], &mut scratch);
                 (found.torque, found.speed) = (Some(torque[0]), Some(speed[0]));
                 (found.loss, found.efficiency) = (solution.loss(), solution.efficiency());
                 (found.input, found.output) = (solution.input_power(), solution.output_power());

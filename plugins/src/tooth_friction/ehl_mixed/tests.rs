@@ -84,7 +84,7 @@ impl Rig {
         };
         let mut mu = vec![0.0; nodes.len()];
         let mut places = Vec::new();
-        let tally = self.model.settle(&path, &mut mu, |_, settled| places.push(*settled));
+        let (tally, _) = self.model.settle(&path, &mut mu, |_, settled| places.push(*settled));
         let per_mu = |n: &PathNode| n.weight * n.force * n.sliding * mean.normal_force * mean.speed;
         let loss: f64 = nodes.iter().zip(&mu).map(|(n, mu)| per_mu(n) * mu).sum();
         Asked {

@@ -60,8 +60,8 @@ pub fn page(runner: &Runner<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -
             tolerance: Tolerance::default(),
         };
         let mut scratch = t.scratch(&case);
-        let (oil, balance) = OilTemperature::find(points.oil, t, &case, &point, &mut scratch);
-        let solution = t.evaluate(&case, &point, &vec![oil; t.nodes()], &mut scratch);
+        let warm = OilTemperature::find(points.oil, t, &case, &point, &mut scratch);
+        let solution = t.evaluate(&case, &point, warm.temperatures(), &mut scratch);
         if i == 0 {
             let conditions = &runner.study.entry.conditions;
             words = format!(
@@ -70,8 +70,8 @@ pub fn page(runner: &Runner<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -
                 conditions.torque_at,
                 given.speed * RPM,
                 conditions.speed_at,
-                number(Some(oil), 1),
-                if balance.is_some() { " by balance" } else { "" },
+                number(Some(warm.oil), 1),
+                if warm.outcome().is_some() { " by balance" } else { "" },
                 b.name
             );
             tables.push(bearings(b, &solution));

@@ -1,0 +1,13 @@
+//! Thermal networks: many temperatures, each with its own balance of heat.
+
+mod build;
+pub mod circuit;
+mod faults;
+mod march;
+mod steady;
+
+pub(crate) use build::Around;
+pub use build::{Network, Surroundings};
+pub use circuit::Circuit;
+pub use march::{Heats, March, Moment, Scheme, StepSize};
+pub use steady::Steady;

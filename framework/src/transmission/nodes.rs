@@ -1,0 +1,176 @@
+//! Which thermal node each part belongs to: whose oil has its temperature, and where its heat goes.
+
+use crate::attach::dangling;
+use crate::description::{GearboxEntry, NetworkChoice, NetworkEntry, NodeEntry};
+use crate::document::Diagnostic;
+
+/// Where the heat of a part goes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum HeatPath {
+    /// In equal parts into these nodes.
+    Nodes(Vec<usize>),
+    /// Into the nodes of both gears of a mesh, as its model shares the heat.
+    Gears([usize; 2]),
+}
+
+/// Names of nodes for parts, by patterns; the ambient is the first node.
+#[derive(Debug, Clone, Default)]
+pub struct NodeNames {
+    names: Vec<String>,
+    /// Pattern and node: parts whose heat goes there.
+    heated: Vec<(String, usize)>,
+    /// Pattern and node: parts whose oil has its temperature.
+    oiled: Vec<(String, usize)>,
+    /// Gear and node.
+    gears: Vec<(String, usize)>,
+    /// The oil of all that is named nowhere.
+    oil: usize,
+}
+
+/// Name of the node of the surroundings, which every network has.
+pub const AMBIENT: &str = "ambient";
+
+impl NodeNames {
+    /// The nodes of a description; without a network nothing has a node.
+    pub fn new(entry: &GearboxEntry, found: &mut Vec<Diagnostic>) -> Self {
+        let Some(NetworkChoice::Written(network)) = &entry.thermal.network else {
+            return Self::default();
+        };
+        let mut names = Self {
+            names: std::iter::once(AMBIENT.to_owned())
+                .chain(network.nodes.ids().map(str::to_owned))
+                .collect(),
+            ..Self::default()
+        };
+        let mut oil = None;
+        for (i, (id, node)) in network.nodes.iter().enumerate() {
+            let path = format!("thermal.network.nodes.{id}");
+            if id == AMBIENT {
+                found.push(
+                    Diagnostic::error(
+                        path.clone(),
+                        "`ambient` is there already: the surroundings, as warm as `thermal.ambient`",
+                    )
+                    .mend("give the node another name"),
+                );
+            }
+            names.add(i + 1, node);
+            for gear in &node.gears {
+                if entry.gears.get(gear).is_none() {
+                    let ids: Vec<&str> = entry.gears.ids().collect();
+                    found.push(dangling(&format!("{path}.gears"), "gear", gear, &ids));
+                }
+            }
+            if node.oil
+                && let Some(first) = oil.replace(id)
+            {
+                found.push(
+                    Diagnostic::error(format!("{path}.oil"), format!("`{first}` is the oil already"))
+                        .mend("say `oil: true` at one node, and name parts under `oil_of` of the others"),
+                );
+            }
+        }
+        match oil.and_then(|id| names.node(id)) {
+            Some(node) => names.oil = node,
+            None => found.push(
+                Diagnostic::error("thermal.network.nodes", "no node is the oil of the housing")
+                    .mend("write `oil: true` at the node of the sump"),
+            ),
+        }
+        names
+    }
+
+    fn add(&mut self, node: usize, entry: &NodeEntry) {
+        self.heated
+            .extend(entry.parts.iter().map(|pattern| (pattern.clone(), node)));
+        self.oiled
+            .extend(entry.oil_of.iter().map(|pattern| (pattern.clone(), node)));
+        self.gears.extend(entry.gears.iter().map(|gear| (gear.clone(), node)));
+    }
+
+    /// Number of a node by its name.
+    pub fn node(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|own| own == name)
+    }
+
+    /// Names of all nodes.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The node whose temperature the oil of a part has; the first without a network.
+    pub fn of_oil(&self, path: &str) -> usize {
+        let first = |list: &[(String, usize)]| {
+            list.iter()
+                .find(|(pattern, _)| meets(pattern, path))
+                .map(|(_, node)| *node)
+        };
+        first(&self.oiled).or_else(|| first(&self.heated)).unwrap_or(self.oil)
+    }
+
+    /// The node of a gear's body.
+    pub fn of_gear(&self, id: &str) -> Option<usize> {
+        self.gears.iter().find(|(gear, _)| gear == id).map(|(_, node)| *node)
+    }
+
+    /// The nodes of both gears of a mesh, where both have one and the mesh is not named under `parts`.
+    pub fn bodies(&self, path: &str, gears: [&str; 2]) -> Option<[usize; 2]> {
+        if self.heated.iter().any(|(pattern, _)| meets(pattern, path)) {
+            return None;
+        }
+        Some([self.of_gear(gears[0])?, self.of_gear(gears[1])?])
+    }
+
+    /// Where the heat of a part goes that is no mesh with two nodes: into the nodes that name it, else into the oil.
+    pub fn heat(&self, path: &str) -> HeatPath {
+        let mut nodes: Vec<usize> = self
+            .heated
+            .iter()
+            .filter(|(pattern, _)| meets(pattern, path))
+            .map(|(_, node)| *node)
+            .collect();
+        nodes.dedup();
+        if nodes.is_empty() {
+            nodes.push(self.of_oil(path));
+        }
+        HeatPath::Nodes(nodes)
+    }
+
+    /// Patterns under `parts` and `oil_of` that meet no part, with the path of their list.
+    pub fn unmet(&self, network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>) {
+        for (id, node) in network.nodes.iter() {
+            for (key, patterns) in [("parts", &node.parts), ("oil_of", &node.oil_of)] {
+                for pattern in patterns.iter().filter(|p| !parts.iter().any(|part| meets(p, part))) {
+                    found.push(
+                        Diagnostic::error(
+                            format!("thermal.network.nodes.{id}.{key}"),
+                            format!("`{pattern}` meets no part that loses power"),
+                        )
+                        .note(format!("there are: {}", parts.join(", ")))
+                        .mend("name a part, such as `bearings.B1` or `meshes.*`"),
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// True where a pattern meets a path or something that the path lies below: `gears.G1` meets `gears.G1.drag.churning`.
+fn meets(pattern: &str, path: &str) -> bool {
+    let mut keys = path.split('.');
+    pattern
+        .split('.')
+        .all(|want| keys.next().is_some_and(|key| want == "*" || want == key))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_meet_what_lies_below_them() {
+        assert!(meets("gears.G1", "gears.G1.drag.churning") && meets("gears.*.drag", "gears.G1.drag.churning"));
+        assert!(meets("bearings.*", "bearings.B1") && !meets("bearings.B1", "bearings.B10"));
+        assert!(!meets("gears.G1.drag", "gears.G1"));
+    }
+}

@@ -1,0 +1,84 @@
+//! A thermal network at rest, as lines and as JSON.
+
+use gearloss_framework::thermal::Outcome;
+use gearloss_framework::thermal::network::Steady;
+use gearloss_framework::transmission::Transmission;
+use serde_json::{Value, json};
+
+use super::solve::because;
+use crate::output::{Table, significant};
+
+/// What became of the nodes, in lines.
+pub fn of_network(transmission: &Transmission, steady: &Steady) -> String {
+    let Some(network) = transmission.network() else {
+        return String::new();
+    };
+    let mut text = format!(
+        "network: {} after {} evaluations\n",
+        steady.outcome.name(),
+        steady.evaluations
+    );
+    if steady.outcome != Outcome::Converged {
+        if let Some(why) = &steady.undefined {
+            text.push_str(&format!("  {}\n", because(transmission, why)));
+        }
+        return text;
+    }
+    let mut table = Table::new(&["node", "degC", "heat in W", "heat out W"]);
+    for (node, name) in network.names().iter().enumerate() {
+        table.row(vec![
+            name.clone(),
+            format!("{:.2}", steady.temperatures[node]),
+            format!("{:.2}", steady.heat[node]),
+            if network.is_held(node) {
+                format!("{:.2}", steady.leaving.held[node])
+            } else {
+                String::new()
+            },
+        ]);
+    }
+    text.push_str(&table.render());
+    for (path, heat) in network.exchangers().zip(&steady.leaving.exchangers) {
+        text.push_str(&format!("{path} takes {heat:.2} W\n"));
+    }
+    if steady.leaving.flows.abs() > 1e-6 * steady.heat.iter().sum::<f64>().abs() {
+        text.push_str(&format!("flows carry {:.2} W away\n", steady.leaving.flows));
+    }
+    text.push_str(&format!("residual {} W\n", significant(steady.residual)));
+    text
+}
+
+/// The nodes and the ways of their heat.
+pub fn json_of_network(transmission: &Transmission, steady: &Steady) -> Value {
+    let Some(network) = transmission.network() else {
+        return Value::Null;
+    };
+    let found = steady.outcome == Outcome::Converged;
+    let nodes: serde_json::Map<String, Value> = network
+        .names()
+        .iter()
+        .enumerate()
+        .map(|(i, name)| {
+            let heat = steady.heat.get(i).copied();
+            let out = network
+                .is_held(i)
+                .then(|| steady.leaving.held.get(i).copied())
+                .flatten();
+            let value = json!({
+                "temperature_degc": found.then_some(steady.temperatures[i]),
+                "heat_in_w": heat,
+                "heat_out_w": out,
+            });
+            (name.clone(), value)
+        })
+        .collect();
+    json!({
+        "outcome": steady.outcome,
+        "evaluations": steady.evaluations,
+        "nodes": nodes,
+        "exchangers_w": network.exchangers().zip(&steady.leaving.exchangers).collect::<std::collections::BTreeMap<_, _>>(),
+        "carried_away_w": steady.leaving.flows,
+        "residual_w": steady.residual,
+        "undefined": steady.undefined.as_ref().map(|why| because(transmission, why)),
+    })
+}
