@@ -73,3 +73,6 @@ pub struct Interval {
     /// What else is known.
     pub given: Given,
 }
+
+#[cfg(test)]
+mod tests;
