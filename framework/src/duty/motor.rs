@@ -105,7 +105,7 @@ struct Quadrant {
     table: Table,
     /// Speeds and the largest torque at each that the file holds.
     reach: (Vec<f64>, Vec<f64>),
-    /// First and last temperature, where the file has them.
+    /// First and last temperature, where the file has several.
     temperatures: Option<(f64, f64)>,
 }
 
@@ -133,6 +133,9 @@ const QUANTITIES: [Wanted; 5] = [
     ("temperature", "degC"),
 ];
 
+/// How to mend a header.
+const COLUMNS: &str = "a map has columns `speed [rpm],torque [Nm],loss [W]`, or `efficiency [-]`";
+
 /// A grid with fewer of its nodes stated than this is none: speeds or torques of the rows differ where they should be equal.
 const LEAST_FILLED: f64 = 0.3;
 
@@ -145,7 +148,7 @@ impl MotorMap {
     /// What is wrong, with line and column.
     pub fn read(bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
         let none = Ordered::default();
-        let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, (&none, &none))?;
+        let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, (&none, &none)).map_err(in_header)?;
         let mut lacks = Vec::new();
         for (place, what) in [(SPEED, "speed"), (TORQUE, "torque")] {
             if !sheet.holds(place) {
@@ -179,18 +182,18 @@ impl MotorMap {
         }
         let [motoring, generating] = quadrants;
         Ok(Self {
-            motoring: Quadrant::of(&motoring, "motoring", sheet.holds(TEMPERATURE)).map_err(|f| vec![f])?,
+            motoring: Quadrant::of(&motoring, "motoring").map_err(|f| vec![f])?,
             generating: if generating.is_empty() {
                 notes.push("no negative torques: generating loses what motoring does at the same torque".to_owned());
                 None
             } else {
-                Some(Quadrant::of(&generating, "generating", sheet.holds(TEMPERATURE)).map_err(|f| vec![f])?)
+                Some(Quadrant::of(&generating, "generating").map_err(|f| vec![f])?)
             },
             notes,
         })
     }
 
-    /// True where the losses depend on the temperature.
+    /// True where the losses of motoring depend on the temperature.
     pub fn has_temperature(&self) -> bool {
         self.motoring.temperatures.is_some()
     }
@@ -220,12 +223,21 @@ impl MotorMap {
     }
 }
 
+/// A map has its units in the header: there is no other place to state them.
+fn in_header(faults: Vec<MeasuredFault>) -> Vec<MeasuredFault> {
+    let unit = |f: MeasuredFault| {
+        if f.mend.starts_with("state it") {
+            fault(f.message, COLUMNS)
+        } else {
+            f
+        }
+    };
+    faults.into_iter().map(unit).collect()
+}
+
 fn lacking(sheet: &Sheet, what: &str) -> MeasuredFault {
     let missing = sheet.lacks(what, "");
-    fault(
-        missing.message,
-        "a map has columns `speed [rpm],torque [Nm],loss [W]`, or `efficiency [-]`",
-    )
+    fault(missing.message, COLUMNS)
 }
 
 /// A node and whether it is generating; none where an efficiency tells no loss.
@@ -279,7 +291,7 @@ fn place(values: &[f64], x: f64) -> usize {
 }
 
 impl Quadrant {
-    fn of(nodes: &[Node], what: &str, with_temperature: bool) -> Result<Self, MeasuredFault> {
+    fn of(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
         let speeds = rising(nodes.iter().map(|n| n.speed));
         let torques = rising(nodes.iter().map(|n| n.torque));
         let temperatures = rising(nodes.iter().map(|n| n.temperature));
@@ -355,7 +367,7 @@ impl Quadrant {
         Ok(Self {
             table,
             reach: (speeds, reach),
-            temperatures: with_temperature.then(|| (temperatures[0], temperatures[k - 1])),
+            temperatures: (k > 1).then(|| (temperatures[0], temperatures[k - 1])),
         })
     }
 

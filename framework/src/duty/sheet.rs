@@ -10,6 +10,9 @@ pub(super) type Wanted<'a> = (&'a str, &'a str);
 /// How many faults of one kind are told.
 pub(super) const TOLD: usize = 5;
 
+/// Beyond this no quantity of a duty has a meaning; products of such numbers stay finite.
+const MOST: f64 = 1e12;
+
 struct Column {
     place: usize,
     header: String,
@@ -106,7 +109,15 @@ impl Sheet {
         let (line, cells) = &self.table.rows[row];
         let number = text::number(self.table.decimal, (*line, cells), (column.place, &column.header))?;
         let (factor, offset) = column.unit.unwrap_or((1.0, 0.0));
-        Ok(Some(number * factor + offset))
+        let number = number * factor + offset;
+        if number.abs() > MOST {
+            return Err(format!(
+                "{}: `{}` is larger than anything that occurs",
+                self.at(row, wanted),
+                self.text(row, wanted).unwrap_or_default()
+            ));
+        }
+        Ok(Some(number))
     }
 
     /// As [`Sheet::number`], refused below zero.

@@ -102,10 +102,19 @@ fn losses_are_linear_over_the_temperature() {
     assert!(map.has_temperature());
     assert!((at(70.0).loss - 240.0).abs() < 1e-9 && !at(70.0).outside);
     assert!((at(0.0).loss - 200.0).abs() < 1e-9 && at(0.0).outside && at(130.0).outside);
+    // At one temperature alone the losses count at any.
+    let single: String = text.lines().take(5).fold(String::new(), |all, line| all + line + "\n");
+    let map = MotorMap::read(single.as_bytes()).unwrap();
+    assert!(!map.has_temperature() && !map.loss(1000.0 * PI / 30.0, 20.0, 90.0).outside);
 }
 
 #[test]
 fn faults_of_a_map_tell_line_and_column() {
+    let unit = MotorMap::read(b"speed,torque [Nm],loss [W]\n1,1,1\n")
+        .unwrap_err()
+        .remove(0);
+    assert_eq!(unit.message, "line 1, column `speed` has no unit");
+    assert_eq!(unit.mend, COLUMNS);
     assert_eq!(
         messages("n [rpm],torque [Nm],eta [-]\n1,1,1\n"),
         [

@@ -157,6 +157,12 @@ fn cells_without_a_number_are_told_together() {
             format!("line 5, column 2 `v`: `-0.1` is below zero | {mend}"),
         ]
     );
+    assert_eq!(
+        faults(&entry(), "t [h],v [m/s]\n0,0\n1e308,0\n"),
+        [format!(
+            "line 3, column 1 `t`: `1e308` is larger than anything that occurs | {mend}"
+        )]
+    );
     let many = format!("t [s],v [m/s]\n{}", "0,x\n".repeat(8));
     let found = faults(&entry(), &many);
     assert_eq!(found.len(), 5);
