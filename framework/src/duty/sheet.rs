@@ -53,7 +53,10 @@ impl Sheet {
         for (name, due) in wanted {
             let written = columns.get(name);
             let header = written.map_or(*name, String::as_str);
-            let column = table.names.iter().position(|n| n == header).and_then(|place| {
+            // A column that is named for another quantity does not count by its own name.
+            let taken = written.is_none() && columns.iter().any(|(_, column)| column == name);
+            let place = table.names.iter().position(|n| n == header).filter(|_| !taken);
+            let column = place.and_then(|place| {
                 let stated = units.get(name).or(table.units[place].as_ref());
                 let unit = if due.is_empty() {
                     None

@@ -146,6 +146,16 @@ fn is_unit(cell: &str) -> bool {
     matches!(bare, "" | "%" | "-" | "1") || Unit::of_symbol(bare).is_some()
 }
 
+/// Line of a record: its position is that of the comments and empty lines before it.
+fn line_of(text: &str, at: &csv::Position) -> u64 {
+    let rest = usize::try_from(at.byte()).ok().and_then(|byte| text.get(byte..));
+    let skipped = rest.unwrap_or_default().lines();
+    at.line()
+        + skipped
+            .take_while(|line| line.is_empty() || line.starts_with('#'))
+            .count() as u64
+}
+
 pub(crate) fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
     let text = decoded(bytes, form.encoding, notes)?;
     let Some(first) = text
@@ -174,7 +184,7 @@ pub(crate) fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result
     let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|e| fault(e.to_string(), "check quotes and separators"))?;
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = record.position().map_or(0, |at| line_of(&text, at));
         if record.iter().all(str::is_empty) {
             continue;
         }

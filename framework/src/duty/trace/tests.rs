@@ -106,6 +106,17 @@ fn a_slope_counts_by_its_rise_over_run() {
 }
 
 #[test]
+fn a_column_counts_for_the_quantity_that_names_it_alone() {
+    let entry = FileCycleEntry {
+        columns: list(&[("vehicle_speed", "speed")]),
+        ..FileCycleEntry::named("drive.csv")
+    };
+    let trace = Trace::read(&entry, b"# Where from\n\ntime [s],speed [km/h]\n# here\n0,36\n1,36\n").unwrap();
+    assert_eq!(trace.samples[0].port, None);
+    assert_eq!((trace.samples[0].line, trace.samples[1].line), (5, 6));
+}
+
+#[test]
 fn a_window_takes_the_rows_within() {
     let text = "t [s],v [m/s]\n0,0\n1,1\n2,2\n3,3\n4,4\n";
     let window = |start, end| FileCycleEntry { start, end, ..entry() };
