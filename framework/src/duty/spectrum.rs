@@ -120,7 +120,7 @@ pub(super) fn intervals(loads: &[SpectrumPoint], duration: f64) -> Result<Vec<In
         let shares: Vec<f64> = loads.iter().filter_map(|l| l.share).collect();
         let sum: f64 = shares.iter().sum();
         // Shares in whole percents or with three digits may miss one by their rounding.
-        if !((sum - 1.0).abs() <= 0.01) {
+        if (sum - 1.0).abs() > 0.01 {
             return Err(vec![fault(
                 format!("the shares sum up to {}, not to one", (sum * 1e4).round() / 1e4),
                 "correct the shares, or state times",
