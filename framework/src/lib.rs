@@ -6,6 +6,7 @@ pub mod conformance;
 pub mod description;
 pub mod design;
 pub mod document;
+pub mod duty;
 pub mod eval;
 pub mod evaluate;
 pub mod fit;

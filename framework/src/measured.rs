@@ -4,7 +4,7 @@
 
 mod rig;
 mod seen;
-mod text;
+pub(crate) mod text;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -158,7 +158,7 @@ pub struct MeasuredFault {
     pub mend: String,
 }
 
-fn fault(message: impl Into<String>, mend: impl Into<String>) -> MeasuredFault {
+pub(crate) fn fault(message: impl Into<String>, mend: impl Into<String>) -> MeasuredFault {
     MeasuredFault {
         message: message.into(),
         mend: mend.into(),
@@ -180,13 +180,21 @@ impl MeasuredEntry {
         self.stated_as.divisor(self.coverage_factor)
     }
 
+    fn form(&self) -> text::Form {
+        text::Form {
+            separator: self.separator,
+            decimal: self.decimal,
+            encoding: self.encoding,
+        }
+    }
+
     /// Reads the bytes of the file. `bind` names columns that change the gearbox.
     ///
     /// # Errors
     /// What is wrong, with line and column.
     pub fn read(&self, bytes: &[u8], bind: &[&str]) -> Result<Measured, MeasuredFault> {
         let mut notes = Vec::new();
-        let table = text::table(bytes, self, &mut notes)?;
+        let table = text::table(bytes, self.form(), &mut notes)?;
         let (columns, bound) = self.columns(&table, bind)?;
         let mut measured = Measured {
             quantities: columns
@@ -272,7 +280,11 @@ impl MeasuredEntry {
             let unit = if known.unit.is_empty() {
                 None
             } else {
-                Some(scale(known, stated(known.name, place).as_deref(), &header)?)
+                Some(scale(
+                    (known.name, known.unit),
+                    stated(known.name, place).as_deref(),
+                    &header,
+                )?)
             };
             columns.push(Column {
                 place,
@@ -325,15 +337,15 @@ impl MeasuredEntry {
 }
 
 /// Factor and offset of a unit to SI.
-fn scale(known: &Known, unit: Option<&str>, header: &str) -> Result<(f64, f64), MeasuredFault> {
-    let mend = |example: &str| format!("state it: `units: {{ {}: {example} }}`", known.name);
-    if known.unit == "-" {
+pub(crate) fn scale((name, due): (&str, &str), unit: Option<&str>, header: &str) -> Result<(f64, f64), MeasuredFault> {
+    let mend = |example: &str| format!("state it: `units: {{ {name}: {example} }}`");
+    if due == "-" {
         return match unit {
             Some("%") => Ok((0.01, 0.0)),
             Some("-" | "1") => Ok((1.0, 0.0)),
-            None if known.name == "weight" => Ok((1.0, 0.0)),
+            None if ["weight", "share"].contains(&name) => Ok((1.0, 0.0)),
             Some(other) => Err(fault(
-                format!("column `{header}`: `{other}` is no unit of {}", known.name),
+                format!("column `{header}`: `{other}` is no unit of {name}"),
                 mend("\"%\""),
             )),
             None => Err(fault(
@@ -343,14 +355,17 @@ fn scale(known: &Known, unit: Option<&str>, header: &str) -> Result<(f64, f64), 
         };
     }
     let Some(symbol) = unit else {
-        return Err(fault(format!("column `{header}` has no unit"), mend(known.unit)));
+        return Err(fault(format!("column `{header}` has no unit"), mend(due)));
     };
-    let due = Unit::of_symbol(known.unit).unwrap_or(Unit::ONE);
+    let wanted = Unit::of_symbol(due).unwrap_or(Unit::ONE);
     match Unit::of_symbol(symbol) {
-        Some(unit) if unit.dimension == due.dimension => Ok((unit.factor, unit.offset)),
+        Some(unit) if unit.dimension == wanted.dimension => Ok((unit.factor, unit.offset)),
         _ => Err(fault(
-            format!("column `{header}`: `{symbol}` is no unit of {}", due.dimension.name()),
-            mend(known.unit),
+            format!(
+                "column `{header}`: `{symbol}` is no unit of {}",
+                wanted.dimension.name()
+            ),
+            mend(due),
         )),
     }
 }
@@ -362,17 +377,7 @@ fn row(
     decimal: Decimal,
     faulty: FaultyRows,
 ) -> Result<Row, String> {
-    let number = |column: &Column| {
-        let cell = cells.get(column.place).map_or("", String::as_str);
-        decimal.number(cell).ok_or_else(|| {
-            let at = format!("line {line}, column {} `{}`", column.place + 1, column.header);
-            if cell.is_empty() {
-                format!("{at}: empty")
-            } else {
-                format!("{at}: `{cell}` is not a number")
-            }
-        })
-    };
+    let number = |column: &Column| text::number(decimal, (line, cells), (column.place, &column.header));
     let mut row = Row { line, ..Row::default() };
     for column in columns {
         let text = || cells.get(column.place).filter(|c| !c.is_empty()).cloned();

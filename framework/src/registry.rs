@@ -276,6 +276,21 @@ pub struct ShippedSet {
 
 inventory::collect!(ShippedSet);
 
+/// A driving cycle that a crate ships by name.
+#[derive(Debug, Clone, Copy)]
+pub struct ShippedCycle {
+    /// Name in studies.
+    pub name: &'static str,
+    /// CSV text: `time [s],speed [km/h]`, the vehicle's speed.
+    pub csv: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+    /// Where it is registered.
+    pub origin: Origin,
+}
+
+inventory::collect!(ShippedCycle);
+
 /// All mechanisms and models at hand, in the order of their names.
 #[derive(Clone)]
 pub struct Registry {
@@ -283,6 +298,7 @@ pub struct Registry {
     models: Vec<Entry>,
     catalogues: Vec<Catalogue>,
     sets: Vec<ShippedSet>,
+    cycles: Vec<ShippedCycle>,
 }
 
 impl Registry {
@@ -296,7 +312,24 @@ impl Registry {
             inventory::iter::<Entry>().copied(),
             inventory::iter::<Catalogue>().copied(),
             inventory::iter::<ShippedSet>().copied(),
-        )
+        )?
+        .with_cycles(inventory::iter::<ShippedCycle>().copied())
+    }
+
+    /// The same with driving cycles.
+    ///
+    /// # Errors
+    /// If two cycles have one name; each error names modules and lines.
+    pub fn with_cycles(mut self, cycles: impl IntoIterator<Item = ShippedCycle>) -> Result<Self, Vec<Diagnostic>> {
+        self.cycles.extend(cycles);
+        self.cycles.sort_by_key(|c| (c.name, c.origin.module, c.origin.line));
+        let found: Vec<_> = self
+            .cycles
+            .windows(2)
+            .filter(|pair| pair[0].name == pair[1].name)
+            .map(|pair| twice("cycle", pair[0].name, pair[0].origin, pair[1].origin))
+            .collect();
+        if found.is_empty() { Ok(self) } else { Err(found) }
     }
 
     /// A registry of the given entries, for tests and for programs that choose.
@@ -358,6 +391,7 @@ impl Registry {
                 models,
                 catalogues,
                 sets,
+                cycles: Vec::new(),
             })
         } else {
             Err(found)
@@ -399,6 +433,16 @@ impl Registry {
     /// The sets of models that linked crates ship.
     pub fn shipped_sets(&self) -> &[ShippedSet] {
         &self.sets
+    }
+
+    /// The driving cycles that linked crates ship, in the order of their names.
+    pub fn cycles(&self) -> &[ShippedCycle] {
+        &self.cycles
+    }
+
+    /// One driving cycle by its name.
+    pub fn cycle(&self, name: &str) -> Option<&ShippedCycle> {
+        self.cycles.iter().find(|c| c.name == name)
     }
 
     /// Crates that registered something, in the order of their names.

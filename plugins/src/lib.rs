@@ -7,6 +7,7 @@ pub mod bearing;
 pub mod catalogues;
 pub mod clutch;
 pub mod contact;
+pub mod cycles;
 pub mod exponential;
 pub mod gear_drag;
 pub mod gear_mesh;

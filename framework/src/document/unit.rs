@@ -47,6 +47,14 @@ pub enum Dimension {
     PressureCoefficient,
     /// Time, s.
     Time,
+    /// Acceleration, m/s2.
+    Acceleration,
+    /// Angular acceleration, rad/s2.
+    AngularAcceleration,
+    /// Force per speed, N s/m.
+    SpeedResistance,
+    /// Force per square of speed, N s2/m2.
+    SquareResistance,
     /// Volume flow, m3/s.
     Flow,
     /// Mass flow, kg/s.
@@ -91,6 +99,10 @@ impl Dimension {
             Self::Pressure => "pressure",
             Self::PressureCoefficient => "pressure coefficient",
             Self::Time => "time",
+            Self::Acceleration => "acceleration",
+            Self::AngularAcceleration => "angular acceleration",
+            Self::SpeedResistance => "force per speed",
+            Self::SquareResistance => "force per square of speed",
             Self::Flow => "volume flow",
             Self::MassFlow => "mass flow",
             Self::HeatTransfer => "heat transfer coefficient",
@@ -217,6 +229,17 @@ static UNITS: &[Unit] = &[
     unit("s", Dimension::Time, 1.0),
     unit("min", Dimension::Time, 60.0),
     unit("h", Dimension::Time, 3600.0),
+    unit("m/s2", Dimension::Acceleration, 1.0),
+    unit("m/s²", Dimension::Acceleration, 1.0),
+    unit("rpm/s", Dimension::AngularAcceleration, PI / 30.0),
+    unit("rad/s2", Dimension::AngularAcceleration, 1.0),
+    unit("rad/s²", Dimension::AngularAcceleration, 1.0),
+    unit("N s/m", Dimension::SpeedResistance, 1.0),
+    unit("N/(km/h)", Dimension::SpeedResistance, 3.6),
+    unit("N s2/m2", Dimension::SquareResistance, 1.0),
+    unit("N s²/m²", Dimension::SquareResistance, 1.0),
+    unit("N/(km/h)2", Dimension::SquareResistance, 12.96),
+    unit("N/(km/h)²", Dimension::SquareResistance, 12.96),
     unit("l/min", Dimension::Flow, 1e-3 / 60.0),
     unit("L/min", Dimension::Flow, 1e-3 / 60.0),
     unit("m3/s", Dimension::Flow, 1.0),
@@ -331,5 +354,20 @@ mod tests {
         assert_eq!(Unit::of_doc(" Bore diameter. [mm]").unwrap().symbol, "mm");
         assert!(Unit::of_doc("No unit.").is_none());
         assert!(Unit::of_doc("Strange. [furlong]").is_none());
+    }
+    #[test]
+    fn road_loads_and_accelerations_convert() {
+        for (symbol, dimension, si) in [
+            ("N s/m", Dimension::SpeedResistance, 1.0),
+            ("N/(km/h)", Dimension::SpeedResistance, 3.6),
+            ("N s2/m2", Dimension::SquareResistance, 1.0),
+            ("N/(km/h)2", Dimension::SquareResistance, 3.6 * 3.6),
+            ("m/s2", Dimension::Acceleration, 1.0),
+            ("rpm/s", Dimension::AngularAcceleration, PI / 30.0),
+        ] {
+            let unit = Unit::of_symbol(symbol).unwrap();
+            assert_eq!(unit.dimension, dimension, "{symbol}");
+            assert!((unit.to_si(1.0) - si).abs() < 1e-12, "{symbol}");
+        }
     }
 }

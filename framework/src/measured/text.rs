@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{MeasuredEntry, MeasuredFault, fault};
+use super::{MeasuredFault, fault};
 use crate::document::Unit;
 
 /// What separates cells.
@@ -40,7 +40,7 @@ pub enum Decimal {
 
 impl Decimal {
     /// A finite number.
-    pub(super) fn number(self, cell: &str) -> Option<f64> {
+    pub(crate) fn number(self, cell: &str) -> Option<f64> {
         let number = match self {
             Self::Point => cell.parse::<f64>(),
             Self::Comma if cell.contains('.') => return None,
@@ -60,14 +60,39 @@ pub enum Encoding {
     Latin1,
 }
 
+/// What is stated of how a file is written; the rest is recognised.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Form {
+    pub separator: Option<Separator>,
+    pub decimal: Option<Decimal>,
+    pub encoding: Option<Encoding>,
+}
+
 /// Cells with their lines.
-pub(super) struct Table {
+pub(crate) struct Table {
     pub names: Vec<String>,
     /// Unit of each column, where the header or a row of units states it.
     pub units: Vec<Option<String>>,
     pub header_line: u64,
     pub rows: Vec<(u64, Vec<String>)>,
     pub decimal: Decimal,
+}
+
+/// The number in a cell, or what stands there instead.
+pub(crate) fn number(
+    decimal: Decimal,
+    (line, cells): (u64, &[String]),
+    (place, header): (usize, &str),
+) -> Result<f64, String> {
+    let cell = cells.get(place).map_or("", String::as_str);
+    decimal.number(cell).ok_or_else(|| {
+        let at = format!("line {line}, column {} `{header}`", place + 1);
+        if cell.is_empty() {
+            format!("{at}: empty")
+        } else {
+            format!("{at}: `{cell}` is not a number")
+        }
+    })
 }
 
 fn decoded(bytes: &[u8], encoding: Option<Encoding>, notes: &mut Vec<String>) -> Result<String, MeasuredFault> {
@@ -121,15 +146,25 @@ fn is_unit(cell: &str) -> bool {
     matches!(bare, "" | "%" | "-" | "1") || Unit::of_symbol(bare).is_some()
 }
 
-pub(super) fn table(bytes: &[u8], entry: &MeasuredEntry, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
-    let text = decoded(bytes, entry.encoding, notes)?;
+/// Line of a record: its position is that of the comments and empty lines before it.
+fn line_of(text: &str, at: &csv::Position) -> u64 {
+    let rest = usize::try_from(at.byte()).ok().and_then(|byte| text.get(byte..));
+    let skipped = rest.unwrap_or_default().lines();
+    at.line()
+        + skipped
+            .take_while(|line| line.is_empty() || line.starts_with('#'))
+            .count() as u64
+}
+
+pub(crate) fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
+    let text = decoded(bytes, form.encoding, notes)?;
     let Some(first) = text
         .lines()
         .find(|line| !line.trim().is_empty() && !line.starts_with('#'))
     else {
         return Err(fault("the file is empty", "name another file"));
     };
-    let separator = entry.separator.unwrap_or_else(|| {
+    let separator = form.separator.unwrap_or_else(|| {
         let found = separator(first);
         if found != Separator::Comma {
             notes.push(format!(
@@ -149,7 +184,7 @@ pub(super) fn table(bytes: &[u8], entry: &MeasuredEntry, notes: &mut Vec<String>
     let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|e| fault(e.to_string(), "check quotes and separators"))?;
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = record.position().map_or(0, |at| line_of(&text, at));
         if record.iter().all(str::is_empty) {
             continue;
         }
@@ -188,7 +223,7 @@ pub(super) fn table(bytes: &[u8], entry: &MeasuredEntry, notes: &mut Vec<String>
         }
     }
     Ok(Table {
-        decimal: decimal(&rows, entry, notes)?,
+        decimal: decimal(&rows, form, notes)?,
         names,
         units,
         header_line,
@@ -197,12 +232,8 @@ pub(super) fn table(bytes: &[u8], entry: &MeasuredEntry, notes: &mut Vec<String>
 }
 
 /// The decimal sign: a comma where numbers hold commas and none holds a point.
-fn decimal(
-    rows: &[(u64, Vec<String>)],
-    entry: &MeasuredEntry,
-    notes: &mut Vec<String>,
-) -> Result<Decimal, MeasuredFault> {
-    if let Some(stated) = entry.decimal {
+fn decimal(rows: &[(u64, Vec<String>)], form: Form, notes: &mut Vec<String>) -> Result<Decimal, MeasuredFault> {
+    if let Some(stated) = form.decimal {
         return Ok(stated);
     }
     let digits = |cell: &str, sign: char| {

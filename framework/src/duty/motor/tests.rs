@@ -1,0 +1,169 @@
+#![allow(clippy::unwrap_used)]
+use super::*;
+use std::f64::consts::PI;
+
+const SYNTHETIC: &str = include_str!("../../../../examples/electric-drive-unit/motor_map.csv");
+
+/// The law that the shipped map was made from: copper, iron, friction and windage, inverter.
+fn law(rpm: f64, torque: f64) -> f64 {
+    let w = rpm * PI / 30.0;
+    let copper = 0.09 * torque * torque * (1.0 + 0.15 * ((w / 560.0).max(1.0) - 1.0));
+    copper + 0.6 * w + 5e-4 * w * w + 1.5e-7 * w * w * w + 60.0
+}
+
+fn messages(text: &str) -> Vec<String> {
+    let found = MotorMap::read(text.as_bytes()).unwrap_err();
+    found.into_iter().map(|f| f.message).collect()
+}
+
+#[test]
+fn u7m_the_synthetic_map() {
+    let cases = [
+        (1000.0, 10.0, 137.4872),
+        (5000.0, 60.0, 856.7692),
+        (7000.0, 13.0, 843.4947),
+        (9000.0, 150.0, 3427.654),
+    ];
+    let map = MotorMap::read(SYNTHETIC.as_bytes()).unwrap();
+    for (rpm, torque, loss) in cases {
+        assert!((law(rpm, torque) - loss).abs() < 1e-6 * loss, "{rpm} {torque}");
+        // Between nodes straight lines lie above the convex law, by less than 0.3 % here.
+        let read = map.loss(rpm * PI / 30.0, torque, 80.0);
+        assert!(!read.outside);
+        assert!(
+            read.loss > loss - 0.01 && read.loss < 1.003 * loss,
+            "{rpm} {torque}: {read:?}"
+        );
+    }
+    // The rows are the law to their two decimals.
+    let mut rows = 0;
+    for line in SYNTHETIC.lines().filter(|l| !l.starts_with(['#', 's'])) {
+        let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert!((law(row[0], row[1]) - row[2]).abs() < 0.006, "{line}");
+        let read = map.loss(row[0] * PI / 30.0, row[1], 80.0);
+        assert!(
+            (read.loss - row[2]).abs() < 1e-9 * row[2] && !read.outside,
+            "{line}: {read:?}"
+        );
+        rows += 1;
+    }
+    assert_eq!(rows, 271);
+}
+
+#[test]
+fn efficiencies_become_losses_before_they_are_interpolated() {
+    let text = "speed [rpm],torque [Nm],efficiency [%]\n\
+                0,0,70\n0,10,70\n0,20,70\n1000,0,70\n1000,10,80\n1000,20,90\n2000,0,50\n2000,10,80\n2000,20,80\n\
+                1000,-10,80\n1000,-20,90\n2000,-10,80\n2000,-20,0\n";
+    let map = MotorMap::read(text.as_bytes()).unwrap();
+    let w = 1000.0 * PI / 30.0;
+    let at = |rpm: f64, torque: f64| map.loss(rpm * PI / 30.0, torque, 20.0);
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
+    let (low, high) = (10.0 * w * 0.25, 20.0 * w * (1.0 / 0.9 - 1.0));
+    assert!(close(at(1000.0, 15.0).loss, 0.5 * (low + high)));
+    // Generating: the part of the mechanical power that is not regained; also backwards.
+    assert!(close(at(1000.0, -10.0).loss, 10.0 * w * 0.2) && close(at(-1000.0, 10.0).loss, 10.0 * w * 0.2));
+    assert!(close(at(2000.0, -20.0).loss, 20.0 * 2.0 * w));
+    assert!(close(at(-1000.0, -10.0).loss, low));
+    // Below the slowest speed and the smallest torque the nearest loss holds; at standstill without torque the motor is off.
+    assert!(close(at(0.0, 10.0).loss, low) && close(at(1000.0, 0.0).loss, low) && !at(1000.0, 0.0).outside);
+    assert_eq!(at(0.0, 0.0).loss, 0.0);
+    // Beyond, the end holds and is told.
+    for (rpm, torque) in [(3000.0, 10.0), (2000.0, 30.0), (-3000.0, 30.0)] {
+        assert!(at(rpm, torque).outside, "{rpm} {torque}");
+    }
+    assert!(close(at(3000.0, 10.0).loss, 2.0 * low));
+    assert_eq!(
+        map.notes,
+        ["5 rows without speed or torque left out: an efficiency tells no loss there"]
+    );
+}
+
+#[test]
+fn a_corner_that_the_motor_does_not_reach_holds_the_last_loss_and_is_told() {
+    let text = "speed [rpm],torque [Nm],loss [W]\n1000,10,100\n1000,20,200\n2000,10,150\n";
+    let map = MotorMap::read(text.as_bytes()).unwrap();
+    let at = |rpm: f64, torque: f64| map.loss(rpm * PI / 30.0, torque, 20.0);
+    let corner = at(2000.0, 20.0);
+    assert!((corner.loss - 150.0).abs() < 1e-9 && corner.outside);
+    assert!(!at(1500.0, 15.0).outside && at(1500.0, 15.1).outside);
+    // Without generating rows the losses of motoring hold.
+    assert_eq!(at(1000.0, -20.0), at(1000.0, 20.0));
+    assert!(!map.has_temperature());
+}
+
+#[test]
+fn losses_are_linear_over_the_temperature() {
+    let text = "speed [rpm],torque [Nm],temperature [degC],loss [W]\n\
+                1000,10,20,100\n1000,20,20,200\n2000,10,20,150\n2000,20,20,250\n\
+                1000,10,120,140\n1000,20,120,280\n2000,10,120,190\n2000,20,120,330\n";
+    let map = MotorMap::read(text.as_bytes()).unwrap();
+    let at = |temperature: f64| map.loss(1000.0 * PI / 30.0, 20.0, temperature);
+    assert!(map.has_temperature());
+    assert!((at(70.0).loss - 240.0).abs() < 1e-9 && !at(70.0).outside);
+    assert!((at(0.0).loss - 200.0).abs() < 1e-9 && at(0.0).outside && at(130.0).outside);
+    // At one temperature alone the losses count at any.
+    let single: String = text.lines().take(5).fold(String::new(), |all, line| all + line + "\n");
+    let map = MotorMap::read(single.as_bytes()).unwrap();
+    assert!(!map.has_temperature() && !map.loss(1000.0 * PI / 30.0, 20.0, 90.0).outside);
+}
+
+#[test]
+fn faults_of_a_map_tell_line_and_column() {
+    let unit = MotorMap::read(b"speed,torque [Nm],loss [W]\n1,1,1\n")
+        .unwrap_err()
+        .remove(0);
+    assert_eq!(unit.message, "line 1, column `speed` has no unit");
+    assert_eq!(unit.mend, COLUMNS);
+    assert_eq!(
+        messages("n [rpm],torque [Nm],eta [-]\n1,1,1\n"),
+        [
+            "line 1: no column holds the speed; there are: n, torque, eta",
+            "line 1: no column holds the efficiency or the loss; there are: n, torque, eta",
+        ]
+    );
+    assert_eq!(
+        messages("speed [rpm],torque [Nm],efficiency [-]\n1000,10,80\n1000,20,0\n-1,10,0.5\n1000,x,0.5\n"),
+        [
+            "line 2, column 3 `efficiency`: an efficiency of 80; it lies between 0 and 1, or 0 and 100 %",
+            "line 3, column 3 `efficiency`: an efficiency of 0; it lies between 0 and 1, or 0 and 100 %",
+            "line 4, column 1 `speed`: `-1` is below zero",
+            "line 5, column 2 `torque`: `x` is not a number",
+        ]
+    );
+    assert_eq!(
+        messages("speed [rpm],torque [Nm],loss [W]\n1000,10,80\n2000,20,90\n1000,10,80\n"),
+        ["line 4: this speed and torque stand already in line 2"]
+    );
+    assert_eq!(
+        messages("speed [rpm],torque [Nm],loss [W]\n1000,10,80\n1000,20,80\n"),
+        ["the motoring part has 1 speeds and 2 torques; a map needs two of each"]
+    );
+    assert_eq!(
+        messages("speed [rpm],torque [Nm],loss [W]\n1,1,1\n2,2,2\n3,3,3\n4,4,4\n"),
+        ["the motoring part has 4 rows for 4 speeds, 4 torques and 1 temperatures, which is no grid"]
+    );
+}
+
+#[test]
+fn the_share_of_the_rotor_is_one_number_or_rises_with_speed() {
+    let over = |speeds: [f64; 2]| {
+        RotorShare::Over(vec![
+            RotorShareAt {
+                speed: speeds[0],
+                share: 0.1,
+            },
+            RotorShareAt {
+                speed: speeds[1],
+                share: 0.3,
+            },
+        ])
+    };
+    assert_eq!(RotorShare::default().at(500.0).unwrap(), 0.2);
+    assert!((over([0.0, 1000.0]).at(-500.0).unwrap() - 0.2).abs() < 1e-12);
+    assert_eq!(over([0.0, 1000.0]).at(2000.0).unwrap(), 0.3);
+    assert_eq!(
+        over([10.0, 10.0]).at(5.0).unwrap_err().message,
+        "the speeds of `rotor_share` do not rise"
+    );
+}
