@@ -69,36 +69,38 @@ pub struct Columns {
     rows: Vec<(u64, Vec<String>)>,
 }
 
+fn cells(record: &csv::StringRecord) -> Vec<String> {
+    record.iter().map(str::to_owned).collect()
+}
+
 impl Columns {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let file = path.display().to_string();
         let text = std::fs::read_to_string(path)
             .map_err(|e| Failure::input(format!("cannot read {file}: {e}"), "check the name of the file"))?;
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .has_headers(false)
-            .from_reader(text.trim_start_matches('\u{feff}').as_bytes());
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|e| {
-                let place = e
-                    .position()
-                    .map_or_else(String::new, |at| format!("line {}: ", at.line()));
-                let message = match e.kind() {
-                    csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-                        format!("{len} cells where the header has {expected_len}")
-                    }
-                    _ => e.to_string(),
-                };
-                Failure::input(
-                    format!("{file}: {place}{message}"),
+        let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
+        // Line by line: a reader of the whole text counts comments to the record behind them.
+        for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
+            if text.trim().is_empty() || text.starts_with('#') {
+                continue;
+            }
+            let mut reader = csv::ReaderBuilder::new()
+                .trim(csv::Trim::All)
+                .has_headers(false)
+                .from_reader(text.as_bytes());
+            let cells: Vec<String> = reader.records().flatten().flat_map(|r| cells(&r)).collect();
+            if let Some((_, header)) = rows.first().filter(|(_, header)| header.len() != cells.len()) {
+                return Err(Failure::input(
+                    format!(
+                        "{file}: line {line}: {} cells where the header has {}",
+                        cells.len(),
+                        header.len()
+                    ),
                     "separate cells by commas, and write a decimal point",
-                )
-            })?;
-            let line = record.position().map_or(0, csv::Position::line);
-            rows.push((line, record.iter().map(str::to_owned).collect::<Vec<_>>()));
+                ));
+            }
+            rows.push((line, cells));
         }
         if rows.len() < 2 {
             return Err(Failure::input(
