@@ -39,10 +39,9 @@ impl Quantity {
     /// Factor and zero of a unit in SI.
     fn conversion(&self, symbol: &str) -> Option<(f64, f64)> {
         match (self.measure, symbol) {
-            (Measure::ShearRate, "1/s") => Some((1.0, 0.0)),
+            (Measure::ShearRate, "1/s") | (Measure::Of(Dimension::None), "") => Some((1.0, 0.0)),
             (Measure::Of(Dimension::Length), "nm") => Some((1e-9, 0.0)),
             (Measure::Of(Dimension::None), "%") => Some((0.01, 0.0)),
-            (Measure::Of(Dimension::None), "") => Some((1.0, 0.0)),
             (Measure::Of(dimension), _) => Unit::of_symbol(symbol)
                 .filter(|unit| unit.dimension == dimension)
                 .map(|unit| (unit.factor, unit.offset)),
