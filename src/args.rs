@@ -52,6 +52,40 @@ pub enum FitLaw {
         /// CSV file, as a drag model `table` reads it.
         table: PathBuf,
     },
+    /// Eyring stress, exponent over pressure and limiting stress of an oil from traction curves.
+    Traction {
+        /// CSV file: `pressure [GPa]` (mean of the contact), `temperature [degC]` (of the film), `shear_rate [1/s]` or `sliding [m/s]`
+        /// and `film [nm]`, `stress [MPa]` or `mu`; and, if wanted, `slide_roll [%]`, below 1 % of which points are left out.
+        curves: PathBuf,
+        #[command(flatten)]
+        oil: OilArgs,
+    },
+    /// Coefficient of boundary friction from a Stribeck curve.
+    Stribeck {
+        /// CSV file: `lambda`, or `film [nm]` with `--rq`; measured `mu`, and `mu_film`, the friction of the film alone.
+        curve: PathBuf,
+        /// Rms roughness of both flanks together, such as `"0.28 um"`; for films in place of `lambda`.
+        #[arg(long, value_name = "ROUGHNESS")]
+        rq: Option<String>,
+        /// Exponent of the share of boundary friction over one plus the film ratio.
+        #[arg(long, default_value_t = 2.0)]
+        exponent: f64,
+    },
+}
+
+/// Whose viscosity holds.
+#[derive(Debug, Clone, ClapArgs)]
+#[group(required = true, multiple = true)]
+pub struct OilArgs {
+    /// Gearbox file that describes the oil.
+    #[arg(long, value_name = "GEARBOX", conflicts_with = "oil")]
+    pub gearbox: Option<PathBuf>,
+    /// Its name among the `lubricants` of that file; not needed where there is only one.
+    #[arg(long, value_name = "ID", requires = "gearbox")]
+    pub lubricant: Option<String>,
+    /// The oil itself, as below `lubricants` of a gearbox: `"{ viscosity: { kv40: 27.3 mm2/s, kv100: 5.9 mm2/s } }"`.
+    #[arg(long, value_name = "YAML")]
+    pub oil: Option<String>,
 }
 
 /// Arguments of `import`.

@@ -6,6 +6,7 @@ mod gauss;
 mod involute;
 mod pair;
 mod path;
+mod ramp;
 
 pub use involute::{inverse_involute, involute};
 pub use pair::{Pair, PairFault, PairSpec};

@@ -31,7 +31,8 @@ impl Prepared {
     }
 }
 
-fn quantity(option: &str, text: &str, unit: &'static str) -> Result<f64, Failure> {
+/// A quantity of an option in SI.
+pub fn quantity(option: &str, text: &str, unit: &'static str) -> Result<f64, Failure> {
     let unit = Unit::of_symbol(unit).unwrap_or(Unit::ONE);
     // A bare number is one in the documented unit, as in a file.
     if let Ok(bare) = text.trim().parse::<f64>()

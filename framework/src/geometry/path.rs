@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::contact_lines::ContactLines;
 use super::gauss;
 use super::pair::Pair;
+use super::ramp::Ramp;
 
 /// How the pairs that are in contact at once share the load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -14,9 +15,12 @@ pub enum LoadSharing {
     /// Pairs in contact share evenly: one half, one, one half along the path of a spur pair.
     #[default]
     Rigid,
-    /// From nothing at first contact to all in single contact, as tip relief does.
+    /// From nothing at first contact to all in single contact, as tip relief does. From a contact ratio of two on a triangle over the
+    /// whole path, with what the pairs carry together brought to the whole force.
     Ramp,
-    /// From one third to two thirds in double contact.
+    /// As `ramp`, with its middle shifted to the pitch point and what the pairs carry together brought to the whole force.
+    SymmetricRamp,
+    /// From one third to two thirds in double contact; as `rigid` from a contact ratio of two on.
     Third,
     /// Evenly over the whole path, the limit of helical gears with a large overlap ratio.
     Uniform,
@@ -68,53 +72,26 @@ impl Pair {
         1 + before + behind
     }
 
-    /// Share of the normal force on a pair of teeth at a distance from T1.
-    ///
-    /// The ramps are stated for one to two pairs; with more the even share holds, as for contact lines of spur gears.
-    fn share(&self, sharing: LoadSharing, x: f64) -> f64 {
-        let [a, b, _, d, e] = self.points;
-        let even = 1.0 / self.pairs_at(x) as f64;
-        let ramp = |low: f64, high: f64| {
-            if x < b {
-                low + (high - low) * (x - a) / (b - a)
-            } else if x > d {
-                low + (high - low) * (e - x) / (e - d)
-            } else {
-                1.0
-            }
-        };
-        match sharing {
-            LoadSharing::Uniform => 1.0 / self.contact_ratio,
-            LoadSharing::Ramp if self.contact_ratio < 2.0 => ramp(0.0, 1.0),
-            LoadSharing::Third if self.contact_ratio < 2.0 => ramp(1.0 / 3.0, 2.0 / 3.0),
-            _ => even,
-        }
-    }
-
     /// Places at even distances over the whole path, its ends included, with no weight.
     pub fn even_path(&self, sharing: LoadSharing, places: usize) -> Vec<PathPoint> {
-        let lines = match sharing {
-            LoadSharing::ContactLines => ContactLines::new(self),
-            _ => None,
-        };
+        let law = Law::new(self, sharing);
         let [start, .., end] = self.points;
         let step = (end - start) / (places.max(2) - 1) as f64;
         (0..places.max(2))
-            .map(|i| self.place(start + step * i as f64, 0.0, sharing, lines.as_ref()))
+            .map(|i| self.place((start + step * i as f64).min(end), 0.0, &law))
             .collect()
     }
 
-    fn place(&self, x: f64, weight: f64, sharing: LoadSharing, lines: Option<&ContactLines>) -> PathPoint {
-        let share = lines.map_or_else(|| self.share(sharing, x), |lines| lines.share(x));
+    fn place(&self, x: f64, weight: f64, law: &Law) -> PathPoint {
+        let share = law.share(self, x);
         PathPoint {
             x,
             weight,
             share,
             // An inclined line is longer than the face is wide.
-            line: if lines.is_some() {
-                share * self.base_helix.cos()
-            } else {
-                share
+            line: match law {
+                Law::Lines(_) => share * self.base_helix.cos(),
+                Law::Ramp(_) | Law::Plain(_) => share,
             },
             pairs: self.pairs_at(x),
         }
@@ -123,24 +100,71 @@ impl Pair {
     /// Quadrature points, `order` on each smooth piece.
     pub fn path(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
         let rule = gauss::rule(order);
-        let lines = match sharing {
-            LoadSharing::ContactLines => ContactLines::new(self),
-            _ => None,
-        };
+        let law = Law::new(self, sharing);
         let mut points = Vec::new();
         let mut breaks = self.breaks();
-        if let Some(lines) = &lines {
-            breaks.extend(lines.kinks(self.points[4]));
-            breaks.sort_by(f64::total_cmp);
-            breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-6 * self.base_pitch);
+        match &law {
+            Law::Lines(lines) => {
+                breaks.extend(lines.kinks(self.points[4]));
+                breaks.sort_by(f64::total_cmp);
+                breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-6 * self.base_pitch);
+            }
+            Law::Ramp(ramp) => {
+                // Most kinks are breaks already, but for rounding.
+                for kink in ramp.kinks() {
+                    if breaks.iter().all(|x| (x - kink).abs() > 1e-9 * self.base_pitch) {
+                        breaks.push(kink);
+                    }
+                }
+                breaks.sort_by(f64::total_cmp);
+            }
+            Law::Plain(_) => {}
         }
         for piece in breaks.windows(2) {
             let (middle, half) = (0.5 * (piece[0] + piece[1]), 0.5 * (piece[1] - piece[0]));
             for (t, w) in &rule {
-                points.push(self.place(middle + half * t, half * w, sharing, lines.as_ref()));
+                points.push(self.place(middle + half * t, half * w, &law));
             }
         }
         points
+    }
+}
+
+/// A load sharing, prepared for one pair.
+enum Law {
+    Ramp(Ramp),
+    Lines(ContactLines),
+    Plain(LoadSharing),
+}
+
+impl Law {
+    fn new(pair: &Pair, sharing: LoadSharing) -> Self {
+        match sharing {
+            LoadSharing::Ramp => Self::Ramp(Ramp::new(pair)),
+            LoadSharing::SymmetricRamp => Self::Ramp(Ramp::symmetric(pair)),
+            LoadSharing::ContactLines => ContactLines::new(pair).map_or(Self::Plain(LoadSharing::Rigid), Self::Lines),
+            LoadSharing::Rigid | LoadSharing::Third | LoadSharing::Uniform => Self::Plain(sharing),
+        }
+    }
+
+    /// Share of the normal force on a pair of teeth at a distance from T1.
+    fn share(&self, pair: &Pair, x: f64) -> f64 {
+        let [a, b, _, d, e] = pair.points;
+        match self {
+            Self::Ramp(ramp) => ramp.share(x),
+            Self::Lines(lines) => lines.share(x),
+            Self::Plain(LoadSharing::Uniform) => 1.0 / pair.contact_ratio,
+            Self::Plain(LoadSharing::Third) if pair.contact_ratio < 2.0 => {
+                if x < b {
+                    (1.0 + (x - a) / (b - a)) / 3.0
+                } else if x > d {
+                    (1.0 + (e - x) / (e - d)) / 3.0
+                } else {
+                    1.0
+                }
+            }
+            Self::Plain(_) => 1.0 / pair.pairs_at(x) as f64,
+        }
     }
 }
 

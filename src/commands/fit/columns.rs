@@ -1,0 +1,197 @@
+//! Columns of a CSV file by name, in SI: `name [unit]` in the header, comments behind `#`.
+
+use std::path::Path;
+
+use gearloss_framework::document::{Dimension, Unit, did_you_mean};
+
+use crate::output::Failure;
+
+/// What a unit measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Measure {
+    /// As in gearbox files, and nanometres, in which films are measured.
+    Of(Dimension),
+    /// Shear rate, 1/s.
+    ShearRate,
+}
+
+/// A quantity that a column may hold.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Name in the header.
+    pub name: &'static str,
+    /// What its unit measures.
+    pub measure: Measure,
+    /// The unit to recommend.
+    pub unit: &'static str,
+}
+
+impl Quantity {
+    pub const fn new(name: &'static str, measure: Measure, unit: &'static str) -> Self {
+        Self { name, measure, unit }
+    }
+
+    /// A plain number; it may stand without a unit, or in percent.
+    pub const fn plain(name: &'static str) -> Self {
+        Self::new(name, Measure::Of(Dimension::None), "-")
+    }
+
+    /// Factor and zero of a unit in SI.
+    fn conversion(&self, symbol: &str) -> Option<(f64, f64)> {
+        match (self.measure, symbol) {
+            (Measure::ShearRate, "1/s") | (Measure::Of(Dimension::None), "") => Some((1.0, 0.0)),
+            (Measure::Of(Dimension::Length), "nm") => Some((1e-9, 0.0)),
+            (Measure::Of(Dimension::None), "%") => Some((0.01, 0.0)),
+            (Measure::Of(dimension), _) => Unit::of_symbol(symbol)
+                .filter(|unit| unit.dimension == dimension)
+                .map(|unit| (unit.factor, unit.offset)),
+            (Measure::ShearRate, _) => None,
+        }
+    }
+
+    /// The column as a header names it.
+    pub fn header(&self) -> String {
+        match self.unit {
+            "-" => format!("`{}`", self.name),
+            unit => format!("`{} [{unit}]`", self.name),
+        }
+    }
+}
+
+/// The cells of a file.
+pub struct Columns {
+    file: String,
+    /// Line of the header.
+    head: u64,
+    /// Name and unit of each column.
+    names: Vec<(String, String)>,
+    rows: Vec<(u64, Vec<String>)>,
+}
+
+fn cells(record: &csv::StringRecord) -> Vec<String> {
+    record.iter().map(str::to_owned).collect()
+}
+
+impl Columns {
+    /// Reads a file.
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|e| Failure::input(format!("cannot read {file}: {e}"), "check the name of the file"))?;
+        let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
+        // Line by line: a reader of the whole text counts comments to the record behind them.
+        for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
+            if text.trim().is_empty() || text.starts_with('#') {
+                continue;
+            }
+            let mut reader = csv::ReaderBuilder::new()
+                .trim(csv::Trim::All)
+                .has_headers(false)
+                .from_reader(text.as_bytes());
+            let cells: Vec<String> = reader.records().flatten().flat_map(|r| cells(&r)).collect();
+            if let Some((_, header)) = rows.first().filter(|(_, header)| header.len() != cells.len()) {
+                return Err(Failure::input(
+                    format!(
+                        "{file}: line {line}: {} cells where the header has {}",
+                        cells.len(),
+                        header.len()
+                    ),
+                    "separate cells by commas, and write a decimal point",
+                ));
+            }
+            rows.push((line, cells));
+        }
+        if rows.len() < 2 {
+            return Err(Failure::input(
+                format!("{file}: no row of numbers"),
+                "write a header and a row for each point",
+            ));
+        }
+        let (head, header) = rows.remove(0);
+        let names = header
+            .iter()
+            .map(|cell| match cell.split_once('[') {
+                Some((name, unit)) => (name.trim().to_owned(), unit.trim_end_matches(']').trim().to_owned()),
+                None => (cell.clone(), String::new()),
+            })
+            .collect();
+        Ok(Self {
+            file,
+            head,
+            names,
+            rows,
+        })
+    }
+
+    /// Name of the file.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there is a column of this name.
+    pub fn has(&self, quantity: &Quantity) -> bool {
+        self.names.iter().any(|(name, _)| name == quantity.name)
+    }
+
+    /// Wrong input in a line of the file; line and place of a row by its number from zero.
+    pub fn wrong(&self, row: Option<usize>, message: &str, mend: impl std::fmt::Display) -> Failure {
+        let line = row.map_or(self.head, |row| self.rows[row].0);
+        Failure::input(format!("{}: line {line}: {message}", self.file), mend)
+    }
+
+    /// A quantity in SI, one number for each point; only temperatures may be zero or below.
+    pub fn numbers(&self, quantity: &Quantity) -> Result<Vec<f64>, Failure> {
+        let Some(column) = self.names.iter().position(|(name, _)| name == quantity.name) else {
+            let there: Vec<&str> = self.names.iter().map(|(name, _)| name.as_str()).collect();
+            let near = did_you_mean(quantity.name, there.iter().copied());
+            let mend = match near {
+                Some(near) => format!("rename `{near}`, or add {}", quantity.header()),
+                None => format!("add the column {}", quantity.header()),
+            };
+            let message = format!("no column `{}`; there are: {}", quantity.name, there.join(", "));
+            return Err(self.wrong(None, &message, mend));
+        };
+        let unit = self.names[column].1.as_str();
+        let Some((factor, zero)) = quantity.conversion(unit) else {
+            let message = match unit {
+                "" => format!("`{}` has no unit", quantity.name),
+                _ => format!("`{}` is in `{unit}`, which is no unit of it", quantity.name),
+            };
+            return Err(self.wrong(None, &message, format!("convert it and write {}", quantity.header())));
+        };
+        let any = quantity.measure == Measure::Of(Dimension::Temperature);
+        let cell = |row: usize| {
+            let cell = &self.rows[row].1[column];
+            let place = format!("column {} `{}`", column + 1, quantity.name);
+            let number = cell.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| {
+                let message = format!("{place}: `{cell}` is not a number");
+                self.wrong(Some(row), &message, "write a number, or leave the row out")
+            })?;
+            if any || number > 0.0 {
+                Ok(number * factor + zero)
+            } else {
+                let message = format!("{place}: {cell} is not above zero");
+                Err(self.wrong(Some(row), &message, "write magnitudes, and leave out points at rest"))
+            }
+        };
+        (0..self.rows.len()).map(cell).collect()
+    }
+
+    /// Names of columns that are none of these quantities.
+    pub fn others(&self, quantities: &[Quantity]) -> Vec<&str> {
+        let known = |name: &str| quantities.iter().any(|q| q.name == name);
+        let names = self.names.iter().map(|(name, _)| name.as_str());
+        names.filter(|name| !known(name)).collect()
+    }
+
+    /// A sentence about the columns that are not used; absent where all are.
+    pub fn unused(&self, quantities: &[Quantity]) -> Option<String> {
+        let others = self.others(quantities);
+        (!others.is_empty()).then(|| format!("note: not used: {}", others.join(", ")))
+    }
+}
