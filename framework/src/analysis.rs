@@ -1,5 +1,6 @@
 //! Analyses: many points of one transmission, in parallel, with the same bits on any number of threads.
 
+mod cycle;
 mod grid;
 mod notes;
 mod rows;
@@ -7,6 +8,7 @@ mod statistics;
 mod sums;
 mod temperature;
 
+pub use cycle::{Driven, Ride, Stretch, drive};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use notes::{Note, Stated, WeakPoint, evidence, notes};
 pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};

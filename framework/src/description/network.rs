@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Ordered;
+use crate::duty::MotorEntry;
 use crate::mechanism::heat_link::HeatLink;
 use crate::registry::ModelRef;
 
@@ -45,6 +46,9 @@ pub struct NetworkEntry {
     /// Heat that comes from elsewhere.
     #[serde(default)]
     pub sources: Ordered<NodeSource>,
+    /// Electric motors, whose losses heat rotor and stator.
+    #[serde(default)]
+    pub motors: Ordered<MotorEntry>,
 }
 
 /// One node.

@@ -1,7 +1,7 @@
 //! Losses of an electric motor from a map over speed and torque.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::cycle::input;
 use super::sheet::{Sheet, Wanted, told};
@@ -11,9 +11,9 @@ use crate::measured::{MeasuredFault, fault};
 use crate::table::{Axis, Interpolation, Outside, Reading, Table, clamped};
 
 /// An electric motor that heats its rotor and its stator.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct MotorEntry {
-    /// CSV file beside the study: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
+    /// CSV file, relative to this one: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
     /// map for each temperature. Rows of negative torque are generating.
     pub map: String,
     /// Share of the losses that arises in the rotor.
@@ -29,7 +29,7 @@ pub struct MotorEntry {
 }
 
 /// Share of the losses of a motor that arises in its rotor.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum RotorShare {
     /// The same at all speeds. [-]
@@ -39,7 +39,7 @@ pub enum RotorShare {
 }
 
 /// Share at a speed.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RotorShareAt {
     /// Speed of the motor; rises along the list. [rpm]
     #[schemars(range(min = 0.0, max = 1e6))]

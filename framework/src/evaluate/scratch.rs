@@ -67,6 +67,11 @@ impl Scratch {
         &self.speeds
     }
 
+    /// What the transmission does there.
+    pub(crate) fn status(&self) -> Status {
+        self.status
+    }
+
     /// Power in and out there. \[W\]
     pub(crate) fn power(&self) -> [f64; 2] {
         [self.balance.input, self.balance.output]

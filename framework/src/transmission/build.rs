@@ -81,6 +81,8 @@ impl Transmission {
             gears: &gears,
             lubricants: &oils.lubricants(),
             housing: housing.outside(),
+            ports: &ports,
+            files,
         };
         let mut network = Network::new(&entry, &around, &mut build, &mut found);
         if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {

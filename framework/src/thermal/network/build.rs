@@ -9,14 +9,15 @@ use crate::attach::dangling;
 use crate::description::network::{ExchangerEntry, LinkEntry, NetworkEntry};
 use crate::description::{GearboxEntry, NetworkChoice};
 use crate::document::Diagnostic;
+use crate::duty::{MotorEntry, MotorMap, RotorShare};
 use crate::evaluate::Scratch;
 use crate::loss::{Extent, Notes, Undefined};
 use crate::lubricant::Lubricant;
 use crate::mechanism::heat_dissipation::HousingPart;
 use crate::mechanism::heat_link::{GearShape, HeatLink, HeatLinkAt, HeatLinkPart};
-use crate::registry::{Build, Slot};
+use crate::registry::{Build, Files, Slot};
 use crate::thermal::Arrangement;
-use crate::transmission::{GearSeat, HeatPath, NodeNames, PartKind, Transmission};
+use crate::transmission::{GearSeat, HeatPath, NodeNames, PartKind, Port, Transmission};
 
 /// What surrounds a gearbox at one time. Absent is what the description says.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -77,6 +78,16 @@ struct Exchanger {
     coolant_temperature: f64,
 }
 
+/// An electric motor at a port.
+struct Motor {
+    path: String,
+    map: MotorMap,
+    rotor_share: RotorShare,
+    member: usize,
+    rotor: usize,
+    stator: usize,
+}
+
 /// A thermal network.
 pub struct Network {
     names: Vec<String>,
@@ -89,6 +100,7 @@ pub struct Network {
     flows: Vec<([usize; 2], Rate)>,
     exchangers: Vec<Exchanger>,
     sources: Vec<(usize, f64)>,
+    motors: Vec<Motor>,
     heat: Vec<HeatPath>,
     /// The oil of the housing.
     oil: usize,
@@ -109,6 +121,10 @@ pub(crate) struct Around<'a> {
     pub lubricants: &'a [(String, Arc<Lubricant>)],
     /// The outside of the housing.
     pub housing: &'a HousingPart,
+    /// Ports.
+    pub ports: &'a [Port],
+    /// Files that the description names.
+    pub files: &'a Files,
 }
 
 impl Network {
@@ -172,6 +188,11 @@ impl Network {
             let path = format!("thermal.network.sources.{id}.into");
             sources.extend(node(&path, &source.into, found).map(|node| (node, source.heat)));
         }
+        let motors: Vec<Motor> = network
+            .motors
+            .iter()
+            .filter_map(|(id, e)| motor(&format!("thermal.network.motors.{id}"), e, around, found))
+            .collect();
         let built = Self {
             names: around.names.names().to_vec(),
             capacities: std::iter::once(0.0).chain(all().map(|n| n.heat_capacity)).collect(),
@@ -183,6 +204,7 @@ impl Network {
             flows,
             exchangers,
             sources,
+            motors,
             heat: Vec::new(),
             oil: around.names.of_oil(""),
             pumped: network.oil_flow,
@@ -215,6 +237,31 @@ impl Network {
                 }
             }
         }
+    }
+
+    /// Adds the losses of all motors at the point that was evaluated last to the heat of the nodes, and tells them for rotor and
+    /// stator; true where one is beyond its map. \[W\]
+    pub(super) fn add_motors(
+        &self,
+        temperatures: &[f64],
+        scratch: &Scratch,
+        heat: &mut [f64],
+        losses: &mut Vec<[f64; 2]>,
+    ) -> bool {
+        let mut outside = false;
+        losses.clear();
+        for motor in &self.motors {
+            let (speed, torque) = (scratch.speeds()[motor.member], scratch.port_torque(motor.member));
+            // The windings are in the stator.
+            let found = motor.map.loss(speed, torque, temperatures[motor.stator]);
+            outside |= found.outside;
+            let share = motor.rotor_share.at(speed.abs()).unwrap_or(0.0);
+            let own = [share * found.loss, (1.0 - share) * found.loss];
+            heat[motor.rotor] += own[0];
+            heat[motor.stator] += own[1];
+            losses.push(own);
+        }
+        outside
     }
 
     /// Names, capacities and connections, for checks.
@@ -257,6 +304,10 @@ impl Network {
     /// Paths of the heat exchangers.
     pub fn exchangers(&self) -> impl ExactSizeIterator<Item = &str> {
         self.exchangers.iter().map(|e| e.path.as_str())
+    }
+    /// Paths of the motors, and whether the loss of each is known at any temperature.
+    pub fn motors(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.motors.iter().map(|m| m.path.as_str())
     }
     /// Heat from elsewhere by node. \[W\]
     pub fn sources(&self) -> &[(usize, f64)] {
@@ -508,6 +559,44 @@ fn rate(
             None
         }
     }
+}
+
+fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Diagnostic>) -> Option<Motor> {
+    let rotor = node_of(around.names, &format!("{path}.rotor"), &entry.rotor, found);
+    let stator = node_of(around.names, &format!("{path}.stator"), &entry.stator, found);
+    let port = around.ports.iter().find(|p| p.name == entry.port);
+    if port.is_none() {
+        let ids: Vec<&str> = around.ports.iter().map(|p| p.name.as_str()).collect();
+        found.push(dangling(&format!("{path}.port"), "port", &entry.port, &ids));
+    }
+    if let Err(fault) = entry.rotor_share.at(0.0) {
+        found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).mend(fault.mend));
+    }
+    let map = match around.files.text(&entry.map) {
+        Err(reason) => {
+            let error = Diagnostic::error(format!("{path}.map"), reason);
+            found.push(error.mend("file names are relative to the gearbox document"));
+            None
+        }
+        Ok(text) => match MotorMap::read(text.as_bytes()) {
+            Ok(map) => Some(map),
+            Err(faults) => {
+                for fault in faults {
+                    let message = format!("{}: {}", entry.map, fault.message);
+                    found.push(Diagnostic::error(format!("{path}.map"), message).mend(fault.mend));
+                }
+                None
+            }
+        },
+    };
+    Some(Motor {
+        path: path.to_owned(),
+        map: map?,
+        rotor_share: entry.rotor_share.clone(),
+        member: port?.member,
+        rotor: rotor?,
+        stator: stator?,
+    })
 }
 
 fn exchanger(

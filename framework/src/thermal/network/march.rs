@@ -66,6 +66,8 @@ pub struct Heats {
     pub input: f64,
     /// Power that comes out.
     pub output: f64,
+    /// True where a motor was beyond its map.
+    pub beyond_map: bool,
 }
 
 impl Heats {
@@ -100,6 +102,7 @@ impl Heats {
         self.flows += more.flows;
         self.input += more.input;
         self.output += more.output;
+        self.beyond_map |= more.beyond_map;
     }
 }
 
@@ -128,6 +131,8 @@ pub(super) struct Warm {
     pub sources: f64,
     /// Power in and out. \[W\]
     pub power: [f64; 2],
+    /// True where a motor is beyond its map.
+    pub beyond_map: bool,
 }
 
 /// Temperatures that go on in time.
@@ -164,6 +169,7 @@ impl Transmission {
         warm.parts.clear();
         warm.parts.extend_from_slice(scratch.watts());
         warm.power = scratch.power();
+        warm.beyond_map = network.add_motors(temperatures, scratch, &mut warm.heat, &mut warm.motors);
         warm.sources = 0.0;
         for (node, watts) in network.sources() {
             warm.heat[*node] += watts;
@@ -281,6 +287,7 @@ impl<'a> March<'a> {
             flows: leaving.flows * length,
             input: warm.power[0] * length,
             output: warm.power[1] * length,
+            beyond_map: warm.beyond_map,
         })
     }
 

@@ -33,6 +33,8 @@ pub struct Steady {
     pub leaving: Leaving,
     /// Heat into each node. \[W\]
     pub heat: Vec<f64>,
+    /// Loss of each motor in rotor and stator. \[W\]
+    pub motors: Vec<[f64; 2]>,
     /// Heat that comes, less what leaves. \[W\]
     pub residual: f64,
     /// Evaluations of the losses.
@@ -57,6 +59,7 @@ impl Transmission {
             temperatures: guess.clone(),
             leaving: Leaving::default(),
             heat: Vec::new(),
+            motors: Vec::new(),
             residual: 0.0,
             evaluations: 0,
             undefined: None,
@@ -85,6 +88,7 @@ impl Transmission {
                 steady.leaving = warm.circuit.leaving(&after);
                 steady.residual = warm.heat.iter().sum::<f64>() - steady.leaving.total();
                 steady.heat = warm.heat;
+                steady.motors = warm.motors;
                 steady.temperatures = after;
                 // What the models saw there counts once.
                 scratch.count_seen();
