@@ -10,6 +10,7 @@ pub mod clutch;
 pub mod gear_drag;
 pub mod gear_mesh;
 pub mod heat_dissipation;
+pub mod heat_link;
 pub mod mean_friction;
 pub mod planetary_drag;
 pub mod seal;

@@ -49,6 +49,8 @@ pub enum Dimension {
     Time,
     /// Volume flow, m3/s.
     Flow,
+    /// Mass flow, kg/s.
+    MassFlow,
     /// Heat transfer coefficient, W/(m2 K).
     HeatTransfer,
     /// Heat flow per temperature difference, W/K.
@@ -88,6 +90,7 @@ impl Dimension {
             Self::PressureCoefficient => "pressure coefficient",
             Self::Time => "time",
             Self::Flow => "volume flow",
+            Self::MassFlow => "mass flow",
             Self::HeatTransfer => "heat transfer coefficient",
             Self::Conductance => "thermal conductance",
             Self::Resistance => "thermal resistance",
@@ -214,6 +217,9 @@ static UNITS: &[Unit] = &[
     unit("l/min", Dimension::Flow, 1e-3 / 60.0),
     unit("L/min", Dimension::Flow, 1e-3 / 60.0),
     unit("m3/s", Dimension::Flow, 1.0),
+    unit("kg/s", Dimension::MassFlow, 1.0),
+    unit("kg/min", Dimension::MassFlow, 1.0 / 60.0),
+    unit("g/s", Dimension::MassFlow, 1e-3),
     unit("W/(m2 K)", Dimension::HeatTransfer, 1.0),
     unit("W/(m² K)", Dimension::HeatTransfer, 1.0),
     unit("W/m2K", Dimension::HeatTransfer, 1.0),
@@ -298,6 +304,21 @@ mod tests {
             }
         }
         assert!((Unit::of_symbol("degF").unwrap().to_si(212.0) - 100.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn mass_flows_are_read_in_three_units() {
+        let flow = Unit::of_doc("Mass flow of the oil. [kg/s]").unwrap();
+        assert_eq!(flow.dimension, Dimension::MassFlow);
+        let symbols: Vec<&str> = Unit::symbols(Dimension::MassFlow).collect();
+        assert_eq!(symbols, ["kg/s", "kg/min", "g/s"]);
+        assert!(flow.pattern().ends_with(" ?(kg/s|kg/min|g/s)$"), "{}", flow.pattern());
+        for (symbol, si) in [("kg/s", 6.0), ("kg/min", 0.1), ("g/s", 0.006)] {
+            assert!(
+                (Unit::of_symbol(symbol).unwrap().to_si(6.0) - si).abs() < 1e-15,
+                "{symbol}"
+            );
+        }
     }
 
     #[test]

@@ -1,0 +1,127 @@
+//! Links between the nodes of a thermal network: what conducts, radiates or carries heat from one to the other.
+
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::context;
+use crate::generic::Scalar;
+use crate::loss::{Notes, Undefined};
+use crate::mechanism::heat_dissipation::HousingPart;
+use crate::mechanism::{Mechanism, Quantity};
+
+/// Marker of the mechanism; never constructed.
+#[derive(Debug)]
+pub enum HeatLink {}
+
+/// One link between two nodes of a thermal network.
+pub trait HeatLinkModel: Send + Sync {
+    /// Heat flow from the one end to the other over their difference of temperature, not negative. Pure; must not allocate.
+    /// \[W/K\]
+    ///
+    /// # Errors
+    /// Where the formula has no value.
+    fn conductance(&self, at: &HeatLinkAt<'_>) -> Result<f64, Undefined>;
+}
+
+/// The gear that a link names.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GearShape {
+    /// Number of teeth. [-]
+    #[schemars(range(min = 1, max = 2000))]
+    pub teeth: u32,
+    /// Diameter of the working pitch circle. [mm]
+    #[schemars(range(min = 1.0, max = 10000.0))]
+    pub pitch_diameter: f64,
+    /// Tip diameter. [mm]
+    #[schemars(range(min = 1.0, max = 10000.0))]
+    pub tip_diameter: f64,
+    /// Height of the teeth from root to tip. [mm]
+    #[schemars(range(min = 0.05, max = 500.0))]
+    pub tooth_height: f64,
+    /// Face width. [mm]
+    #[schemars(range(min = 0.1, max = 2000.0))]
+    pub facewidth: f64,
+}
+
+/// What a link lies beside; in a gearbox the framework fills it from `housing.outside` and from the gear that the link names.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+pub struct HeatLinkPart {
+    /// The housing.
+    pub housing: Option<HousingPart>,
+    /// The gear that the link names.
+    pub gear: Option<GearShape>,
+}
+
+context! {
+    /// All that a model of a heat link may look at.
+    pub struct HeatLinkAt of HeatLink {
+        /// Temperature of the first end. [degC]
+        temperature_1: 80.0 in -60.0..=300.0,
+        /// Temperature of the second end. [degC]
+        temperature_2: 60.0 in -60.0..=300.0,
+        /// Speed of the shaft or gear that the link names, without its sense; zero where it names none. [rpm]
+        speed: 3000.0 in 0.0..=30000.0,
+        /// Speed of the vehicle; zero outside of a drive cycle. [m/s]
+        vehicle_speed: 0.0 in 0.0..=100.0,
+        /// Kinematic viscosity of the oil at the mean of both temperatures. [mm2/s]
+        nu: 12.0 in 0.5..=100000.0,
+        /// Dynamic viscosity of the oil at the mean of both temperatures. [mPa s]
+        eta: 10.0 in 0.3..=100000.0,
+        /// Density of the oil at the mean of both temperatures. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0,
+        /// Specific heat of the oil at the mean of both temperatures. [J/(kg K)]
+        heat_capacity: 2100.0 in 1000.0..=4000.0,
+        /// Thermal conductivity of the oil at the mean of both temperatures. [W/(m K)]
+        conductivity: 0.14 in 0.05..=1.0,
+        /// Mass flow of the oil in its circuit; zero without one. [kg/s]
+        oil_flow: 0.1 in 0.0..=100.0,
+    }
+}
+
+impl Mechanism for HeatLink {
+    const KEY: &'static str = "heat_link";
+    const MEANING: &'static str = "Thermal conductance of a link between two nodes of a thermal network.";
+    const ANSWER: &'static str = "Heat flow over the difference of temperature of both ends. [W/K]";
+    const EXAMPLE: &'static str = "
+housing:
+  area: 4000 cm2
+  oil_area: 3500 cm2
+  height: 300 mm
+  length: 400 mm
+  wall_thickness: 8 mm
+  wall_conductivity: 150 W/(m K)
+  emissivity: 0.3
+  air_speed: 0 m/s
+gear:
+  teeth: 31
+  pitch_diameter: 56.3 mm
+  tip_diameter: 59.9 mm
+  tooth_height: 3.8 mm
+  facewidth: 30 mm
+";
+    const QUANTITIES: &'static [Quantity<Self>] = HeatLinkAt::QUANTITIES;
+    type Part = HeatLinkPart;
+    type At<'a> = HeatLinkAt<'a>;
+    type Answer = f64;
+    type Model = dyn HeatLinkModel;
+
+    fn usual<'a>(part: &'a HeatLinkPart, notes: Notes<'a>) -> HeatLinkAt<'a> {
+        HeatLinkAt::usual(part, notes)
+    }
+    fn answer(model: &Self::Model, at: &HeatLinkAt<'_>) -> Result<f64, Undefined> {
+        model.conductance(at)
+    }
+    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
+        Arc::new(law)
+    }
+}
+
+impl HeatLinkModel for Scalar<HeatLink> {
+    fn conductance(&self, at: &HeatLinkAt<'_>) -> Result<f64, Undefined> {
+        self.value(at)
+    }
+}
+
+crate::register_mechanism!(HeatLink);
