@@ -72,7 +72,6 @@ mod cases {
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::heat_link::HeatLinkModel;
     use gearloss_framework::registry::{Files, Registry};
-    use std::sync::Arc;
 
     use super::*;
 

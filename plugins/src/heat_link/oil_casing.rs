@@ -161,13 +161,13 @@ mod tests {
         model.conductance(&at(&part, speed, OIL)).unwrap()
     }
 
-    /// 15 m/s at the tips: Re = 3e5, Pr = 184.5, alpha_f = 966.02 W/(m2 K), by hand; at rest Ra = 3.26e8 between 80 and 60 degC.
+    /// 15 m/s at the tips give Re = 3e5 over the height; 80 and 60 degC.
     #[test]
     fn splash_and_rest_by_hand() {
         let prandtl = 1.5e-5 * 820.0 * 2100.0 / 0.14;
         close(prandtl, 184.5);
         let splash = 0.664 * 3e5_f64.sqrt() * 184.5_f64.cbrt() * 0.14 / 0.30;
-        let ra = 9.80665 * 7.5e-4 * 20.0 * 0.027 / (1.5e-5 * 0.14 / (820.0 * 2100.0));
+        let ra: f64 = 9.80665 * 7.5e-4 * 20.0 * 0.027 / (1.5e-5 * 0.14 / (820.0 * 2100.0));
         let falling = (1.0 + (0.492 / 184.5_f64).powf(9.0 / 16.0)).powf(8.0 / 27.0);
         let free = (0.825 + 0.387 * ra.powf(1.0 / 6.0) / falling).powi(2) * 0.14 / 0.30;
         close(link(0.0), 0.3 * 0.35 * free);

@@ -4,6 +4,8 @@
 //! and the oil that arrives; textbooks. Coefficient of a jet from its size and speed after Metzger, Cummings and Ruby, 5th Int. Heat
 //! Transfer Conf. 1974, recalled: St Pr^0.487 = 2.74 Re^-0.348 (L/d)^-0.774, St = alpha/(rho c v), Re = v d/nu.
 //!
+//! L is read as the radius of the surface that the jet cools, and d as the diameter of the nozzle.
+//!
 //! Jets and drops on windings have 500 to 2500 W/(m2 K), over that part of the surface that oil wets. The oil counts with its values at
 //! the mean temperature of both ends.
 
@@ -76,8 +78,7 @@ impl Jet {
     /// Heat transfer coefficient. \[W/(m2 K)\]
     fn coefficient(&self, oil: &Fluid) -> f64 {
         let re = self.speed * self.diameter / oil.nu();
-        let stanton =
-            2.74 * re.powf(-0.348) * (self.radius / self.diameter).powf(-0.774) * oil.prandtl().powf(-0.487);
+        let stanton = 2.74 * re.powf(-0.348) * (self.radius / self.diameter).powf(-0.774) * oil.prandtl().powf(-0.487);
         stanton * oil.density * oil.heat_capacity * self.speed
     }
 }
@@ -175,7 +176,7 @@ mod tests {
         assert!(link(spray(Some(1000.0), None), 0.0).abs() < f64::MIN_POSITIVE);
     }
 
-    /// Re = 1000, Pr = 117.143, L/d = 5: St = 2.74 / 11.0662 / 3.47530 / 10.1650 = 7.0089e-3, alpha = 57473 W/(m2 K), by hand.
+    /// Re = 1000, Pr = 117.143, L/d = 5: St = 2.74 / (11.066 x 3.4754 x 10.173), by hand.
     #[test]
     fn the_coefficient_of_a_jet_follows_from_its_speed() {
         let fluid = Fluid {
@@ -188,7 +189,7 @@ mod tests {
         let faster = Jet { speed: 10.0, ..JET };
         close(faster.coefficient(&fluid), alpha * 2.0_f64.powf(0.652));
         close(link(spray(None, Some(JET)), 0.1), link(spray(Some(alpha), None), 0.1));
-        assert!((alpha / 57473.0 - 1.0).abs() < 1e-3, "{alpha}");
+        assert!((alpha / 57430.0 - 1.0).abs() < 2e-4, "{alpha}");
     }
 
     #[test]
