@@ -1,6 +1,6 @@
 //! Heat that leaves the gearbox: by the housing to the air, by the flange, by a cooler.
 
-mod air;
+pub(crate) mod air;
 pub mod constant;
 pub mod fins;
 pub mod iso14179_1;
@@ -13,7 +13,7 @@ use gearloss_framework::mechanism::heat_dissipation::{HeatDissipation, HousingPa
 use gearloss_framework::registry::Build;
 
 /// 0 degC. \[K\]
-const ZERO_CELSIUS: f64 = 273.15;
+pub(crate) const ZERO_CELSIUS: f64 = 273.15;
 
 fn part(cx: &Build<'_>) -> HousingPart {
     cx.part::<HeatDissipation>().copied().unwrap_or_default()

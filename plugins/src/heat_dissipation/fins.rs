@@ -14,8 +14,9 @@ use gearloss_framework::registry::{Build, Evidence, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::textbook::{forced, free, length, mixed};
+use super::textbook::length;
 use super::{ZERO_CELSIUS, needed, part};
+use crate::convection::{Shape, forced, free, mixed};
 
 const EFFICIENCY: Observed = Observed::new(0, "eta_f", "-", "Efficiency of the fins.");
 
@@ -75,7 +76,7 @@ impl HeatDissipationModel for Ready {
     fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
         let alpha = self.params.alpha.unwrap_or_else(|| {
             let (wall, ambient) = (at.surface_temperature + ZERO_CELSIUS, at.ambient + ZERO_CELSIUS);
-            let (_, free) = free(self.height, wall, ambient);
+            let (_, free) = free(Shape::Plate, self.height, wall, ambient);
             let forced = if self.part.air_speed > 0.0 {
                 forced(self.part.air_speed, self.length, 0.5 * (wall + ambient))
             } else {

@@ -15,14 +15,9 @@ use gearloss_framework::registry::{Build, Evidence, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::air::Air;
 use super::{ZERO_CELSIUS, needed, part};
+use crate::convection::{Shape, forced, free, mixed, radiation};
 
-/// Stefan-Boltzmann constant. \[W/(m2 K4)\]
-const SIGMA: f64 = 5.670374e-8;
-const GRAVITY: f64 = 9.80665;
-/// Reynolds number at which the flow along a plate becomes turbulent.
-const TURBULENT: f64 = 5e5;
 const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1975");
 const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient with radiation.");
 
@@ -79,40 +74,10 @@ pub(super) fn length(part: &HousingPart, model: &str, cx: &Build<'_>) -> Result<
     }
 }
 
-/// Rayleigh number and heat transfer coefficient of free convection; height in m, temperatures in K.
-pub(super) fn free(height: f64, wall: f64, ambient: f64) -> (f64, f64) {
-    let mean = 0.5 * (wall + ambient);
-    let air = Air::at(mean);
-    let ra = GRAVITY / mean * (wall - ambient).abs() * height.powi(3) / (air.nu * air.nu) * air.prandtl;
-    let root = 0.825 + 0.387 * ra.powf(1.0 / 6.0) / (1.0 + (0.492 / air.prandtl).powf(9.0 / 16.0)).powf(8.0 / 27.0);
-    (ra, root * root * air.conductivity / height)
-}
-
-/// Heat transfer coefficient of forced convection; speed in m/s, length in m, mean temperature in K. \[W/(m2 K)\]
-pub(super) fn forced(v: f64, length: f64, mean: f64) -> f64 {
-    let air = Air::at(mean);
-    let re = v * length / air.nu;
-    let nu = if re < TURBULENT {
-        0.664 * re.sqrt()
-    } else {
-        0.037 * re.powf(0.8) - 871.0
-    };
-    nu * air.prandtl.cbrt() * air.conductivity / length
-}
-
-/// Both together. \[W/(m2 K)\]
-pub(super) fn mixed(forced: f64, free: f64) -> f64 {
-    (forced.powi(3) + free.powi(3)).cbrt()
-}
-
-fn radiation(emissivity: f64, wall: f64, ambient: f64) -> f64 {
-    emissivity * SIGMA * (wall * wall + ambient * ambient) * (wall + ambient)
-}
-
 impl HeatDissipationModel for Ready {
     fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
         let (wall, ambient) = (at.surface_temperature + ZERO_CELSIUS, at.ambient + ZERO_CELSIUS);
-        let (ra, free) = free(self.height, wall, ambient);
+        let (ra, free) = free(Shape::Plate, self.height, wall, ambient);
         at.check(&RAYLEIGH, ra);
         at.show("alpha_n", "W/(m2 K)", free);
         let forced = if self.part.air_speed > 0.0 {
@@ -136,29 +101,3 @@ register!(HeatDissipation, "textbook", Params,
     example: "{ type: textbook }",
     evidence: [formula(Evidence::SeveralSources, "textbooks agree; a housing is no plate")],
     limits: [RAYLEIGH], observed: [ALPHA], prepare: prepare);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn e4_free_convection_at_a_wall() {
-        let (_, alpha) = free(0.3, 353.15, 293.15);
-        // The check value belongs to g = 9.81 m/s2; alpha goes with about the third root of g.
-        assert!(
-            (alpha * (9.81 / GRAVITY).cbrt() / 5.81938 - 1.0).abs() < 2e-5,
-            "{alpha}"
-        );
-        assert!((radiation(0.9, 353.15, 293.15) / 6.94790 - 1.0).abs() < 1e-5);
-    }
-
-    #[test]
-    fn mixed_convection_is_the_greater_where_one_is_small() {
-        assert!((mixed(30.0, 0.0) - 30.0).abs() < 1e-12 && (mixed(1.0, 30.0) / 30.0 - 1.0).abs() < 1e-4);
-        assert!(forced(10.0, 0.3, 320.0) > forced(5.0, 0.3, 320.0));
-        // Nothing jumps where the flow becomes turbulent.
-        let critical = TURBULENT * Air::at(320.0).nu / 0.3;
-        let ratio = forced(1.0001 * critical, 0.3, 320.0) / forced(0.9999 * critical, 0.3, 320.0);
-        assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
-    }
-}

@@ -15,7 +15,6 @@
 //! Rolling loss is not in it. Bodies, load and film are quasi-steady.
 
 pub mod contact;
-pub mod cooling;
 pub mod dilogarithm;
 pub mod film;
 pub mod identification;
@@ -44,8 +43,8 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::rotating::Body;
 use contact::Contact;
-use cooling::Body;
 use film::{Factor, Film, InletHeating};
 use march::{March, Tally, Warming, Warmth};
 use oil::{MeshFluid, Oil, Supplied, Written};

@@ -8,7 +8,7 @@ use gearloss_framework::lubricant::{Lubricant, thermal};
 use gearloss_framework::mechanism::gear_mesh::MeshOil;
 use gearloss_framework::registry::Build;
 
-use super::cooling::Fluid;
+use crate::rotating::Fluid;
 
 /// Temperatures within which laws of viscosity are asked; a film may be tried hotter than any oil. \[degC\]
 const ASKED: [f64; 2] = [-60.0, 400.0];

@@ -1,4 +1,4 @@
-//! Steady resistance from the body of a gear to the oil or mist in which it turns.
+//! Heat between a body that turns and the oil, air or mist about it.
 //!
 //! Sources: Olver, IMechE G 205 (1991) 35-43 (sides and track of a gear); rotating disc in free fluid, laminar and turbulent;
 //! rotating cylinder after Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062: Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter
@@ -40,11 +40,18 @@ impl Fluid {
         }
     }
 
-    fn nu(&self) -> f64 {
+    /// Kinematic viscosity. \[m2/s\]
+    pub fn nu(&self) -> f64 {
         self.eta / self.density
     }
 
-    fn prandtl(&self) -> f64 {
+    /// Thermal diffusivity. \[m2/s\]
+    pub fn diffusivity(&self) -> f64 {
+        self.conductivity / (self.density * self.heat_capacity)
+    }
+
+    /// Prandtl number.
+    pub fn prandtl(&self) -> f64 {
         self.eta * self.heat_capacity / self.conductivity
     }
 
@@ -62,9 +69,14 @@ impl Fluid {
         nusselt * self.conductivity / radius
     }
 
+    /// Reynolds number of a cylinder of a radius (m) that turns (rad/s), with its diameter and the speed of its surface.
+    pub fn cylinder_reynolds(&self, radius: f64, speed: f64) -> f64 {
+        2.0 * speed * radius * radius / self.nu()
+    }
+
     /// Heat transfer of a cylinder of a radius (m) that turns (rad/s). \[W/(m2 K)\]
     pub fn cylinder(&self, radius: f64, speed: f64) -> f64 {
-        let re = 2.0 * speed * radius * radius / self.nu();
+        let re = self.cylinder_reynolds(radius, speed);
         0.133 * (re * re * self.prandtl()).cbrt() * self.conductivity / (2.0 * radius)
     }
 }
@@ -81,12 +93,17 @@ pub struct Body {
 }
 
 impl Body {
-    /// Resistance from the body to a fluid in which it turns at a speed (rad/s). \[K/W\]
-    pub fn resistance(&self, fluid: &Fluid, speed: f64) -> f64 {
+    /// Conductance from the body to a fluid in which it turns at a speed (rad/s); zero at rest. \[W/K\]
+    pub fn conductance(&self, fluid: &Fluid, speed: f64) -> f64 {
         let [outer, inner] = self.sides;
         let sides = 2.0 * PI * (outer * outer - inner * inner) * fluid.disc(outer, speed);
         let track = 2.0 * PI * self.track * self.facewidth * fluid.cylinder(self.track, speed);
-        1.0 / (sides + track)
+        sides + track
+    }
+
+    /// Resistance from the body to a fluid in which it turns at a speed (rad/s). \[K/W\]
+    pub fn resistance(&self, fluid: &Fluid, speed: f64) -> f64 {
+        1.0 / self.conductance(fluid, speed)
     }
 }
 

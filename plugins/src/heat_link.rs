@@ -1,0 +1,100 @@
+//! Links between the nodes of a thermal network.
+
+pub mod annulus;
+pub mod casing_air;
+pub mod conduction;
+pub mod fling_off;
+pub mod gear_in_mist;
+pub mod hertz_spot;
+pub mod oil_casing;
+pub mod ring;
+pub mod spray;
+pub mod tooth_contact;
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::mechanism::heat_dissipation::HousingPart;
+use gearloss_framework::mechanism::heat_link::{GearShape, HeatLink, HeatLinkAt, HeatLinkPart};
+use gearloss_framework::registry::Build;
+
+use crate::rotating::Fluid;
+
+/// Thermal conductivity of steel. \[W/(m K)\]
+const STEEL: f64 = 46.0;
+
+fn part(cx: &Build<'_>) -> HeatLinkPart {
+    cx.part::<HeatLink>().copied().unwrap_or_default()
+}
+
+/// A figure of the model's own, else of the gear that the link names; an error with what is missing and an example of it.
+fn of_gear(
+    own: Option<f64>,
+    gear: impl FnOnce(&GearShape) -> f64,
+    what: &str,
+    example: &str,
+    cx: &Build<'_>,
+) -> Result<f64, Diagnostic> {
+    own.or_else(|| part(cx).gear.as_ref().map(gear)).ok_or_else(|| {
+        cx.error(format!("the link needs {what}")).mend(format!(
+            "name the gear of the link, or write `{example}` beside `type`, with your figure"
+        ))
+    })
+}
+
+/// A figure of the model's own, else of the housing; an error with what is missing and an example of it.
+fn of_housing(
+    own: Option<f64>,
+    housing: impl FnOnce(&HousingPart) -> Option<f64>,
+    what: &str,
+    example: &str,
+    cx: &Build<'_>,
+) -> Result<f64, Diagnostic> {
+    own.or_else(|| part(cx).housing.as_ref().and_then(housing))
+        .ok_or_else(|| {
+            cx.error(format!("the link needs {what}")).mend(format!(
+                "write `{example}` beside `type` or in `housing: {{ outside: {{ ... }} }}`, with your figure"
+            ))
+        })
+}
+
+/// The oil at the mean temperature of both ends.
+fn oil(at: &HeatLinkAt<'_>) -> Fluid {
+    Fluid {
+        conductivity: at.conductivity,
+        eta: at.eta,
+        density: at.rho,
+        heat_capacity: at.heat_capacity,
+    }
+}
+
+#[cfg(test)]
+mod cases {
+    #![allow(clippy::unwrap_used)]
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::heat_link::HeatLinkModel;
+    use gearloss_framework::registry::{Files, Registry};
+
+    use super::*;
+
+    /// An oil of a conductivity, kinematic viscosity, density and specific heat at a speed, for the check cases.
+    pub fn at(part: &HeatLinkPart, speed: f64, [k, nu, rho, c]: [f64; 4]) -> HeatLinkAt<'_> {
+        HeatLinkAt {
+            speed,
+            nu,
+            eta: nu * rho,
+            rho,
+            heat_capacity: c,
+            conductivity: k,
+            ..HeatLinkAt::usual(part, Notes::MUTED)
+        }
+    }
+
+    /// What building finds for a part.
+    pub fn built<T, M: HeatLinkModel>(
+        prepare: fn(T, &mut Build<'_>) -> Result<M, Diagnostic>,
+        params: T,
+    ) -> Result<M, String> {
+        let registry = Registry::linked().unwrap();
+        let files = Files::default();
+        prepare(params, &mut Build::new(&registry, &files)).map_err(|d| format!("{d} {:?}", d.mend))
+    }
+}
