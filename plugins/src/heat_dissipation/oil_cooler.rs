@@ -1,8 +1,7 @@
 //! An oil cooler by its effectiveness.
 //!
-//! Source: effectiveness and number of transfer units, textbooks (Kays and London): C = rho c_p V', C_r = C_min/C_max, NTU = UA/C_min, Q = eps C_min (T_oil - T_cold,in);
-//! counterflow eps = (1 - E)/(1 - C_r E), E = exp(-NTU (1 - C_r)), NTU/(1 + NTU) at C_r = 1; parallel (1 - exp(-NTU (1 + C_r)))/(1 + C_r); crossflow, both
-//! unmixed, 1 - exp(NTU^0.22/C_r (exp(-C_r NTU^0.78) - 1)), 1 - exp(-NTU) at C_r = 0.
+//! Source: effectiveness and number of transfer units, textbooks (Kays and London): C = rho c_p V', Q = eps C_min (T_oil - T_cold,in), as for
+//! heat exchangers of a thermal network.
 
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::mechanism::heat_dissipation::{
@@ -10,23 +9,11 @@ use gearloss_framework::mechanism::heat_dissipation::{
 };
 use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::thermal::Arrangement;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 const EFFECTIVENESS: Observed = Observed::new(0, "eps", "-", "Effectiveness of the cooler.");
-
-/// How oil and coolant flow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Arrangement {
-    /// Against each other.
-    #[default]
-    Counterflow,
-    /// With each other.
-    Parallel,
-    /// Across each other, both unmixed.
-    Crossflow,
-}
 
 /// An oil cooler by its effectiveness.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -64,20 +51,6 @@ fn glycol_heat() -> f64 {
     3600.0
 }
 
-/// Effectiveness from transfer units and ratio of the capacities.
-fn effectiveness(arrangement: Arrangement, ntu: f64, c_r: f64) -> f64 {
-    match arrangement {
-        Arrangement::Counterflow if (1.0 - c_r).abs() < 1e-9 => ntu / (1.0 + ntu),
-        Arrangement::Counterflow => {
-            let e = (-ntu * (1.0 - c_r)).exp();
-            (1.0 - e) / (1.0 - c_r * e)
-        }
-        Arrangement::Parallel => (1.0 - (-ntu * (1.0 + c_r)).exp()) / (1.0 + c_r),
-        Arrangement::Crossflow if c_r < 1e-9 => 1.0 - (-ntu).exp(),
-        Arrangement::Crossflow => 1.0 - (ntu.powf(0.22) / c_r * ((-c_r * ntu.powf(0.78)).exp() - 1.0)).exp(),
-    }
-}
-
 impl HeatDissipationModel for OilCooler {
     fn warm_side(&self) -> WarmSide {
         WarmSide::Oil
@@ -94,7 +67,7 @@ impl HeatDissipationModel for OilCooler {
         );
         let (least, greatest) = (oil.min(coolant), oil.max(coolant));
         let ntu = at.show("NTU", "-", self.ua / least);
-        let eps = at.observe(&EFFECTIVENESS, effectiveness(self.arrangement, ntu, least / greatest));
+        let eps = at.observe(&EFFECTIVENESS, self.arrangement.effectiveness(ntu, least / greatest));
         Ok(at.show("eps C_min", "W/K", eps * least))
     }
 }
@@ -142,20 +115,5 @@ mod tests {
         };
         let conductance = way.conductance(&at).unwrap();
         assert!((conductance / 88.0369 - 1.0).abs() < 1e-5, "{conductance}");
-    }
-
-    #[test]
-    fn e6_effectiveness_of_three_arrangements() {
-        for (arrangement, printed) in [
-            (Arrangement::Counterflow, 0.672700),
-            (Arrangement::Parallel, 0.568301),
-            (Arrangement::Crossflow, 0.640193),
-        ] {
-            assert!((effectiveness(arrangement, 1.5, 0.6) / printed - 1.0).abs() < 1e-5);
-            // With a coolant that does not warm up, all are the same.
-            assert!((effectiveness(arrangement, 1.5, 0.0) - (1.0 - (-1.5_f64).exp())).abs() < 1e-9);
-        }
-        assert!((effectiveness(Arrangement::Counterflow, 2.0, 1.0) - 2.0 / 3.0).abs() < 1e-9);
-        assert!((effectiveness(Arrangement::Counterflow, 2.0, 1.0 - 1e-7) - 2.0 / 3.0).abs() < 1e-6);
     }
 }
