@@ -4,6 +4,7 @@ mod axes;
 mod breakdown;
 mod compare;
 mod component;
+mod cycle;
 mod data;
 mod identify;
 mod map;
@@ -25,6 +26,7 @@ pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, Temperatu
 pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
 pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
+pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
 pub use data::Data;
 pub use identify::{
     IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
@@ -41,6 +43,7 @@ pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
 pub use write::{Export, Write};
 
 use crate::description::Ordered;
+use crate::duty::{CycleEntry, VehicleEntry};
 use crate::evaluate::PowerFlow;
 use crate::measured::MeasuredEntry;
 use crate::transmission::Transmission;
@@ -66,6 +69,12 @@ pub struct StudyEntry {
     /// Measured points by name, for all analyses that use them.
     #[serde(default)]
     pub measurements: Ordered<MeasuredEntry>,
+    /// Duties by name: shipped driving cycles, recorded series, load spectra.
+    #[serde(default)]
+    pub cycles: Ordered<CycleEntry>,
+    /// Vehicles by name, for duties that tell a speed alone.
+    #[serde(default)]
+    pub vehicles: Ordered<VehicleEntry>,
     /// Grids of operating points by name.
     #[serde(default)]
     pub grids: Ordered<Grid>,
@@ -245,6 +254,10 @@ pub enum Analysis {
     Sensitivity(SensitivityEntry),
     /// How well models meet a measurement over two quantities of the gearbox.
     RmsSurface(RmsSurfaceEntry),
+    /// Losses, energies and temperatures of duties, such as driving cycles.
+    Cycle(CycleAnalysisEntry),
+    /// Mean losses of duties over one property of an oil, and where they are least.
+    FluidSweep(FluidSweepEntry),
 }
 
 /// The names that an analysis uses.
@@ -262,6 +275,10 @@ pub struct Uses<'a> {
     pub gears: Vec<&'a String>,
     /// Measurements, each with the key that names it.
     pub data: Vec<(&'static str, &'a String)>,
+    /// Duties.
+    pub cycles: &'a [String],
+    /// Vehicle.
+    pub vehicle: Option<&'a String>,
 }
 
 impl<'a> Uses<'a> {
@@ -273,6 +290,16 @@ impl<'a> Uses<'a> {
             sets: sets.into_iter().collect(),
             gears: Vec::new(),
             data: Vec::new(),
+            cycles: &[],
+            vehicle: None,
+        }
+    }
+
+    fn driving(drive: &'a DriveEntry) -> Self {
+        Self {
+            cycles: &drive.cycles,
+            vehicle: drive.vehicle.as_ref(),
+            ..Self::new(drive.gearbox.as_ref(), &drive.model_sets).at(&drive.gear)
         }
     }
 
@@ -340,6 +367,8 @@ impl Analysis {
             Self::RmsSurface(e) => Uses::new(e.gearbox.as_ref(), &e.against)
                 .at(&e.gear)
                 .with("data", Some(&e.data)),
+            Self::Cycle(e) => Uses::driving(&e.drive),
+            Self::FluidSweep(e) => Uses::driving(&e.drive),
             Self::Sensitivity(e) => Uses {
                 grid: Some(&e.grid),
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)

@@ -5,8 +5,12 @@ mod breakdown;
 mod compare;
 mod component_compare;
 mod contact_path;
+mod cycle;
 mod deviations;
+mod duties;
+mod fluid_sweep;
 mod identify;
+mod inputs;
 mod map;
 mod operating_points;
 mod parquet;
@@ -240,6 +244,8 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             Analysis::Identify(entry) => identify::run(&runner, name, entry, out),
             Analysis::Sensitivity(entry) => sensitivity::run(&runner, name, entry, out),
             Analysis::RmsSurface(entry) => rms_surface::run(&runner, name, entry, out),
+            Analysis::Cycle(entry) => cycle::run(&runner, name, entry, out),
+            Analysis::FluidSweep(entry) => fluid_sweep::run(&runner, name, entry, out),
             Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
             Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
         };
@@ -360,6 +366,8 @@ fn about(analysis: &Analysis) -> &'static str {
         Analysis::Identify(_) => "Uncertain parameters, found from measured points, and what the points say of each.",
         Analysis::Sensitivity(_) => "What the losses depend on.",
         Analysis::RmsSurface(_) => "How well models meet a measurement over two quantities of the gearbox.",
+        Analysis::Cycle(_) => "Losses, energies and temperatures of duties.",
+        Analysis::FluidSweep(_) => "Mean losses of duties over one property of an oil, and where they are least.",
         Analysis::SpinLoss(_) => "Losses without load.",
         Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",
     }

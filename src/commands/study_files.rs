@@ -160,11 +160,21 @@ impl Study {
                 sets,
                 gears,
                 data,
+                cycles,
+                vehicle,
             } = analysis.uses();
             for (key, name) in data {
                 if let Err(error) = self.measured(&format!("{path}.{key}"), name) {
                     found.push(error);
                 }
+            }
+            let known: Vec<&str> = self.entry.cycles.ids().collect();
+            for cycle in cycles.iter().filter(|c| !known.contains(&c.as_str())) {
+                found.push(dangling(&format!("{path}.cycles"), "duty", cycle, &known));
+            }
+            let known: Vec<&str> = self.entry.vehicles.ids().collect();
+            if let Some(vehicle) = vehicle.filter(|v| !known.contains(&v.as_str())) {
+                found.push(dangling(&format!("{path}.vehicle"), "vehicle", vehicle, &known));
             }
             if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
                 found.push(dangling(&format!("{path}.{grid_key}"), "grid", grid, &grids));

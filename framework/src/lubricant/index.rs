@@ -25,6 +25,11 @@ fn references(kv100: f64) -> Option<(f64, f64)> {
     if kv100.is_nan() || kv100 < 2.0 {
         return None;
     }
+    row(kv100)
+}
+
+/// L and H of the row of a viscosity; the first row goes on below its range.
+fn row(kv100: f64) -> Option<(f64, f64)> {
     let (_, [a, b, c, d, e, f]) = ROWS.iter().find(|(end, _)| kv100 < *end)?;
     let square = |p: f64, q: f64, r: f64| (p * kv100 + q) * kv100 + r;
     Some((square(*a, *b, *c), square(*d, *e, *f)))
@@ -43,13 +48,23 @@ pub fn index(kv40: f64, kv100: f64) -> Option<f64> {
 
 /// Viscosity at 40 degC of an oil with this index. \[mm2/s\]
 pub fn kv40(kv100: f64, index: f64) -> Option<f64> {
-    let (l, h) = references(kv100)?;
-    let kv40 = if index <= 100.0 {
+    let kv40 = of_references(references(kv100)?, kv100, index);
+    (kv40 > kv100).then_some(kv40)
+}
+
+/// Viscosity at 40 degC of an oil of a family of one index. \[mm2/s\] Below 2 mm2/s at 100 degC, where the standard defines no index, its
+/// first row is continued; other continuations are in use that jump there by a fifth.
+pub fn at_constant_index(kv100: f64, index: f64) -> Option<f64> {
+    let kv40 = of_references(row(kv100)?, kv100, index);
+    (kv40 > kv100).then_some(kv40)
+}
+
+fn of_references((l, h): (f64, f64), kv100: f64, index: f64) -> f64 {
+    if index <= 100.0 {
         l - index * (l - h) / 100.0
     } else {
         h / kv100.powf((1.0 + 0.00715 * (index - 100.0)).log10())
-    };
-    (kv40 > kv100).then_some(kv40)
+    }
 }
 
 /// Viscosity at 100 degC of an oil with this index, by bisection. \[mm2/s\]
@@ -101,6 +116,24 @@ mod tests {
             close(kv40(kv100, 174.0).unwrap(), expected);
         }
         close(kv40(10.0, 95.0).unwrap(), 86.1118);
+    }
+
+    #[test]
+    fn u8b_a_family_of_one_index() {
+        for (kv100, expected) in [
+            (1.0, 2.316650),
+            (1.5, 3.845998),
+            (2.0, 5.626148),
+            (3.0, 9.924169),
+            (4.0, 15.14700),
+            (5.0, 21.17702),
+            (5.9, 26.83612),
+            (7.0, 33.92266),
+            (8.0, 40.60998),
+            (10.0, 54.19528),
+        ] {
+            close(at_constant_index(kv100, 174.0).unwrap(), expected);
+        }
     }
 
     #[test]

@@ -35,6 +35,21 @@ pub enum Figure {
         /// The lines.
         lines: Vec<Line>,
     },
+    /// Areas on top of each other over one coordinate.
+    Areas {
+        /// Title.
+        title: String,
+        /// Name of the coordinate.
+        x: String,
+        /// Name of the values.
+        y: String,
+        /// Names of the areas.
+        names: Vec<String>,
+        /// Places along the coordinate.
+        places: Vec<f64>,
+        /// Values of all areas at each place, from below.
+        stacks: Vec<Vec<f64>>,
+    },
     /// Intervals under each other.
     Intervals {
         /// Title.
@@ -113,7 +128,10 @@ impl Figure {
     /// Title.
     pub fn title(&self) -> &str {
         match self {
-            Self::Bars { title, .. } | Self::Lines { title, .. } | Self::Intervals { title, .. } => title,
+            Self::Bars { title, .. }
+            | Self::Lines { title, .. }
+            | Self::Areas { title, .. }
+            | Self::Intervals { title, .. } => title,
             Self::Map(map) => &map.title,
             Self::Cloud(cloud) => &cloud.title,
         }
@@ -135,6 +153,14 @@ impl Figure {
             Self::Map(map) => plot::map(map),
             Self::Cloud(cloud) => plot::cloud(cloud),
             Self::Lines { title, x, y, lines } => plot::lines(title, x, y, lines),
+            Self::Areas {
+                title,
+                x,
+                y,
+                names,
+                places,
+                stacks,
+            } => plot::areas(title, (x, y), names, places, stacks),
             Self::Intervals { title, x, marks, list } => plot::intervals(title, x, marks, list),
         }
     }
@@ -152,6 +178,14 @@ impl Figure {
             Self::Map(map) => contours(map),
             Self::Cloud(cloud) => scattered(cloud),
             Self::Lines { x, y, lines, .. } => traces(x, y, lines),
+            Self::Areas {
+                x,
+                y,
+                names,
+                places,
+                stacks,
+                ..
+            } => areas((x, y), names, places, stacks),
             Self::Intervals { x, marks, list, .. } => beneath(x, marks, list),
         };
         layout["title"] =
@@ -207,6 +241,24 @@ fn stack((over, height): (&str, &str), names: &[String], bars: &[Bar]) -> (Vec<V
             "barmode": "stack", "yaxis": axis(height),
             "xaxis": { "type": "category", "automargin": true, "title": { "text": over } },
         }),
+    )
+}
+
+fn areas((x, y): (&str, &str), names: &[String], places: &[f64], stacks: &[Vec<f64>]) -> (Vec<Value>, Value) {
+    let data = names
+        .iter()
+        .enumerate()
+        .map(|(i, name)| {
+            json!({
+                "type": "scatter", "mode": "lines", "name": name, "x": places,
+                "y": stacks.iter().map(|stack| stack.get(i)).collect::<Vec<_>>(),
+                "stackgroup": "all", "line": { "width": 0.5, "color": css(i) }, "fillcolor": css(i),
+            })
+        })
+        .collect();
+    (
+        data,
+        json!({ "xaxis": axis(x), "yaxis": axis(y), "hovermode": "x unified" }),
     )
 }
 

@@ -256,6 +256,50 @@ pub(super) fn bars(
     })
 }
 
+/// Areas on top of each other over one axis.
+///
+/// # Errors
+/// If drawing fails.
+pub(super) fn areas(
+    title: &str,
+    (x_name, y_name): (&str, &str),
+    names: &[String],
+    places: &[f64],
+    stacks: &[Vec<f64>],
+) -> Result<String, PlotFault> {
+    drawn(title, |root| {
+        let highest = stacks.iter().map(|s| s.iter().sum()).fold(0.0, f64::max);
+        let (first, last) = range(places.iter().copied());
+        let area = root.margin(40, 10, 10, 200);
+        let mut chart = ChartBuilder::on(&area)
+            .x_label_area_size(50)
+            .y_label_area_size(70)
+            .build_cartesian_2d(first..last, 0.0..(1.08 * highest).max(1e-9))
+            .map_err(fault)?;
+        chart
+            .configure_mesh()
+            .x_desc(x_name)
+            .y_desc(y_name)
+            .light_line_style(TRANSPARENT)
+            .label_style(("sans-serif", TEXT))
+            .axis_desc_style(("sans-serif", TEXT))
+            .draw()
+            .map_err(fault)?;
+        let below = |stack: &Vec<f64>, count: usize| stack.iter().take(count).sum::<f64>();
+        for i in 0..names.len() {
+            let along = |count: usize| places.iter().zip(stacks).map(move |(x, s)| (*x, below(s, count)));
+            let mut edge: Vec<(f64, f64)> = along(i + 1).collect();
+            let mut back: Vec<(f64, f64)> = along(i).collect();
+            back.reverse();
+            edge.extend(back);
+            chart
+                .draw_series([Polygon::new(edge, colour(i).filled())])
+                .map_err(fault)?;
+        }
+        legend(root, names, true)
+    })
+}
+
 /// Lines over one axis.
 ///
 /// # Errors
@@ -338,7 +382,7 @@ mod tests {
     #[test]
     fn nothing_to_draw_is_no_fault() {
         assert!(bars("a", ("", "b"), &[], &[]).is_ok() && lines("a", "b", "c", &[]).is_ok());
-        assert!(intervals("a", "b", &[0.0, 1.0], &[]).is_ok());
+        assert!(intervals("a", "b", &[0.0, 1.0], &[]).is_ok() && areas("a", ("b", "c"), &[], &[], &[]).is_ok());
         assert!(map(&Map::default()).is_ok() && cloud(&Cloud::default()).is_ok());
     }
 }

@@ -119,7 +119,8 @@ impl Transmission {
             None => None,
         };
         let (oils, more) = oils.finish();
-        found.extend(more);
+        // What is wrong with an oil is the cause of much that came after it.
+        found.splice(0..0, more);
         if let (true, Some(loads)) = (found.is_empty(), loads) {
             let (instances, cells) = build.finish();
             let order = |path: &str| document_order(resolved, path);

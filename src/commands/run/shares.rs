@@ -59,6 +59,17 @@ impl Shares {
         self
     }
 
+    /// The sums of values of all parts, by share; for shares that need no terms.
+    pub fn sums(&self, parts: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.names.len()];
+        for (places, value) in self.places.iter().zip(parts) {
+            if let Some(place) = places.first() {
+                sums[*place] += value;
+            }
+        }
+        sums
+    }
+
     /// The shares of a point in W; absent where its loss is. Shares by term need a point that kept its terms.
     pub fn stack(&self, point: &PointResult) -> Option<Vec<f64>> {
         point.loss?;
@@ -73,9 +84,7 @@ impl Shares {
                 }
             }
             By::Mechanism | By::Component | By::Stage => {
-                for (places, watts) in self.places.iter().zip(&point.parts) {
-                    stack[places[0]] += watts;
-                }
+                stack = self.sums(&point.parts);
             }
         }
         Some(stack)

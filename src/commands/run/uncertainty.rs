@@ -3,15 +3,15 @@
 use gearloss_framework::analysis::{PointResult, Points, correlation, quantile};
 use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::report::{Figure, Map};
-use gearloss_framework::sampling::{Distribution, Sobol};
-use gearloss_framework::study::{Shape, ToleranceEntry, UncertaintyEntry};
+use gearloss_framework::sampling::Sobol;
+use gearloss_framework::study::UncertaintyEntry;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
+use super::inputs::Input;
 use super::map::{spread, tidy};
-use super::ranges::{Range, once};
 use super::trial::{Left, Trial, left};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, grid_axes};
@@ -30,45 +30,6 @@ const QUANTITIES: [Quantity; 4] = [
 
 /// Shares of the samples below the ends and the middle of a band.
 const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
-
-/// An uncertain input with its distribution, in the unit of the path.
-struct Input {
-    range: Range,
-    distribution: Distribution,
-}
-
-impl Input {
-    fn new(runner: &Runner<'_>, path: &str, entry: &ToleranceEntry, b: &Built<'_>) -> Result<Self, Failure> {
-        let range = Range::new(runner, path, &entry.range, b)?;
-        // The others are moved onto the range of the schema.
-        if entry.distribution != Shape::Normal {
-            range.inside(runner, path)?;
-        }
-        let [low, high] = range.ends;
-        let distribution = match entry.distribution {
-            Shape::Uniform => Distribution::uniform(low, high),
-            // 95 % of a normal distribution lie within 1.96 deviations.
-            Shape::Normal => Distribution::normal(0.5 * (low + high), 0.5 * (high - low) / 1.959964),
-            Shape::Triangular => {
-                let mode = range.varied.start().unwrap_or(0.5 * (low + high));
-                Distribution::triangular(low, mode.clamp(low, high), high)
-            }
-        };
-        let wrong = |reason: String| {
-            let message = format!("{}: {reason}", entry.range.path);
-            runner.wrong(path, message, "give a range that is wider than nothing")
-        };
-        Ok(Self {
-            distribution: distribution.map_err(wrong)?,
-            range,
-        })
-    }
-
-    fn value(&self, share: f64) -> Result<f64, String> {
-        let [least, greatest] = self.range.varied.range;
-        Ok(self.distribution.value(share)?.clamp(least, greatest))
-    }
-}
 
 /// Values of the inputs, the solved points, and which stated ranges were left: path and quantity.
 type Sample = (Vec<f64>, Vec<PointResult>, Vec<(String, &'static str)>);
@@ -100,14 +61,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
         let (torques, speeds) = grid_axes(runner, &entry.grid, grid, &built.transmission)?;
         let points = runner.points(&built.transmission, gear, torques.clone(), speeds.clone());
         let nominal = runner.solve(&built, &points)?.points;
-        let inputs: Vec<Input> = entry
-            .inputs
-            .iter()
-            .enumerate()
-            .map(|(i, input)| Input::new(runner, &format!("{path}.inputs.{i}"), input, &built))
-            .collect::<Result<_, _>>()?;
-        let varied: Vec<_> = inputs.iter().map(|input| &input.range.varied).collect();
-        once(runner, &format!("{path}.inputs"), &varied)?;
+        let inputs = Input::all(runner, &path, &entry.inputs, &built)?;
         let (samples, failed) = sample(runner, entry, &built, &inputs, &points, out)?;
         all.push(Sampled {
             built,

@@ -1,0 +1,180 @@
+//! Duties of a study: read, and driven through a transmission.
+
+use gearloss_framework::analysis::{Driven, OilTemperature, Ride, drive};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::duty::{Duty, Interval, Vehicle};
+use gearloss_framework::study::{Conditions, DriveEntry};
+use gearloss_framework::thermal::network::StepSize;
+use gearloss_framework::transmission::Transmission;
+
+use super::write::hash;
+use super::{Built, Runner, gear_of};
+use crate::output::Failure;
+
+/// A duty as read.
+pub struct Read {
+    /// Name in the study.
+    pub name: String,
+    /// What it is made of.
+    pub duty: Duty,
+    /// Its intervals.
+    pub intervals: Vec<Interval>,
+    /// Port of recorded torques.
+    port: String,
+}
+
+/// Duties of an analysis, with how they are driven. It can be shared among threads.
+pub struct Duties<'a> {
+    /// The duties.
+    pub list: Vec<Read>,
+    vehicle: Option<Vehicle>,
+    entry: &'a DriveEntry,
+    conditions: &'a Conditions,
+}
+
+impl<'a> Duties<'a> {
+    /// Reads the duties of an analysis at a path.
+    pub fn new(runner: &Runner<'a>, path: &str, entry: &'a DriveEntry) -> Result<Self, Failure> {
+        let study = &runner.study.entry;
+        if entry.step.is_some() && entry.tolerance.is_some() {
+            let message = "both `step` and `tolerance` are given";
+            return Err(runner.wrong(path, message, "leave one of them out"));
+        }
+        let mut found = Vec::new();
+        let own = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
+        let vehicle = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
+        let vehicle = vehicle.and_then(|(id, vehicle)| {
+            let read = vehicle.vehicle(&format!("vehicles.{id}"));
+            read.map_err(|fault| found.push(fault)).ok()
+        });
+        let mut list = Vec::new();
+        for name in &entry.cycles {
+            let Some(cycle) = study.cycles.get(name) else { continue };
+            let at = format!("cycles.{name}");
+            let read = |file: &str| {
+                let bytes =
+                    std::fs::read(runner.study.folder.join(file)).map_err(|e| format!("cannot read {file}: {e}"))?;
+                let known = (file.to_owned(), hash(&bytes));
+                if !runner.read.borrow().contains(&known) {
+                    runner.read.borrow_mut().push(known);
+                }
+                Ok(bytes)
+            };
+            let duty = match cycle.read(runner.language.registry(), read) {
+                Ok(duty) => duty,
+                Err(faults) => {
+                    found.extend(
+                        faults
+                            .into_iter()
+                            .map(|f| Diagnostic::error(&at, f.message).mend(f.mend)),
+                    );
+                    continue;
+                }
+            };
+            match duty.intervals(vehicle.as_ref()) {
+                Ok(intervals) => list.push(Read {
+                    name: name.clone(),
+                    duty,
+                    intervals,
+                    port: cycle.port().unwrap_or("input").to_owned(),
+                }),
+                Err(fault) => found.push(Diagnostic::error(&at, fault.message).mend(fault.mend)),
+            }
+        }
+        if !found.is_empty() {
+            return Err(runner.study.findings(found).into());
+        }
+        Ok(Self {
+            list,
+            vehicle,
+            entry,
+            conditions: &study.conditions,
+        })
+    }
+
+    /// Number of all intervals.
+    pub fn len(&self) -> usize {
+        self.list.iter().map(|read| read.intervals.len()).sum()
+    }
+
+    /// What keeps the duties from being driven through a gearbox.
+    pub fn check(&self, runner: &Runner<'_>, path: &str, b: &Built<'_>) -> Result<(), Failure> {
+        let oil = OilTemperature::of(&b.transmission, self.conditions.oil_temperature);
+        let in_time = self.list.iter().find(|read| matches!(read.duty, Duty::Trace(_)));
+        if let (OilTemperature::Balance, Some(read)) = (oil, in_time) {
+            let message = format!(
+                "`{}` goes on in time, and the balance of the gearbox knows none",
+                read.name
+            );
+            let mend = "write `thermal: { mode: network, network: auto }` in the gearbox, or `conditions: { oil_temperature: ... }`";
+            return Err(runner.wrong(path, message, mend));
+        }
+        if oil.given().is_some() && self.entry.start.is_some() {
+            let message = "the temperature of the oil is given, so nothing starts at another one";
+            return Err(runner.wrong(
+                &format!("{path}.start"),
+                message,
+                "leave it out, or let the gearbox have a thermal network",
+            ));
+        }
+        if oil.given().is_none()
+            && let Some(read) = in_time
+            && read.intervals.iter().any(|i| i.given.oil_temperature.is_some())
+        {
+            let message = format!(
+                "`{}` tells temperatures of the oil, which the thermal network finds itself",
+                read.name
+            );
+            let mend = "name the column under `temperatures` with its node, to compare";
+            return Err(runner.wrong(&format!("cycles.{}.columns.oil_temperature", read.name), message, mend));
+        }
+        for read in &self.list {
+            let Duty::Trace(trace) = &read.duty else { continue };
+            let nodes: Vec<&str> = match b.transmission.network().filter(|_| oil == OilTemperature::Network) {
+                Some(network) => network.names().iter().map(String::as_str).collect(),
+                None => vec!["oil"],
+            };
+            if let Some(unknown) = trace.nodes.iter().find(|node| !nodes.contains(&node.as_str())) {
+                let at = format!("cycles.{}.temperatures", read.name);
+                let error = gearloss_framework::attach::dangling(&at, "node", unknown, &nodes);
+                return Err(runner.study.findings(vec![error]).into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Drives one of them; absent where `progress` breaks it off.
+    pub fn drive(
+        &self,
+        t: &Transmission,
+        read: &Read,
+        progress: &dyn Fn(usize) -> bool,
+    ) -> Result<Option<Driven>, Vec<Diagnostic>> {
+        let longest = read.intervals.iter().map(|i| i.duration).fold(0.0, f64::max);
+        let ride = Ride {
+            intervals: &read.intervals,
+            port: &read.port,
+            vehicle: self.vehicle.as_ref(),
+            gear: gear_of(self.entry.gear.as_deref(), t),
+            oil: OilTemperature::of(t, self.conditions.oil_temperature),
+            spectrum: matches!(read.duty, Duty::Spectrum(_)),
+            start: self.entry.start,
+            ambient: self.entry.ambient,
+            scheme: self.entry.scheme,
+            step: match self.entry.tolerance {
+                Some(tolerance) => StepSize::Adaptive(tolerance),
+                None => StepSize::Fixed(self.entry.step.unwrap_or(longest)),
+            },
+            flow: self.conditions.power_flow,
+        };
+        drive(t, &ride, progress)
+    }
+}
+
+/// Names of the temperatures of a driven duty: nodes, or the oil alone.
+pub fn nodes(t: &Transmission, driven: &Driven) -> Vec<String> {
+    match t.network().filter(|n| n.names().len() == driven.start.len()) {
+        Some(network) => network.names().to_vec(),
+        None => vec!["oil".to_owned()],
+    }
+}

@@ -1,0 +1,137 @@
+//! Where a loss over a positive property is least, and how flat it is there.
+
+use serde_json::{Value, json};
+
+/// The most rounds of the search.
+pub const ROUNDS: usize = 6;
+/// Logarithm of the property within which the least value counts as found.
+const FOUND: f64 = 0.005;
+/// Rise of the loss up to which a range counts as flat.
+const FLAT: f64 = 0.01;
+
+/// The least loss over a property.
+pub struct Least {
+    /// Value of the property.
+    pub value: f64,
+    /// Mean loss there. \[W\]
+    pub loss: f64,
+    /// Values between which the loss stays within a percent of it; at an end of the range, that end.
+    pub flat: [f64; 2],
+    /// True where it lies at an end of the range, beyond which it may fall on.
+    pub at_end: bool,
+}
+
+/// Coordinate of a property: its logarithm where all values are above zero.
+fn coordinate(points: &[(f64, f64)]) -> (fn(f64) -> f64, fn(f64) -> f64) {
+    if points.iter().all(|(value, _)| *value > 0.0) {
+        (f64::ln, f64::exp)
+    } else {
+        (|x| x, |x| x)
+    }
+}
+
+fn best(points: &[(f64, f64)]) -> usize {
+    let order = points.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+    order.map_or(0, |(i, _)| i)
+}
+
+/// The value at which to look next: where a parabola through the least loss and its neighbours is least, or the middle of the
+/// wider side where that is known; absent where the least value is found, or lies at an end. Points rise by value.
+pub fn wanted(points: &[(f64, f64)]) -> Option<f64> {
+    let i = best(points);
+    if i == 0 || i + 1 >= points.len() {
+        return None;
+    }
+    let (to, from) = coordinate(points);
+    let [a, b, c] = [i - 1, i, i + 1].map(|k| (to(points[k].0), points[k].1));
+    let tolerance = FOUND * if points[0].0 > 0.0 { 1.0 } else { (c.0 - a.0).abs() };
+    if c.0 - a.0 <= 2.0 * tolerance {
+        return None;
+    }
+    let (p, q) = ((b.0 - a.0) * (b.1 - c.1), (b.0 - c.0) * (b.1 - a.1));
+    let vertex = b.0 - 0.5 * ((b.0 - a.0) * p - (b.0 - c.0) * q) / (p - q);
+    let wider = if c.0 - b.0 > b.0 - a.0 {
+        0.5 * (b.0 + c.0)
+    } else {
+        0.5 * (a.0 + b.0)
+    };
+    let inside = vertex.is_finite() && vertex > a.0 && vertex < c.0;
+    match inside {
+        true if (vertex - b.0).abs() > tolerance => Some(from(vertex)),
+        // The parabola agrees with what is known: one more look on the wider side tells whether it may.
+        true if (c.0 - a.0) > 40.0 * tolerance => Some(from(wider)),
+        true => None,
+        false => Some(from(wider)),
+    }
+}
+
+impl Least {
+    /// The least loss of points that rise by value.
+    pub fn of(points: &[(f64, f64)]) -> Self {
+        let i = best(points);
+        let (value, loss) = points[i];
+        let limit = (1.0 + FLAT) * loss;
+        let (to, from) = coordinate(points);
+        let edge = |step: &mut dyn Iterator<Item = usize>| {
+            let mut last = i;
+            for k in step {
+                if points[k].1 > limit {
+                    let (inner, outer) = (points[last], points[k]);
+                    let share = (limit - inner.1) / (outer.1 - inner.1);
+                    return from(to(inner.0) + share * (to(outer.0) - to(inner.0)));
+                }
+                last = k;
+            }
+            points[last].0
+        };
+        Self {
+            value,
+            loss,
+            flat: [edge(&mut (0..i).rev()), edge(&mut (i + 1..points.len()))],
+            at_end: i == 0 || i + 1 == points.len(),
+        }
+    }
+
+    pub fn json(&self) -> Value {
+        json!({
+            "value": self.value, "mean_loss_w": self.loss, "within_one_percent": self.flat, "at_end_of_range": self.at_end,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn searched(law: impl Fn(f64) -> f64, values: &[f64]) -> (Least, usize) {
+        let mut points: Vec<(f64, f64)> = values.iter().map(|x| (*x, law(*x))).collect();
+        let mut asked = 0;
+        for _ in 0..ROUNDS {
+            let Some(next) = wanted(&points) else { break };
+            points.push((next, law(next)));
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            asked += 1;
+        }
+        (Least::of(&points), asked)
+    }
+
+    #[test]
+    fn a_flat_minimum_is_found_with_its_range() {
+        // Least at 4: loss 80; a percent more at ln(x/4) = +-0.2.
+        let law = |x: f64| 80.0 + 20.0 * (x / 4.0).ln().powi(2);
+        let (least, asked) = searched(law, &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0]);
+        assert!(
+            (least.value / 4.0).ln().abs() < 0.02 && (least.loss - 80.0).abs() < 0.01,
+            "{}",
+            least.value
+        );
+        assert!((least.flat[0] / 4.0).ln() < -0.15 && (least.flat[1] / 4.0).ln() > 0.15);
+        assert!(!least.at_end && asked <= ROUNDS);
+    }
+
+    #[test]
+    fn a_loss_that_falls_all_the_way_has_its_least_at_the_end() {
+        let (least, asked) = searched(|x| 10.0 / x, &[1.0, 2.0, 3.0]);
+        assert!(least.at_end && asked == 0 && least.value == 3.0);
+    }
+}

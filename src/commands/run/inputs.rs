@@ -1,0 +1,63 @@
+//! Uncertain inputs: quantities of the description with distributions.
+
+use gearloss_framework::sampling::Distribution;
+use gearloss_framework::study::{Shape, ToleranceEntry};
+
+use super::ranges::{Range, once};
+use super::{Built, Runner};
+use crate::output::Failure;
+
+/// An uncertain input with its distribution, in the unit of the path.
+pub struct Input {
+    pub range: Range,
+    distribution: Distribution,
+}
+
+impl Input {
+    /// All inputs of an analysis at a path; each quantity once.
+    pub fn all(
+        runner: &Runner<'_>,
+        path: &str,
+        entries: &[ToleranceEntry],
+        b: &Built<'_>,
+    ) -> Result<Vec<Self>, Failure> {
+        let path = format!("{path}.inputs");
+        let of = |(i, input)| Self::new(runner, &format!("{path}.{i}"), input, b);
+        let inputs: Vec<Self> = entries.iter().enumerate().map(of).collect::<Result<_, _>>()?;
+        let varied: Vec<_> = inputs.iter().map(|input| &input.range.varied).collect();
+        once(runner, &path, &varied)?;
+        Ok(inputs)
+    }
+
+    fn new(runner: &Runner<'_>, path: &str, entry: &ToleranceEntry, b: &Built<'_>) -> Result<Self, Failure> {
+        let range = Range::new(runner, path, &entry.range, b)?;
+        // The others are moved onto the range of the schema.
+        if entry.distribution != Shape::Normal {
+            range.inside(runner, path)?;
+        }
+        let [low, high] = range.ends;
+        let distribution = match entry.distribution {
+            Shape::Uniform => Distribution::uniform(low, high),
+            // 95 % of a normal distribution lie within 1.96 deviations.
+            Shape::Normal => Distribution::normal(0.5 * (low + high), 0.5 * (high - low) / 1.959964),
+            Shape::Triangular => {
+                let mode = range.varied.start().unwrap_or(0.5 * (low + high));
+                Distribution::triangular(low, mode.clamp(low, high), high)
+            }
+        };
+        let wrong = |reason: String| {
+            let message = format!("{}: {reason}", entry.range.path);
+            runner.wrong(path, message, "give a range that is wider than nothing")
+        };
+        Ok(Self {
+            distribution: distribution.map_err(wrong)?,
+            range,
+        })
+    }
+
+    /// The value below which a share of all values lies, in the unit of the path.
+    pub fn value(&self, share: f64) -> Result<f64, String> {
+        let [least, greatest] = self.range.varied.range;
+        Ok(self.distribution.value(share)?.clamp(least, greatest))
+    }
+}
