@@ -88,7 +88,13 @@ fn points() -> Vec<Value> {
         let text = String::from_utf8_lossy(&output.stdout);
         serde_json::from_str(&text).unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)))
     };
+    let unit = ["examples/electric-drive-unit/gearbox.yaml", "--speed", "4000 rpm"];
     vec![
+        solve(unit, &[]),
+        solve(
+            unit,
+            &["--set", "bearings.B0.model={ type: formula, formula: \"sqrt(-1)\" }"],
+        ),
         solve(car, &["--gear", "first"]),
         solve(car, &["--gear", "second", "--models", "joint"]),
         solve([car[0], "--speed", "0 rpm"], &["--gear", "first"]),

@@ -240,6 +240,10 @@ pub fn drive(
             return Ok(None);
         }
     }
+    if let (true, Some(first)) = (march.is_none(), driven.stretches.first()) {
+        // Nothing goes on in time, so nothing starts.
+        driven.start.clone_from(&first.temperatures);
+    }
     for (.., scratch) in &cases.known {
         super::merge(&mut driven.seen, &scratch.totals);
     }

@@ -117,16 +117,14 @@ impl<'a> Duties<'a> {
                 "leave it out, or let the gearbox have a thermal network",
             ));
         }
-        if oil.given().is_none()
-            && let Some(read) = in_time
-            && read.intervals.iter().any(|i| i.given.oil_temperature.is_some())
-        {
+        let told = |read: &&Read| read.intervals.iter().any(|i| i.given.oil_temperature.is_some());
+        if let (OilTemperature::Network, Some(read)) = (oil, self.list.iter().find(told)) {
             let message = format!(
                 "`{}` tells temperatures of the oil, which the thermal network finds itself",
                 read.name
             );
-            let mend = "name the column under `temperatures` with its node, to compare";
-            return Err(runner.wrong(&format!("cycles.{}.columns.oil_temperature", read.name), message, mend));
+            let mend = "leave them out; a column under `temperatures`, with its node, is compared";
+            return Err(runner.wrong(&format!("cycles.{}", read.name), message, mend));
         }
         for read in &self.list {
             let Duty::Trace(trace) = &read.duty else { continue };
