@@ -204,10 +204,14 @@ impl EhlMixed {
             Some(part) => part.clone(),
             None => MeshPart::fzg_c().map_err(|fault| cx.error(fault))?,
         };
-        Self::of(params, factor, part, cx)
+        Self::of_part(params, factor, part, cx)
     }
 
-    fn of(params: &Params, factor: Factor, part: MeshPart, cx: &Build<'_>) -> Result<Self, Diagnostic> {
+    /// The model for a pair, as [`EhlMixed::new`].
+    ///
+    /// # Errors
+    /// What the oil does not state and the parameters do not, either.
+    pub fn of_part(params: &Params, factor: Factor, part: MeshPart, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let written = Written {
             tau0: params.tau0,
             z: params.z,

@@ -49,7 +49,7 @@ impl Rig {
         let params = params(changes);
         let cx = Build::new(&registry, &files);
         Self {
-            model: EhlMixed::of(&params, params.inlet_heating.factor(), part.clone(), &cx).unwrap(),
+            model: EhlMixed::of_part(&params, params.inlet_heating.factor(), part.clone(), &cx).unwrap(),
             part: Arc::new(part),
         }
     }
@@ -315,7 +315,7 @@ fn known_bodies_are_kept_and_a_factor_of_ones_own_thins_the_film() {
     let cx = Build::new(&registry, &files);
     let film = |factor: Factor| {
         let part = stage(1);
-        let model = EhlMixed::of(&plain, factor, part.clone(), &cx).unwrap();
+        let model = EhlMixed::of_part(&plain, factor, part.clone(), &cx).unwrap();
         let rig = Rig {
             part: Arc::new(part),
             model,

@@ -1,0 +1,304 @@
+//! Duties driven through the electric drive unit: energies, temperatures, schemes, counts, and what is refused.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use common::{file, language};
+use gearloss_framework::analysis::{Driven, OilTemperature, Ride, Stretch, drive};
+use gearloss_framework::duty::{CycleEntry, Duty, FileCycleEntry, ShippedCycleEntry, Vehicle, VehicleEntry};
+use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
+use gearloss_framework::loss::Notes;
+use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
+use gearloss_framework::mechanism::tooth_friction::PathAt;
+use gearloss_framework::registry::{Build, Files};
+use gearloss_framework::resolve::Choice;
+use gearloss_framework::thermal::network::{Scheme, StepSize};
+use gearloss_framework::transmission::Transmission;
+use gearloss_plugins::path::Path as ContactPath;
+use gearloss_plugins::tooth_friction::ehl_mixed::{EhlMixed, Params};
+use serde_json::json;
+
+const UNIT: &str = "examples/electric-drive-unit/gearbox.yaml";
+
+fn unit(language: &Language) -> Transmission {
+    let gearbox = Gearbox::read(language, &file(UNIT)).unwrap();
+    gearbox.transmission(language, &Choice::default()).unwrap()
+}
+
+/// The vehicle of the example, from the road load of the EPA.
+fn vehicle() -> Vehicle {
+    let entry = json!({
+        "mass": 1928.0, "coast_down": { "a": 165.34, "b": 0.46767, "c": 0.32052 }, "tyre_radius": 0.3357,
+        "rotating_mass_factor": 1.04, "regeneration": { "torque": 350.0, "power": 190e3, "fade_speed": 2.0 },
+    });
+    let entry: VehicleEntry = serde_json::from_value(entry).unwrap();
+    entry.vehicle("vehicles.car").unwrap()
+}
+
+fn shipped(language: &Language, name: &str) -> Duty {
+    let entry = CycleEntry::Shipped(ShippedCycleEntry {
+        shipped: name.to_owned(),
+        repeat: 1,
+        start: None,
+        end: None,
+    });
+    entry.read(language.registry(), |_| Err(String::new())).unwrap()
+}
+
+/// Drives from 23 degC.
+fn driven(t: &Transmission, duty: &Duty, scheme: Scheme, step: StepSize) -> Driven {
+    let vehicle = vehicle();
+    let intervals = duty.intervals(Some(&vehicle)).unwrap();
+    let ride = Ride {
+        intervals: &intervals,
+        port: "input",
+        vehicle: Some(&vehicle),
+        gear: &t.states()[0].name,
+        oil: OilTemperature::Network,
+        spectrum: false,
+        start: Some(23.0),
+        ambient: Some(23.0),
+        scheme,
+        step,
+        flow: PowerFlow::Real,
+    };
+    drive(t, &ride, &|_| true).unwrap().unwrap()
+}
+
+fn loss(driven: &Driven) -> f64 {
+    driven.total.parts.iter().sum::<f64>()
+}
+
+const SECOND: StepSize = StepSize::Fixed(1.0);
+
+#[test]
+fn energy_closes_over_both_cycles_and_in_every_second() {
+    let language = language();
+    let t = unit(&language);
+    for name in ["wltc_class3b", "nycc"] {
+        let duty = shipped(&language, name);
+        for scheme in [Scheme::Implicit, Scheme::Lagged] {
+            let driven = driven(&t, &duty, scheme, SECOND);
+            assert!(driven.broken.is_none());
+            let total = &driven.total;
+            // Asked is 1e-6; what is left is rounding.
+            let flow = total.input - total.output - loss(&driven);
+            assert!(flow.abs() < 1e-9 * total.input, "{name}: {flow}");
+            assert!(
+                total.residual().abs() < 1e-9 * total.came(),
+                "{name}: {}",
+                total.residual()
+            );
+            for s in &driven.stretches {
+                let scale = s.heats.came().max(1.0);
+                assert!(
+                    s.heats.residual().abs() < 1e-6 * scale,
+                    "{name} {}: {}",
+                    s.start,
+                    s.heats.residual()
+                );
+                assert!(s.temperatures.iter().all(|t| (22.9..80.0).contains(t)));
+            }
+        }
+    }
+}
+
+#[test]
+fn shorter_steps_and_adaptive_ones_agree() {
+    let language = language();
+    let t = unit(&language);
+    let duty = shipped(&language, "nycc");
+    let whole = driven(&t, &duty, Scheme::Implicit, SECOND);
+    let fine = driven(&t, &duty, Scheme::Implicit, StepSize::Fixed(0.125));
+    let last = |d: &Driven| d.stretches.last().unwrap().temperatures.clone();
+    let farthest = |a: &Driven, b: &Driven| {
+        let pairs = last(a).into_iter().zip(last(b));
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    // A second is short beside all but the time constants of oil in the motor.
+    assert!(farthest(&whole, &fine) < 0.05, "{}", farthest(&whole, &fine));
+    assert!((loss(&whole) / loss(&fine) - 1.0).abs() < 2e-4);
+    let lagged = driven(&t, &duty, Scheme::Lagged, SECOND);
+    assert!(farthest(&lagged, &fine) < 0.3 && (loss(&lagged) / loss(&fine) - 1.0).abs() < 2e-3);
+    let adaptive = driven(&t, &duty, Scheme::Implicit, StepSize::Adaptive(0.02));
+    assert!(farthest(&adaptive, &fine) < 0.05 && adaptive.steps[1] > 0);
+    assert!((loss(&adaptive) / loss(&fine) - 1.0).abs() < 2e-4);
+}
+
+/// Passes of the inner loop of both meshes at a second of a drive.
+fn passes(t: &Transmission, laws: &[(EhlMixed, ContactPath)], s: &Stretch) -> (u32, u32, usize) {
+    let case = t.case(&t.states()[0].name, &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let point = Point {
+        speeds: &[s.speed],
+        torques: &[s.torque],
+        flow: PowerFlow::Real,
+        tolerance: Tolerance::default(),
+    };
+    let solution = t.evaluate(&case, &point, &s.temperatures, &mut scratch);
+    let (mut runs, mut passes, mut places) = (0, 0, 0);
+    for (i, (law, path)) in laws.iter().enumerate() {
+        let at = solution.mesh_at(i);
+        if at.torque == 0.0 || at.speed == 0.0 {
+            continue;
+        }
+        let mean = MeanFrictionAt::of(&at, Notes::MUTED);
+        let along = PathAt {
+            bodies: at.bodies(),
+            ..path.at(&mean, Notes::MUTED)
+        };
+        let mut mu = vec![0.0; path.len()];
+        let (tally, _) = law.settle(&along, &mut mu, |_, _| {});
+        runs += tally.runs;
+        passes += tally.passes;
+        places += path.len();
+    }
+    (runs, passes, places)
+}
+
+/// Counts are the same on every machine; they grow only with a reason.
+#[test]
+fn a_wltc_takes_few_evaluations_and_few_passes() {
+    let language = language();
+    let gearbox = Gearbox::read(&language, &file(UNIT)).unwrap();
+    let resolved = gearbox.resolve(&language, &Choice::default()).unwrap();
+    let t = gearbox.build(&language, &resolved).unwrap();
+    let driven = driven(&t, &shipped(&language, "wltc_class3b"), Scheme::Implicit, SECOND);
+    assert_eq!((driven.stretches.len(), driven.steps), (1800, [1800, 0]));
+    // Two evaluations a second: at the temperatures before, and at those that they lead to.
+    assert!(driven.evaluations < 2 * 1800 + 100, "{}", driven.evaluations);
+    let files = Files::default();
+    let build = Build::new(language.registry(), &files);
+    let laws: Vec<(EhlMixed, ContactPath)> = t
+        .meshes()
+        .map(|(path, part)| {
+            let model = gearloss_framework::resolve::lookup(&resolved.value, &format!("{path}.model")).unwrap();
+            let mut friction = model["tooth_friction"].clone();
+            friction.as_object_mut().unwrap().remove("type");
+            let params: Params = serde_json::from_value(friction).unwrap();
+            let factor = params.inlet_heating.factor();
+            let law = EhlMixed::of_part(&params, factor, part.clone(), &build).unwrap();
+            let sharing = serde_json::from_value(model["load_sharing"].clone()).unwrap();
+            (law, ContactPath::new(&part.pair, sharing, 5).unwrap())
+        })
+        .collect();
+    let mut sum = (0, 0, 0);
+    for s in driven.stretches.iter().step_by(10) {
+        let (runs, passes, places) = passes(&t, &laws, s);
+        sum = (sum.0 + runs, sum.1 + passes, sum.2 + places);
+    }
+    // With the bodies known there is one way along each path, and some four passes at each of its places.
+    assert_eq!((sum.0 as usize) * laws[0].1.len(), sum.2);
+    assert!(f64::from(sum.1) < 5.0 * sum.2 as f64, "{sum:?}");
+}
+
+/// Runs a study of one duty with the drive unit; what it says to standard error.
+fn refused(name: &str, cycles: &str, csv: &str, more: &str) -> String {
+    let folder: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cycle").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("drive.csv"), csv).unwrap();
+    let study = format!(
+        "gearloss: study/1\ngearboxes: {{ unit: {} }}\ncycles:\n  own: {cycles}\nanalyses:\n  drive: {{ type: cycle, cycles: [own]{more} }}\n",
+        file(UNIT).display()
+    );
+    std::fs::write(folder.join("study.yaml"), study).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .current_dir(&folder)
+        .args(["run", "study.yaml"])
+        .output()
+        .unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(2),
+        "{name}: {}",
+        String::from_utf8_lossy(&output.stdout)
+    );
+    String::from_utf8(output.stderr).unwrap()
+}
+
+#[test]
+fn a_faulty_file_is_refused_with_its_line() {
+    let own = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in } }";
+    let trace = "{ file: drive.csv, columns: { time: t, vehicle_speed: v } }";
+    let head = "t [s],T_in [Nm],n_in [rpm]\n";
+    for (name, cycles, csv, words) in [
+        (
+            "falls",
+            own,
+            format!("{head}0,1,100\n2,1,100\n1,1,100\n"),
+            ["line 4", "time"],
+        ),
+        (
+            "repeats",
+            own,
+            format!("{head}0,1,100\n1,1,100\n1,1,100\n"),
+            ["line 4", "time"],
+        ),
+        (
+            "gap",
+            own,
+            format!("{head}0,1,100\n1,1,100\n2,1,100\n3,1,100\n30,1,100\n"),
+            ["line 6", "gap"],
+        ),
+        ("nan", own, format!("{head}0,1,100\n1,NaN,100\n"), ["line 3", "NaN"]),
+        (
+            "column",
+            own,
+            "t [s],T_in [Nm]\n0,1\n1,1\n".to_owned(),
+            ["n_in", "line 1"],
+        ),
+        (
+            "leap",
+            trace,
+            "t [s],v [km/h]\n0,0\n1,5\n2,150\n".to_owned(),
+            ["line 4", "m/s2"],
+        ),
+    ] {
+        let said = refused(name, cycles, &csv, "");
+        for word in words {
+            assert!(said.contains(word), "{name}: no `{word}` in {said}");
+        }
+        assert!(said.contains("mend:") && said.contains("study.yaml:"), "{name}: {said}");
+    }
+}
+
+#[test]
+fn what_does_not_fit_together_is_told() {
+    let own = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in }, temperatures: { swamp: T } }";
+    let csv = "t [s],T_in [Nm],n_in [rpm],T [degC],v [km/h]\n0,1,100,20,3\n1,1,100,20,3\n2,1,100,20,3\n";
+    assert!(refused("node", own, csv, "").contains("no node is called `swamp`"));
+    let trace = "{ file: drive.csv, columns: { time: t, vehicle_speed: v } }";
+    assert!(refused("vehicle", trace, csv, "").contains("state the `vehicle`"));
+    let oil = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in, oil_temperature: T } }";
+    assert!(refused("oil", oil, csv, "").contains("which the thermal network finds itself"));
+    let plain = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in } }";
+    assert!(refused("both", plain, csv, ", step: 1 s, tolerance: 0.1 K").contains("both `step` and `tolerance`"));
+    assert!(refused("terms", plain, csv, ", by: term").contains("by mechanism, component or stage"));
+    assert!(refused("elsewhere", plain, csv, ", reference: { wltc: { loss: 1 W } }").contains("`wltc`"));
+}
+
+#[test]
+fn an_interval_has_the_means_of_its_rows() {
+    let language = language();
+    let t = unit(&language);
+    let mut entry = FileCycleEntry::named("drive.csv");
+    entry.columns = serde_json::from_value(json!({ "time": "t", "torque": "T_in", "speed": "n_in" })).unwrap();
+    let csv = b"t [s],T_in [Nm],n_in [rpm]\n0,0,0\n1,50,1000\n2,50,1000\n3,0,0\n";
+    let duty = CycleEntry::File(Box::new(entry))
+        .read(language.registry(), |_| Ok(csv.to_vec()))
+        .unwrap();
+    let driven = driven(&t, &duty, Scheme::Implicit, SECOND);
+    let powers: Vec<f64> = driven.stretches.iter().map(|s| s.heats.input).collect();
+    // Means of torque and speed over each second: 25 Nm at 500 rpm, then 50 Nm at 1000 rpm.
+    let printed = [25.0 * 500.0, 50.0 * 1000.0, 25.0 * 500.0].map(|x| x * common::RPM);
+    for (power, printed) in powers.iter().zip(printed) {
+        assert!((power / printed - 1.0).abs() < 1e-12, "{power} {printed}");
+    }
+}
