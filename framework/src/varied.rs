@@ -13,7 +13,7 @@ pub enum Tie {
     /// All take one value.
     #[default]
     Value,
-    /// Each keeps its own value, times one factor.
+    /// Each keeps its own value, times one factor; those without a value stay so.
     Factor,
 }
 
@@ -50,6 +50,11 @@ impl Varied {
             let key = pattern.rsplit('.').next().unwrap_or(pattern);
             return Err(Diagnostic::error(pattern, format!("nothing here has a key `{key}`"))
                 .mend("`gearloss check --resolved` prints every path"));
+        }
+        // Of several, a factor moves those that have a value.
+        let has_value = |path: &String| lookup(&resolved.value, path).is_some_and(|value| !value.is_null());
+        if tie == Tie::Factor && paths.iter().any(has_value) {
+            paths.retain(has_value);
         }
         let mut varied = Self {
             pattern: pattern.to_owned(),

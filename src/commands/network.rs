@@ -54,29 +54,30 @@ pub fn json_of_network(transmission: &Transmission, steady: &Steady) -> Value {
         return Value::Null;
     };
     let found = steady.outcome == Outcome::Converged;
-    let nodes: serde_json::Map<String, Value> = network
+    let nodes: Vec<Value> = network
         .names()
         .iter()
         .enumerate()
         .map(|(i, name)| {
-            let heat = steady.heat.get(i).copied();
-            let out = network
-                .is_held(i)
-                .then(|| steady.leaving.held.get(i).copied())
-                .flatten();
-            let value = json!({
+            let held = network.is_held(i);
+            json!({
+                "node": name,
                 "temperature_degc": found.then_some(steady.temperatures[i]),
-                "heat_in_w": heat,
-                "heat_out_w": out,
-            });
-            (name.clone(), value)
+                "heat_in_w": steady.heat.get(i),
+                "heat_out_w": steady.leaving.held.get(i).filter(|_| held),
+            })
         })
+        .collect();
+    let exchangers: Vec<Value> = network
+        .exchangers()
+        .zip(&steady.leaving.exchangers)
+        .map(|(path, watts)| json!({ "exchanger": path, "heat_w": watts }))
         .collect();
     json!({
         "outcome": steady.outcome,
         "evaluations": steady.evaluations,
         "nodes": nodes,
-        "exchangers_w": network.exchangers().zip(&steady.leaving.exchangers).collect::<std::collections::BTreeMap<_, _>>(),
+        "exchangers": exchangers,
         "carried_away_w": steady.leaving.flows,
         "residual_w": steady.residual,
         "undefined": steady.undefined.as_ref().map(|why| because(transmission, why)),

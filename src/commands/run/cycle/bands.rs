@@ -2,9 +2,9 @@
 
 use gearloss_framework::analysis::quantile;
 use gearloss_framework::sampling::Sobol;
-use gearloss_framework::study::CycleAnalysisEntry;
+use gearloss_framework::study::{CycleAnalysisEntry, ReferenceLoss};
 use rayon::prelude::*;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::super::duties::Duties;
 use super::super::inputs::Input;
@@ -168,18 +168,14 @@ impl Band {
         text
     }
 
-    pub fn json(&self, o: &Outcome<'_>) -> Value {
-        let shares: Map<String, Value> = o
-            .names
-            .iter()
-            .zip(&self.shares)
-            .map(|(name, band)| (name.clone(), json!(band)))
-            .collect();
+    /// The band as JSON; its shares are in the order of those of the outcome.
+    pub fn json(&self, reference: Option<&ReferenceLoss>) -> Value {
+        let [low, _, high] = self.loss;
         json!({
             "samples": self.samples, "failed": self.failed.len(), "quantiles": SHARES, "mean_loss_w": self.loss,
-            "mean_losses_w": shares,
+            "mean_losses_w": self.shares,
             "inputs": self.ranked.iter().map(|(input, c)| json!({ "input": input, "correlation_with_mean_loss": c })).collect::<Vec<_>>(),
-            "reference_inside": o.reference.map(|r| (self.loss[0]..=self.loss[2]).contains(&r.loss)),
+            "reference_inside": reference.map(|r| (low..=high).contains(&r.loss)),
         })
     }
 }

@@ -3,7 +3,7 @@
 use gearloss_framework::analysis::{Driven, Stretch, notes};
 use gearloss_framework::duty::Duty;
 use gearloss_framework::study::{CycleAnalysisEntry, ReferenceLoss};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, because};
 use super::super::Built;
@@ -204,53 +204,48 @@ impl<'a> Outcome<'a> {
     pub fn json(&self) -> Value {
         let t = &self.built.transmission;
         let total = &self.driven.total;
-        let shares: Map<String, Value> = self
-            .names
-            .iter()
-            .zip(self.by_share())
-            .map(|(name, joule)| (name.clone(), json!(self.mean(joule))))
-            .collect();
+        let shares: Vec<f64> = self.by_share().into_iter().map(|joule| self.mean(joule)).collect();
         let node = |(name, c): (&String, Course)| {
-            let value = json!({
-                "start_degc": c.start, "end_degc": c.end, "least_degc": c.least, "greatest_degc": c.greatest, "mean_degc": c.mean,
-                "rms_k": c.rms.map(|r| r.0), "measured_rows": c.rms.map(|r| r.1),
-            });
-            (name.clone(), value)
+            json!({
+                "node": name, "start_degc": c.start, "end_degc": c.end, "least_degc": c.least, "greatest_degc": c.greatest,
+                "mean_degc": c.mean, "rms_k": c.rms.map(|r| r.0), "measured_rows": c.rms.map(|r| r.1),
+            })
         };
-        let nodes: Map<String, Value> = self.nodes.iter().zip(self.courses()).map(node).collect();
+        let nodes: Vec<Value> = self.nodes.iter().zip(self.courses()).map(node).collect();
         let heat = self.is_thermal().then(|| {
             let network = t.network();
-            let held: Map<String, Value> = network
+            let held: Vec<Value> = network
                 .into_iter()
                 .flat_map(|n| n.names().iter().enumerate().filter(|(i, _)| n.is_held(*i)))
-                .map(|(i, name)| (name.clone(), json!(total.held.get(i))))
+                .map(|(i, name)| json!({ "node": name, "heat_j": total.held.get(i) }))
                 .collect();
-            let exchangers: Map<String, Value> = network
+            let exchangers: Vec<Value> = network
                 .into_iter()
                 .flat_map(|n| n.exchangers().zip(&total.exchangers))
-                .map(|(path, joule)| (path.to_owned(), json!(joule)))
+                .map(|(path, joule)| json!({ "exchanger": path, "heat_j": joule }))
                 .collect();
             json!({
-                "came_j": total.came(), "stored_j": total.stored, "into_held_nodes_j": held, "exchangers_j": exchangers,
+                "came_j": total.came(), "stored_j": total.stored, "held": held, "exchangers": exchangers,
                 "carried_away_j": total.flows, "residual_share": self.heat_residual(),
             })
         });
-        let motors: Map<String, Value> = t
+        let motors: Vec<Value> = t
             .network()
             .into_iter()
             .flat_map(|n| n.motors().zip(&total.motors))
-            .map(|(path, [rotor, stator])| (path.to_owned(), json!({ "rotor_j": rotor, "stator_j": stator })))
+            .map(|(path, [rotor, stator])| json!({ "motor": path, "rotor_j": rotor, "stator_j": stator }))
             .collect();
         json!({
             "model_set": self.built.name, "cycle": self.read.name, "duration_s": self.duration(),
-            "intervals": self.driven.stretches.len(), "mean_loss_w": self.mean(self.loss()), "mean_losses_w": shares,
+            "intervals": self.driven.stretches.len(), "mean_loss_w": self.mean(self.loss()), "shares": self.names,
+            "mean_losses_w": shares,
             "energy": {
                 "input_j": total.input, "output_j": total.output, "loss_j": self.loss(), "motors_j": self.motors(),
                 "brakes_j": self.driven.brakes, "residual_share": self.flow_residual(),
             },
             "heat": heat, "motors": motors, "nodes": nodes,
             "reference": self.reference.map(|r| json!({ "mean_loss_w": r.loss, "source": r.source })),
-            "bands": self.bands.as_ref().map(|b| b.json(self)),
+            "bands": self.bands.as_ref().map(|b| b.json(self.reference)),
             "evaluations": self.driven.evaluations, "calls": self.driven.calls, "steps": self.driven.steps[0],
             "steps_in_vain": self.driven.steps[1],
             "broken": self.driven.broken.as_ref().map(|(time, why)| json!({ "time_s": time, "reason": because(t, why) })),

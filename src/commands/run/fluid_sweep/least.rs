@@ -94,7 +94,7 @@ impl Least {
 
     pub fn json(&self) -> Value {
         json!({
-            "value": self.value, "mean_loss_w": self.loss, "within_one_percent": self.flat, "at_end_of_range": self.at_end,
+            "value": self.value, "mean_loss_w": self.loss, "flat_range": self.flat, "at_end_of_range": self.at_end,
         })
     }
 }
