@@ -6,8 +6,10 @@
 //! viscosity, by cubic splines (de Boor). Over viscosity in place of temperature, friction bends evenly: with 8, 8 and 6 nodes
 //! the error is half of that over temperature, and splines err less than Chebyshev polynomials, which carry a bend in one corner
 //! through the whole table.
-//! Where the temperatures of the gears' bodies are known and the other model looks at them, a second table runs over their mean. The oil in it is as
-//! warm as the bodies, and both bodies equally warm: the share of the heat that goes into the first gear is the one for equal bodies.
+//! Where the temperatures of the gears' bodies are known and the other model looks at them, a second table runs over their mean,
+//! with oil and both bodies equally warm; the heat that passes between bodies that differ is tabulated as a conduction, and what goes
+//! into the first gear is bounded as `ehl_mixed` bounds it. Rolling friction in the other model follows the oil and not the bodies: the
+//! stated error then says how far that is off.
 //! The error is found, not assumed: the other model is asked again in the middles of cells spread over the table, and, where bodies are
 //! known, with oil up to 30 K colder and bodies up to 10 K apart from their mean. Each point notes what was found, and
 //! whether the other model leaves ranges that its sources state at the nearest node.
@@ -170,18 +172,18 @@ fn torques(part: &MeshPart) -> [f64; 2] {
 }
 
 impl Tabulated {
-    /// The table for a point, built when it is first needed, and the temperature over which it runs.
-    fn table(&self, at: &GearMeshAt<'_>, asked: &Asked<'_>) -> Result<(&Table, f64), Undefined> {
+    /// The table for a point, built when it is first needed, and the temperatures over whose mean it runs.
+    fn table(&self, at: &GearMeshAt<'_>, asked: &Asked<'_>) -> Result<(&Table, [f64; 2]), Undefined> {
         let build = |known| Table::new(asked, &self.extents, self.nodes, self.checks, known);
         if let Some([first, second]) = at.bodies() {
             let table = self
                 .over_bodies
                 .get_or_init(|| asked.follows_bodies(&self.extents).then(|| build(true)));
             if let Some(table) = table {
-                return built(table).map(|table| (table, 0.5 * (first + second)));
+                return built(table).map(|table| (table, [first, second]));
             }
         }
-        built(self.over_oil.get_or_init(|| build(false))).map(|table| (table, at.temperature))
+        built(self.over_oil.get_or_init(|| build(false))).map(|table| (table, [at.temperature; 2]))
     }
 
     /// The loss of the tabulated model itself, as one term.
@@ -219,9 +221,9 @@ impl GearMeshModel for Tabulated {
             part: at.part,
             lubricant: &oil.lubricant,
         };
-        let (table, temperature) = self.table(at, &asked)?;
+        let (table, [first, second]) = self.table(at, &asked)?;
         let speed = at.speed.abs();
-        let place = table.place([speed, at.torque, temperature], &oil.lubricant);
+        let place = table.place([speed, at.torque, 0.5 * (first + second)], &oil.lubricant);
         let farthest = place.iter().fold(
             0.5,
             |far: f64, x| if (x - 0.5).abs() > (far - 0.5).abs() { *x } else { far },
@@ -230,14 +232,15 @@ impl GearMeshModel for Tabulated {
             at.branch("beyond the ends of the table: the tabulated model itself");
             return self.itself(at);
         }
-        let read = table.read(place);
+        let input = at.show("P_in", "W", at.torque * speed);
+        let read = table.read(place, input, first - second);
         at.check(&LEFT, read.left);
         at.observe(&GREATEST, 100.0 * table.errors.greatest);
         at.observe(&RMS, 100.0 * table.errors.rms);
         at.observe(&SHARE, table.errors.share);
-        let input = at.show("P_in", "W", at.torque * speed);
-        let fraction = at.show("P/P_in", "-", read.fraction);
-        Ok(Loss::POWERS.with(&TOTAL, fraction * input).heats_first(read.first_heat))
+        Ok(Loss::POWERS
+            .with(&TOTAL, at.show("P", "W", read.watts))
+            .heats_first(read.first_heat))
     }
 }
 

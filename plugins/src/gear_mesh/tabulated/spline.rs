@@ -6,18 +6,21 @@
 /// Least number of nodes along an axis: a cubic.
 pub const LEAST: usize = 4;
 
-/// Two numbers over three axes.
+/// Numbers that a table holds.
+pub const NUMBERS: usize = 3;
+
+/// Some numbers over three axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spline {
     /// Number of nodes along each axis.
     nodes: [usize; 3],
     /// Coefficients of the B-splines, two more than nodes along each axis, the last axis running first.
-    coefficients: Vec<[f64; 2]>,
+    coefficients: Vec<[f64; NUMBERS]>,
 }
 
 impl Spline {
     /// Through values at all nodes, the last axis running first; at least [`LEAST`] nodes along each axis.
-    pub fn through(nodes: [usize; 3], values: Vec<[f64; 2]>) -> Self {
+    pub fn through(nodes: [usize; 3], values: Vec<[f64; NUMBERS]>) -> Self {
         let mut counts = nodes;
         let mut coefficients = values;
         for axis in 0..3 {
@@ -29,11 +32,9 @@ impl Spline {
             for o in 0..outer {
                 for row in &rows {
                     for i in 0..inner {
-                        let mut sum = [0.0; 2];
+                        let mut sum = [0.0; NUMBERS];
                         for (k, weight) in row.iter().enumerate() {
-                            let value = coefficients[(o * n + k) * inner + i];
-                            sum[0] += weight * value[0];
-                            sum[1] += weight * value[1];
+                            add(&mut sum, *weight, &coefficients[(o * n + k) * inner + i]);
                         }
                         next.push(sum);
                     }
@@ -45,8 +46,8 @@ impl Spline {
         Self { nodes, coefficients }
     }
 
-    /// Both numbers at a place, which along each axis runs from zero at the first node to one at the last.
-    pub fn value(&self, place: [f64; 3]) -> [f64; 2] {
+    /// The numbers at a place, which along each axis runs from zero at the first node to one at the last.
+    pub fn value(&self, place: [f64; 3]) -> [f64; NUMBERS] {
         let mut first = [0; 3];
         let mut weights = [[0.0; 4]; 3];
         for axis in 0..3 {
@@ -57,18 +58,22 @@ impl Spline {
             weights[axis] = basis(x - first[axis] as f64);
         }
         let [_, middle, last] = self.nodes.map(|n| n + 2);
-        let mut sum = [0.0; 2];
+        let mut sum = [0.0; NUMBERS];
         for (i, a) in weights[0].iter().enumerate() {
             for (j, b) in weights[1].iter().enumerate() {
                 let start = ((first[0] + i) * middle + first[1] + j) * last + first[2];
                 for (c, value) in weights[2].iter().zip(&self.coefficients[start..start + 4]) {
-                    let weight = a * b * c;
-                    sum[0] += weight * value[0];
-                    sum[1] += weight * value[1];
+                    add(&mut sum, a * b * c, value);
                 }
             }
         }
         sum
+    }
+}
+
+fn add(sum: &mut [f64; NUMBERS], weight: f64, values: &[f64; NUMBERS]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += weight * value;
     }
 }
 
@@ -124,7 +129,13 @@ mod tests {
     #[test]
     fn cubics_and_values_at_nodes_are_met() {
         let nodes = [4, 7, 5];
-        let cubic = |x: f64, y: f64, z: f64| [1.0 + x - 2.0 * x * x * x + y * y * z, 0.3 * z * z * z - x * y * y * y];
+        let cubic = |x: f64, y: f64, z: f64| {
+            [
+                1.0 + x - 2.0 * x * x * x + y * y * z,
+                0.3 * z * z * z - x * y * y * y,
+                x - z,
+            ]
+        };
         let at = |i: usize, n: usize| i as f64 / (n - 1) as f64;
         let mut values = Vec::new();
         for i in 0..nodes[0] {
@@ -154,7 +165,7 @@ mod tests {
         let error = |n: usize| {
             let mut values = Vec::new();
             for i in 0..n {
-                values.extend([[(3.0 * i as f64 / (n - 1) as f64).sin(), 0.0]; 16]);
+                values.extend([[(3.0 * i as f64 / (n - 1) as f64).sin(), 0.0, 0.0]; 16]);
             }
             let spline = Spline::through([n, 4, 4], values);
             (0..200)

@@ -11,6 +11,7 @@ use gearloss_framework::sampling::Sobol;
 use std::cell::Cell;
 
 use super::spline::Spline;
+use crate::tooth_friction::ehl_mixed::LEAST_SHARE;
 
 /// How far checks hold the oil below bodies whose temperatures are known. \[K\]
 const OIL_BELOW: f64 = 30.0;
@@ -81,8 +82,10 @@ impl Point {
 /// What the model answers at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Answer {
-    /// Loss over power and the share of its heat that goes into the first gear.
-    values: [f64; 2],
+    /// Loss. \[W\]
+    watts: f64,
+    /// Share of its heat that goes into the first gear.
+    share: f64,
     /// How many of the ranges that the model or those nested in it state were left.
     left: usize,
 }
@@ -108,28 +111,32 @@ impl Asked<'_> {
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
         let notes = Notes::new(cells, self.model.notes);
         let loss = self.model.loss(&point.at(self.part, self.lubricant, notes))?;
-        let fraction = loss.total_watts(point.speed) / (point.torque * point.speed);
         Ok(Answer {
-            values: [fraction, loss.first_heat()],
+            watts: loss.total_watts(point.speed),
+            share: loss.first_heat(),
             left: cells.iter().filter(|cell| cell.get().outside > 0).count(),
         })
     }
 
-    /// What the model answers at many points, in their order; on all cores. The threads are of their own: a thread of a pool
-    /// that waited here would take up other points meanwhile, and these may wait for this very table.
-    fn answers(&self, points: &[Point]) -> Vec<Result<Answer, Undefined>> {
-        let threads = thread::available_parallelism().map_or(1, usize::from).min(points.len());
-        let parts: Vec<Vec<_>> = thread::scope(|scope| {
-            let start = |k: usize| {
-                scope.spawn(move || points.iter().skip(k).step_by(threads).map(|p| self.answer(p)).collect())
-            };
-            let started: Vec<_> = (0..threads).map(start).collect();
-            let joined = started.into_iter().map(|t| t.join());
-            joined
-                .map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-                .collect()
-        });
-        (0..points.len()).map(|i| parts[i % threads][i / threads]).collect()
+    /// Heat that passes from the first body to the second for each kelvin between them, beside an answer for equal bodies. \[W/K\]
+    ///
+    /// # Errors
+    /// Where the model has no value.
+    fn conduction(&self, point: &Point, temperature: f64, even: &Answer) -> Result<f64, Undefined> {
+        const TRIED: [f64; 4] = [1.0, 0.03, 1e-3, 3e-5];
+        let mut conduction = 0.0;
+        for apart in TRIED {
+            let answer = self.answer(&Point {
+                bodies: Some([temperature + 0.5 * apart, temperature - 0.5 * apart]),
+                ..*point
+            })?;
+            conduction = (even.share * even.watts - answer.share * answer.watts) / apart;
+            // Models bound the share; where it moves much, closer bodies tell more.
+            if (answer.share - even.share).abs() < 0.3 {
+                break;
+            }
+        }
+        Ok(conduction)
     }
 
     /// True where the model looks at the bodies of the gears once their temperatures are known.
@@ -146,6 +153,21 @@ impl Asked<'_> {
         };
         with(oil) != with(oil + APART)
     }
+}
+
+/// Runs for many points and answers in their order; on all cores. The threads are of their own: a thread of a pool that waited
+/// here would take up other points meanwhile, and these may wait for this very table.
+fn for_all<T: Copy + Send>(points: &[Point], run: impl Fn(&Point) -> T + Copy + Send) -> Vec<T> {
+    let threads = thread::available_parallelism().map_or(1, usize::from).min(points.len());
+    let parts: Vec<Vec<T>> = thread::scope(|scope| {
+        let start = |k: usize| scope.spawn(move || points.iter().skip(k).step_by(threads).map(run).collect());
+        let started: Vec<_> = (0..threads).map(start).collect();
+        let joined = started.into_iter().map(thread::ScopedJoinHandle::join);
+        joined
+            .map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    });
+    (0..points.len()).map(|i| parts[i % threads][i / threads]).collect()
 }
 
 /// Axes of a table: logarithms of speed, torque and fluidity, which runs with temperature.
@@ -212,15 +234,15 @@ pub struct Errors {
 /// What a table says at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Read {
-    /// Loss over power. \[-\]
-    pub fraction: f64,
+    /// Loss. \[W\]
+    pub watts: f64,
     /// Share of the heat that goes into the first gear. \[-\]
     pub first_heat: f64,
     /// How many stated ranges the model leaves at the nearest node.
     pub left: f64,
 }
 
-/// The loss over power and the share of its heat over speed, torque and temperature.
+/// The loss over power, the share of its heat and the conduction between the bodies over speed, torque and temperature.
 #[derive(Debug)]
 pub struct Table {
     axes: Axes,
@@ -258,10 +280,21 @@ impl Table {
                 bodies: known.then_some([t; 2]),
             });
         }
-        let answers: Vec<Answer> = asked.answers(&points).into_iter().collect::<Result<_, _>>()?;
+        let node = |point: &Point| {
+            let answer = asked.answer(point)?;
+            let conduction = match point.bodies {
+                Some([temperature, _]) => asked.conduction(point, temperature, &answer)?,
+                None => 0.0,
+            };
+            Ok((answer, conduction))
+        };
+        let answers: Vec<(Answer, f64)> = for_all(&points, node).into_iter().collect::<Result<_, _>>()?;
+        let numbers = |(point, (answer, conduction)): (&Point, &(Answer, f64))| {
+            [answer.watts / (point.torque * point.speed), answer.share, *conduction]
+        };
         let mut table = Self {
-            spline: Spline::through(nodes, answers.iter().map(|a| a.values).collect()),
-            left: answers.iter().map(|a| a.left.min(255) as u8).collect(),
+            spline: Spline::through(nodes, points.iter().zip(&answers).map(numbers).collect()),
+            left: answers.iter().map(|(answer, _)| answer.left.min(255) as u8).collect(),
             axes,
             nodes,
             errors: Errors::default(),
@@ -300,16 +333,17 @@ impl Table {
     fn compare(&self, checks: &[Point], asked: &Asked<'_>) -> Result<Errors, Undefined> {
         let mut errors = Errors::default();
         let mut squares = 0.0;
-        for (point, answer) in checks.iter().zip(asked.answers(checks)) {
-            let temperature = point.bodies.map_or(point.oil, |[a, b]| 0.5 * (a + b));
-            let read = self.read(self.place([point.speed, point.torque, temperature], asked.lubricant));
-            let [fraction, share] = answer?.values;
-            let error = if read.fraction == fraction {
+        for (point, answer) in checks.iter().zip(for_all(checks, |point| asked.answer(point))) {
+            let Answer { watts, share, .. } = answer?;
+            let [first, second] = point.bodies.unwrap_or([point.oil; 2]);
+            let place = self.place([point.speed, point.torque, 0.5 * (first + second)], asked.lubricant);
+            let read = self.read(place, point.torque * point.speed, first - second);
+            let error = if read.watts == watts {
                 0.0
-            } else if fraction == 0.0 {
+            } else if watts == 0.0 {
                 1.0
             } else {
-                (read.fraction / fraction - 1.0).abs()
+                (read.watts / watts - 1.0).abs()
             };
             squares += error * error;
             errors.greatest = errors.greatest.max(error);
@@ -324,16 +358,22 @@ impl Table {
         self.axes.place(point, lubricant)
     }
 
-    /// What the table says at a place within its ends.
-    pub fn read(&self, place: [f64; 3]) -> Read {
-        let [fraction, first_heat] = self.spline.value(place);
+    /// What the table says at a place within its ends, of a power in W and with the first body warmer than the second by so many K.
+    pub fn read(&self, place: [f64; 3], input: f64, warmer: f64) -> Read {
+        let [fraction, share, conduction] = self.spline.value(place);
+        // A spline may swing below nothing where the loss is small.
+        let watts = fraction.max(0.0) * input;
+        let first_heat = if warmer != 0.0 && watts > 0.0 {
+            (share - conduction * warmer / watts).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
+        } else {
+            share
+        };
         let nearest = (0..3).fold(0, |k, i| {
             let last = self.nodes[i] - 1;
             k * self.nodes[i] + ((place[i] * last as f64).round() as usize).min(last)
         });
         Read {
-            // A spline may swing below nothing where the loss is small.
-            fraction: fraction.max(0.0),
+            watts,
             first_heat,
             left: f64::from(self.left[nearest]),
         }
