@@ -1,20 +1,22 @@
 //! The loss of another model, computed beforehand and interpolated.
 //!
-//! Derived. Local friction of films that warm themselves costs some ten thousand times what a closed formula does, and a drive cycle
-//! asks for it thousands of times. This model asks the other one at some hundred nodes when it is first needed and interpolates from then on.
-//! What is interpolated is the loss over the power, which is bounded and smooth, over the logarithms of speed, torque and
-//! viscosity, by cubic splines (de Boor). Over viscosity in place of temperature, friction bends evenly: with 8, 8 and 6 nodes
-//! the error is half of that over temperature, and splines err less than Chebyshev polynomials, which carry a bend in one corner
-//! through the whole table.
+//! Derived. Friction of films that warm themselves costs some thousand times what a closed formula does, and a drive cycle asks
+//! for it thousands of times. This model asks the other one at some hundred nodes when it is first needed and interpolates from
+//! then on. What is interpolated is the loss over the power, which is bounded and smooth, over the logarithms of speed, torque
+//! and viscosity, by cubic splines (de Boor). Over the viscosity friction bends evenly, over the temperature it does not; and
+//! splines keep a bend to where it is, which Chebyshev polynomials carry through the whole table.
+//! With `ehl_mixed` on two stages of an electric axle and the usual nodes the error is 0.5 % rms and 4 % at most; over 20 to 12000
+//! rpm, 1 to 300 Nm and 0 to 120 degC it is 0.15 and 1.2 %.
 //! Where the temperatures of the gears' bodies are known and the other model looks at them, a second table runs over their mean,
-//! with oil and both bodies equally warm; the heat that passes between bodies that differ is tabulated as a conduction, and what goes
-//! into the first gear is bounded as `ehl_mixed` bounds it. Rolling friction in the other model follows the oil and not the bodies: the
-//! stated error then says how far that is off.
-//! The error is found, not assumed: the other model is asked again in the middles of cells spread over the table, and, where bodies are
-//! known, with oil up to 30 K colder and bodies up to 10 K apart from their mean. Each point notes what was found, and
-//! whether the other model leaves ranges that its sources state at the nearest node.
-//! Beyond the ends of the table, and for a mesh without an oil of its own, the other model itself is asked.
-//! The table holds for either sense of rotation and either driving gear, which the models that it may stand for do not look at.
+//! with oil and both bodies equally warm; the heat that passes between bodies that differ is tabulated as a conduction, and
+//! what goes into the first gear is bounded as `ehl_mixed` bounds it. Rolling friction in the other model follows the oil and not
+//! the bodies: the stated error then says how far that is off.
+//! The error is found, not assumed: the other model is asked again in the middles of cells spread over the table, and, where
+//! bodies are known, with oil up to 30 K colder and bodies up to 20 K apart. Each point notes what was found, and whether the
+//! other model leaves ranges that its sources state at the nearest node.
+//! Beyond the ends of the table, and for a mesh without an oil of its own, the other model itself is asked. The terms of the other
+//! model are one. The table holds for either sense of rotation and either driving gear, which the models that it may stand
+//! for do not look at.
 
 pub mod spline;
 pub mod table;
@@ -63,8 +65,8 @@ const SHARE: Observed = Observed::new(
 /// Models that are as quick as a table.
 const QUICK: [&str; 6] = ["none", "constant", "formula", "table", "efficiency", "tabulated"];
 
-/// Line of load on a tooth over its module up to which a table reaches where nothing is stated: what hardened steel bears at most,
-/// rounded. \[Pa\]
+/// Tangential force over module and face width up to which a table reaches where nothing is stated: what teeth of hardened
+/// steel bear at most, rounded. \[Pa\]
 const BORNE: f64 = 200e6;
 
 /// The loss of another model, computed beforehand and interpolated.

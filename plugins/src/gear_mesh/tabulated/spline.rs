@@ -110,11 +110,15 @@ fn rows(nodes: usize) -> Vec<Vec<f64>> {
         system.swap(column, pivot);
         let mut row = system[column].clone();
         let scale = 1.0 / row[column];
-        row.iter_mut().for_each(|x| *x *= scale);
+        for x in &mut row {
+            *x *= scale;
+        }
         for (i, other) in system.iter_mut().enumerate() {
             let factor = other[column];
             if i != column && factor != 0.0 {
-                other.iter_mut().zip(&row).for_each(|(x, y)| *x -= factor * y);
+                for (x, y) in other.iter_mut().zip(&row) {
+                    *x -= factor * y;
+                }
             }
         }
         system[column] = row;
