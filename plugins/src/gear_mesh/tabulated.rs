@@ -16,7 +16,8 @@
 //! other model leaves ranges that its sources state at the nearest node.
 //! Beyond the ends of the table, and for a mesh without an oil of its own, the other model itself is asked. The terms of the other
 //! model are one. The table holds for either sense of rotation and either driving gear, which the models that it may stand
-//! for do not look at.
+//! for do not look at. A gearbox that is built anew, as in a study of its parameters, builds its tables anew, each in the time
+//! of some 500 points, or 1000 where bodies are known; with fewer points than that the other model alone is quicker.
 
 pub mod spline;
 pub mod table;
