@@ -32,6 +32,11 @@ fn mesh() -> Value {
     json!({ "type": "path_integral", "load_sharing": "ramp", "tooth_friction": friction() })
 }
 
+/// The same by a table that holds the torques of the cycle at both stages.
+fn tabulated() -> Value {
+    json!({ "type": "tabulated", "of": mesh(), "torques": ["0.3 Nm", "400 Nm"] })
+}
+
 /// The example with a model in all meshes.
 fn gearbox(language: &Language, model: &Value) -> (Gearbox, Choice) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/two-speed-ev/gearbox.yaml");
@@ -45,7 +50,7 @@ fn gearbox(language: &Language, model: &Value) -> (Gearbox, Choice) {
 }
 
 fn one_mesh(c: &mut Criterion, language: &Language) {
-    let (gearbox, choice) = gearbox(language, &json!({ "type": "tabulated", "of": mesh() }));
+    let (gearbox, choice) = gearbox(language, &tabulated());
     let resolved = gearbox
         .resolve(language, &choice)
         .unwrap_or_else(|f| panic!("{}", f.render()));
@@ -115,7 +120,7 @@ fn cycle(c: &mut Criterion, language: &Language) {
         ("1800 points with ehl_mixed, one thread", mesh()),
         (
             "1800 points with ehl_mixed, tabulated, with building the tables",
-            json!({ "type": "tabulated", "of": mesh() }),
+            tabulated(),
         ),
     ] {
         let (gearbox, choice) = gearbox(language, &model);
