@@ -8,4 +8,5 @@ pub mod iso14179_1;
 pub mod iso14179_2;
 pub mod ohlendorf;
 pub mod path_integral;
+pub mod tabulated;
 pub mod wimmer;

@@ -71,7 +71,7 @@ const WARMTH: Limit = Limit::new(
 const PECLET: Limit = Limit::new(2, "Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
 
 /// Between bodies that differ much heat passes even without friction; as a share of little friction it has no bounds.
-const LEAST_SHARE: f64 = -0.5;
+pub(crate) const LEAST_SHARE: f64 = -0.5;
 
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 const MU_F: Observed = Observed::new(1, "mu_f", "-", "Coefficient of friction of the film alone.");

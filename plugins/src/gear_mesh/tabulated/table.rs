@@ -1,0 +1,381 @@
+//! The table of one mesh: built from the model, asked at a point, with the error found at checks.
+
+use std::thread;
+
+use gearloss_framework::attach::Oil;
+use gearloss_framework::loss::{Extent, Notes, Undefined};
+use gearloss_framework::lubricant::Lubricant;
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
+use gearloss_framework::registry::Slot;
+use gearloss_framework::sampling::Sobol;
+use std::cell::Cell;
+
+use super::spline::Spline;
+use crate::tooth_friction::ehl_mixed::LEAST_SHARE;
+
+/// How far checks hold the oil below bodies whose temperatures are known. \[K\]
+const OIL_BELOW: f64 = 30.0;
+
+/// How far checks hold bodies apart whose temperatures are known. \[K\]
+const APART: f64 = 20.0;
+
+/// Over what a table runs.
+#[derive(Debug, Clone, Copy)]
+pub struct Extents {
+    /// Speed of the first gear, without its sign. \[rad/s\]
+    pub speeds: [f64; 2],
+    /// Torque of the first gear. \[Nm\]
+    pub torques: [f64; 2],
+    /// Temperature. \[degC\]
+    pub temperatures: [f64; 2],
+}
+
+/// What the model is asked at.
+#[derive(Debug, Clone, Copy)]
+pub struct Point {
+    /// Speed of the first gear. \[rad/s\]
+    pub speed: f64,
+    /// Torque of the first gear. \[Nm\]
+    pub torque: f64,
+    /// Temperature of the oil. \[degC\]
+    pub oil: f64,
+    /// Temperatures of the bodies, where they are known. \[degC\]
+    pub bodies: Option<[f64; 2]>,
+}
+
+impl Point {
+    /// What a mesh model sees at the point.
+    pub fn at<'a>(&self, part: &'a MeshPart, lubricant: &Lubricant, notes: Notes<'a>) -> GearMeshAt<'a> {
+        let Oil {
+            temperature,
+            nu,
+            rho,
+            eta,
+            alpha,
+            beta,
+            conductivity,
+            x_l,
+            ..
+        } = lubricant.at(self.oil);
+        let [temperature_1, temperature_2] = self.bodies.unwrap_or([temperature; 2]);
+        GearMeshAt {
+            part,
+            torque: self.torque,
+            speed: self.speed,
+            first_drives: 1.0,
+            temperature,
+            nu,
+            eta,
+            rho,
+            alpha,
+            beta,
+            conductivity,
+            x_l,
+            bodies_known: f64::from(u8::from(self.bodies.is_some())),
+            temperature_1,
+            temperature_2,
+            notes,
+        }
+    }
+}
+
+/// What the model answers at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// Loss. \[W\]
+    watts: f64,
+    /// Share of its heat that goes into the first gear.
+    share: f64,
+    /// How many of the ranges that the model or those nested in it state were left.
+    left: usize,
+}
+
+/// A model on its pair with its oil.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    /// The model.
+    pub model: &'a Slot<GearMesh>,
+    /// The pair.
+    pub part: &'a MeshPart,
+    /// Its oil.
+    pub lubricant: &'a Lubricant,
+}
+
+impl Asked<'_> {
+    /// What the model answers.
+    ///
+    /// # Errors
+    /// Where it has no value.
+    pub fn answer(&self, point: &Point) -> Result<Answer, Undefined> {
+        let mut extents = vec![Extent::EMPTY; self.model.notes.end];
+        let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
+        let notes = Notes::new(cells, self.model.notes);
+        let loss = self.model.loss(&point.at(self.part, self.lubricant, notes))?;
+        Ok(Answer {
+            watts: loss.total_watts(point.speed),
+            share: loss.first_heat(),
+            left: cells.iter().filter(|cell| cell.get().outside > 0).count(),
+        })
+    }
+
+    /// Heat that passes from the first body to the second for each kelvin between them, beside an answer for equal bodies. \[W/K\]
+    ///
+    /// # Errors
+    /// Where the model has no value.
+    fn conduction(&self, point: &Point, temperature: f64, even: &Answer) -> Result<f64, Undefined> {
+        const TRIED: [f64; 4] = [1.0, 0.03, 1e-3, 3e-5];
+        let mut conduction = 0.0;
+        for apart in TRIED {
+            let answer = self.answer(&Point {
+                bodies: Some([temperature + 0.5 * apart, temperature - 0.5 * apart]),
+                ..*point
+            })?;
+            conduction = (even.share * even.watts - answer.share * answer.watts) / apart;
+            // Models bound the share; where it moves much, closer bodies tell more.
+            if (answer.share - even.share).abs() < 0.3 {
+                break;
+            }
+        }
+        Ok(conduction)
+    }
+
+    /// True where the model looks at the bodies of the gears once their temperatures are known.
+    pub fn follows_bodies(&self, extents: &Extents) -> bool {
+        let middle = |ends: [f64; 2]| (ends[0] * ends[1]).sqrt();
+        let oil = 0.5 * (extents.temperatures[0] + extents.temperatures[1]);
+        let with = |bodies: f64| {
+            self.answer(&Point {
+                speed: middle(extents.speeds),
+                torque: middle(extents.torques),
+                oil,
+                bodies: Some([bodies; 2]),
+            })
+        };
+        with(oil) != with(oil + APART)
+    }
+}
+
+/// Runs for many points and answers in their order; on all cores. The threads are of their own: a thread of a pool that waited
+/// here would take up other points meanwhile, and these may wait for this very table.
+fn for_all<T: Copy + Send>(points: &[Point], run: impl Fn(&Point) -> T + Copy + Send) -> Vec<T> {
+    let threads = thread::available_parallelism().map_or(1, usize::from).min(points.len());
+    let parts: Vec<Vec<T>> = thread::scope(|scope| {
+        let start = |k: usize| scope.spawn(move || points.iter().skip(k).step_by(threads).map(run).collect());
+        let started: Vec<_> = (0..threads).map(start).collect();
+        let joined = started.into_iter().map(thread::ScopedJoinHandle::join);
+        joined
+            .map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+            .collect()
+    });
+    (0..points.len()).map(|i| parts[i % threads][i / threads]).collect()
+}
+
+/// Axes of a table: logarithms of speed, torque and fluidity, which runs with temperature.
+#[derive(Debug, Clone, Copy)]
+struct Axes {
+    first: [f64; 3],
+    last: [f64; 3],
+}
+
+fn fluidity(lubricant: &Lubricant, temperature: f64) -> f64 {
+    -lubricant.eta(temperature).ln()
+}
+
+impl Axes {
+    fn new(extents: &Extents, lubricant: &Lubricant) -> Self {
+        let end = |i: usize| {
+            [
+                extents.speeds[i].ln(),
+                extents.torques[i].ln(),
+                fluidity(lubricant, extents.temperatures[i]),
+            ]
+        };
+        Self {
+            first: end(0),
+            last: end(1),
+        }
+    }
+
+    /// A point in the table as its place along the axes, from zero to one.
+    fn place(&self, point: [f64; 3], lubricant: &Lubricant) -> [f64; 3] {
+        let [speed, torque, temperature] = point;
+        let x = [speed.ln(), torque.ln(), fluidity(lubricant, temperature)];
+        std::array::from_fn(|i| (x[i] - self.first[i]) / (self.last[i] - self.first[i]))
+    }
+
+    /// The inverse of [`Axes::place`], with the ends of temperature between which it is sought.
+    fn point(&self, place: [f64; 3], ends: [f64; 2], lubricant: &Lubricant) -> [f64; 3] {
+        let x: [f64; 3] = std::array::from_fn(|i| self.first[i] + place[i] * (self.last[i] - self.first[i]));
+        let [mut cold, mut hot] = ends;
+        // Halving narrows hundreds of kelvin to the last digit.
+        for _ in 0..60 {
+            let middle = 0.5 * (cold + hot);
+            if fluidity(lubricant, middle) < x[2] {
+                cold = middle;
+            } else {
+                hot = middle;
+            }
+        }
+        [x[0].exp(), x[1].exp(), 0.5 * (cold + hot)]
+    }
+}
+
+/// The greatest and the rms error that checks found. \[-\]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Errors {
+    /// Greatest relative error of the loss.
+    pub greatest: f64,
+    /// Root mean square of the relative error of the loss.
+    pub rms: f64,
+    /// Greatest error of the first gear's share of the heat.
+    pub share: f64,
+}
+
+/// What a table says at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Read {
+    /// Loss. \[W\]
+    pub watts: f64,
+    /// Share of the heat that goes into the first gear. \[-\]
+    pub first_heat: f64,
+    /// How many stated ranges the model leaves at the nearest node.
+    pub left: f64,
+}
+
+/// The loss over power, the share of its heat and the conduction between the bodies over speed, torque and temperature.
+#[derive(Debug)]
+pub struct Table {
+    axes: Axes,
+    nodes: [usize; 3],
+    spline: Spline,
+    /// How many stated ranges the model leaves at each node.
+    left: Vec<u8>,
+    /// What the checks found.
+    pub errors: Errors,
+}
+
+impl Table {
+    /// Asks the model at all nodes and at a number of checks.
+    ///
+    /// # Errors
+    /// Where it has no value.
+    pub fn new(
+        asked: &Asked<'_>,
+        extents: &Extents,
+        nodes: [usize; 3],
+        checks: u32,
+        known: bool,
+    ) -> Result<Self, Undefined> {
+        let axes = Axes::new(extents, asked.lubricant);
+        let ends = extents.temperatures;
+        let point = |place: [f64; 3]| axes.point(place, ends, asked.lubricant);
+        let mut points = Vec::new();
+        for k in 0..nodes.iter().product() {
+            let at = [k / (nodes[1] * nodes[2]), k / nodes[2] % nodes[1], k % nodes[2]];
+            let [speed, torque, t] = point(std::array::from_fn(|i| at[i] as f64 / (nodes[i] - 1) as f64));
+            points.push(Point {
+                speed,
+                torque,
+                oil: t,
+                bodies: known.then_some([t; 2]),
+            });
+        }
+        let node = |point: &Point| {
+            let answer = asked.answer(point)?;
+            let conduction = match point.bodies {
+                Some([temperature, _]) => asked.conduction(point, temperature, &answer)?,
+                None => 0.0,
+            };
+            Ok((answer, conduction))
+        };
+        let answers: Vec<(Answer, f64)> = for_all(&points, node).into_iter().collect::<Result<_, _>>()?;
+        let numbers = |(point, (answer, conduction)): (&Point, &(Answer, f64))| {
+            [answer.watts / (point.torque * point.speed), answer.share, *conduction]
+        };
+        let mut table = Self {
+            spline: Spline::through(nodes, points.iter().zip(&answers).map(numbers).collect()),
+            left: answers.iter().map(|(answer, _)| answer.left.min(255) as u8).collect(),
+            axes,
+            nodes,
+            errors: Errors::default(),
+        };
+        let checks = table.checks(checks, ends, asked.lubricant, known);
+        table.errors = table.compare(&checks, asked)?;
+        Ok(table)
+    }
+
+    /// Points in the middles of cells, where a spline errs most; where bodies are known, they differ and the oil is colder.
+    fn checks(&self, count: u32, ends: [f64; 2], lubricant: &Lubricant, known: bool) -> Vec<Point> {
+        let Ok(sobol) = Sobol::new(5) else { return Vec::new() };
+        (1..=count)
+            .map(|index| {
+                let random = sobol.point(index);
+                let place = std::array::from_fn(|i| {
+                    let cells = (self.nodes[i] - 1) as f64;
+                    ((random[i] * cells).floor() + 0.5) / cells
+                });
+                let [speed, torque, t] = self.axes.point(place, ends, lubricant);
+                let half = APART * (random[3] - 0.5);
+                Point {
+                    speed,
+                    torque,
+                    oil: if known {
+                        (t - OIL_BELOW * random[4]).max(ends[0])
+                    } else {
+                        t
+                    },
+                    bodies: known.then_some([t + half, t - half]),
+                }
+            })
+            .collect()
+    }
+
+    fn compare(&self, checks: &[Point], asked: &Asked<'_>) -> Result<Errors, Undefined> {
+        let mut errors = Errors::default();
+        let mut squares = 0.0;
+        for (point, answer) in checks.iter().zip(for_all(checks, |point| asked.answer(point))) {
+            let Answer { watts, share, .. } = answer?;
+            let [first, second] = point.bodies.unwrap_or([point.oil; 2]);
+            let place = self.place([point.speed, point.torque, 0.5 * (first + second)], asked.lubricant);
+            let read = self.read(place, point.torque * point.speed, first - second);
+            let error = if read.watts == watts {
+                0.0
+            } else if watts == 0.0 {
+                1.0
+            } else {
+                (read.watts / watts - 1.0).abs()
+            };
+            squares += error * error;
+            errors.greatest = errors.greatest.max(error);
+            errors.share = errors.share.max((read.first_heat - share).abs());
+        }
+        errors.rms = (squares / checks.len().max(1) as f64).sqrt();
+        Ok(errors)
+    }
+
+    /// The place of a speed in rad/s, a torque in Nm and a temperature in degC along the axes: zero and one are the ends.
+    pub fn place(&self, point: [f64; 3], lubricant: &Lubricant) -> [f64; 3] {
+        self.axes.place(point, lubricant)
+    }
+
+    /// What the table says at a place within its ends, of a power in W and with the first body warmer than the second by so many K.
+    pub fn read(&self, place: [f64; 3], input: f64, warmer: f64) -> Read {
+        let [fraction, share, conduction] = self.spline.value(place);
+        // A spline may swing below nothing where the loss is small.
+        let watts = fraction.max(0.0) * input;
+        let first_heat = if warmer != 0.0 && watts > 0.0 {
+            (share - conduction * warmer / watts).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
+        } else {
+            share
+        };
+        let nearest = (0..3).fold(0, |k, i| {
+            let last = self.nodes[i] - 1;
+            k * self.nodes[i] + ((place[i] * last as f64).round() as usize).min(last)
+        });
+        Read {
+            watts,
+            first_heat,
+            left: f64::from(self.left[nearest]),
+        }
+    }
+}
