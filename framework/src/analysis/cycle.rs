@@ -103,7 +103,7 @@ struct Cases<'a> {
     known: Vec<((String, At), Case, Scratch)>,
 }
 
-impl<'a> Cases<'a> {
+impl Cases<'_> {
     fn place(&mut self, gear: &str, at: At) -> Result<usize, Vec<Diagnostic>> {
         if let Some(place) = self.known.iter().position(|((g, a), ..)| g == gear && *a == at) {
             return Ok(place);

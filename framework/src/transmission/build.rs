@@ -87,7 +87,7 @@ impl Transmission {
         let mut network = Network::new(&entry, &around, &mut build, &mut found);
         if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
             let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
-            nodes.unmet(written, &paths, &mut found);
+            NodeNames::unmet(written, &paths, &mut found);
         } else if entry.thermal.mode == ThermalMode::Network {
             found.push(
                 Diagnostic::error("thermal.mode", "no network is described")

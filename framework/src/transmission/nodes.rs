@@ -137,7 +137,7 @@ impl NodeNames {
     }
 
     /// Patterns under `parts` and `oil_of` that meet no part, with the path of their list.
-    pub fn unmet(&self, network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>) {
+    pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>) {
         for (id, node) in network.nodes.iter() {
             for (key, patterns) in [("parts", &node.parts), ("oil_of", &node.oil_of)] {
                 for pattern in patterns.iter().filter(|p| !parts.iter().any(|part| meets(p, part))) {

@@ -190,11 +190,11 @@ mod tests {
         let factor = gap_factor(ratio);
         close(factor, 1.013059);
         for (rpm, nu, ta2, nusselt_number, h) in [
-            (500.0, 2e-5, 264.5931, 2.0, 175.0),
+            (500.0, 2e-5_f64, 264.5931, 2.0, 175.0),
             (3000.0, 2e-5, 9525.353, 3.676134, 321.6617),
             (9000.0, 1e-5, 342_912.7, 8.797202, 769.7552),
         ] {
-            let taylor = (rpm * PI / 30.0 / nu as f64).powi(2) * mean * 0.8e-3_f64.powi(3);
+            let taylor = (rpm * PI / 30.0 / nu).powi(2) * mean * 0.8e-3_f64.powi(3);
             close(taylor, ta2);
             close(nusselt(taylor / factor, OF_AIR), nusselt_number);
             let area = 2.0 * PI * mean * 0.134;

@@ -87,6 +87,7 @@ fn gauss_mean(mut a: f64, mut b: f64) -> f64 {
     a
 }
 
+#[allow(clippy::unnecessary_wraps)] // The registry asks for a result.
 fn prepare(params: Params, _: &mut Build<'_>) -> Result<Spots, Diagnostic> {
     let (along, across) = (params.along, params.across.unwrap_or(params.along));
     let resting = params.conductivities.map(|k| 0.25 / (k * gauss_mean(along, across)));

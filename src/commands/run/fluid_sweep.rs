@@ -79,35 +79,31 @@ impl Swept {
             return Err(runner.study.findings(vec![error]).into());
         }
         let oil = format!("lubricants.{oil}");
-        match &entry.property {
-            Some(property) => {
-                let varied = Varied::new(runner.language, &b.resolved, &format!("{oil}.{property}"), Tie::Value);
-                let at = |d: Diagnostic| Diagnostic {
+        if let Some(property) = &entry.property {
+            let varied = Varied::new(runner.language, &b.resolved, &format!("{oil}.{property}"), Tie::Value);
+            return varied.map(Self::Property).map_err(|d| {
+                let at = Diagnostic {
                     path: format!("{path}.property"),
                     ..d
                 };
-                Ok(Self::Property(
-                    varied.map_err(|d| Failure::from(runner.study.findings(vec![at(d)])))?,
-                ))
-            }
-            None => {
-                let index = entry.vi.or_else(|| own_index(&b.resolved.value, &oil)).ok_or_else(|| {
-                    runner.wrong(
-                        &format!("{path}.vi"),
-                        format!("`{oil}` has no viscosity index"),
-                        "state the index that all oils have",
-                    )
-                })?;
-                let own = lookup(&b.resolved.value, &format!("{oil}.viscosity"));
-                let of = |key: &str| own.and_then(|v| v.get(key)).cloned().unwrap_or(Value::Null);
-                Ok(Self::Viscosity {
-                    law: of("law"),
-                    factor: of("factor"),
-                    oil,
-                    index,
-                })
-            }
+                runner.study.findings(vec![at]).into()
+            });
         }
+        let index = entry.vi.or_else(|| own_index(&b.resolved.value, &oil)).ok_or_else(|| {
+            runner.wrong(
+                &format!("{path}.vi"),
+                format!("`{oil}` has no viscosity index"),
+                "state the index that all oils have",
+            )
+        })?;
+        let own = lookup(&b.resolved.value, &format!("{oil}.viscosity"));
+        let of = |key: &str| own.and_then(|v| v.get(key)).cloned().unwrap_or(Value::Null);
+        Ok(Self::Viscosity {
+            law: of("law"),
+            factor: of("factor"),
+            oil,
+            index,
+        })
     }
 
     /// Values that were listed, rising.
@@ -343,10 +339,10 @@ fn sweep<'a>(
     runner.left_at_samples(&seen, out)?;
     let least = (0..duties.list.len()).map(|k| Least::of(&points(&fluids, k))).collect();
     Ok(Sweep {
-        least,
         built,
         swept,
         fluids,
+        least,
     })
 }
 

@@ -231,10 +231,8 @@ impl Network {
                     heat[*first] += share * watts;
                     heat[*second] += (1.0 - share) * watts;
                 }
-                (HeatPath::Gears(nodes), _) => nodes.iter().for_each(|node| heat[*node] += 0.5 * watts),
-                (HeatPath::Nodes(nodes), _) => {
-                    nodes.iter().for_each(|node| heat[*node] += watts / nodes.len() as f64);
-                }
+                (HeatPath::Gears(nodes), _) => spread(*watts, nodes, heat),
+                (HeatPath::Nodes(nodes), _) => spread(*watts, nodes, heat),
             }
         }
     }
@@ -423,6 +421,13 @@ impl Lawful {
                 value: conductance,
             })
         }
+    }
+}
+
+/// Adds a heat to nodes by equal parts.
+fn spread(watts: f64, nodes: &[usize], heat: &mut [f64]) {
+    for node in nodes {
+        heat[*node] += watts / nodes.len() as f64;
     }
 }
 

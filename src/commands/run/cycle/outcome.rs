@@ -133,7 +133,7 @@ impl<'a> Outcome<'a> {
             .collect();
         Course {
             start,
-            end: all().last().unwrap_or(start),
+            end: all().next_back().unwrap_or(start),
             least: all().fold(start, f64::min),
             greatest: all().fold(start, f64::max),
             mean: self.mean(weighted),
