@@ -21,8 +21,10 @@ const AGREED: f64 = 0.01;
 const MOST_PASSES: usize = 30;
 /// Passes from which on only half of each change is taken.
 const CAREFUL: usize = 8;
-/// The shortest step over an interval.
+/// The shortest step over the longest; no more than the next is needed.
 const SHORTEST: f64 = 1.0 / 4096.0;
+/// A step that is short for every node of a transmission. \[s\]
+const SHORT: f64 = 1e-3;
 
 /// Where in a step its losses, conductances and flows are those of the temperatures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -75,17 +77,21 @@ impl Stepping {
     pub fn advance(&mut self, heated: &mut dyn Heated, now: &mut Vec<f64>, duration: f64) -> Result<Heats, Unbalanced> {
         let mut heats = Heats::default();
         let mut left = duration;
-        let least = duration * SHORTEST;
-        let mut length = match self.step {
-            StepSize::Fixed(most) => duration / (duration / most).ceil().max(1.0),
-            StepSize::Adaptive(_) => self.next.min(duration),
+        let (most, mut length) = match self.step {
+            StepSize::Fixed(step) => {
+                let even = duration / (duration / step).ceil().max(1.0);
+                (even, even)
+            }
+            StepSize::Adaptive(_) => (duration, self.next.min(duration)),
         };
+        let least = (most * SHORTEST).min(SHORT);
         while left > 1e-9 * duration {
             length = length.min(left);
             match self.tried(heated, now, length) {
                 Ok((after, more, error)) => {
                     let (taken, factor) = match self.step {
-                        StepSize::Fixed(_) => (true, 1.0),
+                        // Back to full length after steps that were too long.
+                        StepSize::Fixed(_) => (true, 2.0),
                         StepSize::Adaptive(tolerance) => {
                             // The error of a step goes with the square of its length.
                             let factor = (0.8 * (tolerance / error.max(1e-12)).sqrt()).clamp(0.2, 4.0);
@@ -99,7 +105,7 @@ impl Stepping {
                         *now = after;
                         self.next = length * factor;
                     }
-                    length = (length * factor).max(least);
+                    length = (length * factor).clamp(least, most);
                 }
                 Err(Unbalanced::Flow) if length > least => {
                     heated.stepped(false);
