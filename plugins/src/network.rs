@@ -14,7 +14,7 @@ mod lay;
 use gearloss_framework::description::{GearboxEntry, HeatInto, Mounting};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::lubricant::Lubricant;
-use gearloss_framework::mechanism::bearing::BearingEntry;
+use gearloss_framework::mechanism::bearing::{BearingEntry, Lubrication};
 use gearloss_framework::mechanism::heat_dissipation::HousingPart;
 use gearloss_framework::origin;
 use gearloss_framework::registry::{NetworkRecipe, inventory};
@@ -58,6 +58,8 @@ struct Seated {
     entry: BearingEntry,
     shaft: String,
     outer: Option<String>,
+    /// Place along the shaft. \[m\]
+    at: f64,
     /// Equal copies, those on all planets together.
     copies: f64,
     /// True where its model says how much it loses.
@@ -68,7 +70,7 @@ fn lay_out(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
     let housing = HousingPart::from(entry.housing.outside.unwrap_or_default());
     let area = outside(&housing)?;
     let bodies = Bodies::new(entry);
-    let bearings = seated(entry, value);
+    let bearings = seated(value, &bodies);
     let mut lay = Lay::default();
 
     let sump = lay.node("sump", "oil", sump_capacity(entry));
@@ -87,7 +89,7 @@ fn lay_out(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
             shaft.mass * Metal::STEEL.specific_heat
         } else {
             let gears: f64 = fixed().map(|(gear, _)| bodies.capacity(gear)).sum();
-            let places = bores.map(|b| (b.entry.bore, place(value, &b.id)));
+            let places = bores.map(|b| (b.entry.bore, b.at));
             gears + bodies.shaft_capacity(id, shaft, places)
         };
         let node = lay.node(id, "shaft", bodies.copies(id) * capacity);
@@ -173,7 +175,7 @@ fn outside(housing: &HousingPart) -> Result<f64, Diagnostic> {
     housing.area.filter(|_| missing.is_empty()).ok_or_else(|| {
         Diagnostic::error(
             "thermal.network",
-            format!("`auto` needs the {} of the housing outside", missing.join(", the ")),
+            format!("`auto` needs the {} of the housing outside", missing.join(" and the ")),
         )
         .mend("add `housing: { outside: { box: [400 mm, 250 mm, 300 mm] } }` with your length, width and height, or `area`, `height` and `length` there")
     })
@@ -213,16 +215,7 @@ fn loses(entry: &Value) -> bool {
         .is_some_and(|model| model != "none" && model.get("type").is_none_or(|name| name != "none"))
 }
 
-/// Place of a bearing along its shaft. \[m\]
-fn place(value: &Value, bearing: &str) -> f64 {
-    let at = value
-        .get("bearings")
-        .and_then(|all| all.get(bearing)?.get("at")?.as_f64());
-    at.unwrap_or(0.0)
-}
-
-fn seated(entry: &GearboxEntry, value: &Value) -> Vec<Seated> {
-    let bodies = Bodies::new(entry);
+fn seated(value: &Value, bodies: &Bodies<'_>) -> Vec<Seated> {
     section(value, "bearings")
         .filter_map(|(id, bearing)| {
             let shaft = text(bearing, "shaft")?.to_owned();
@@ -237,6 +230,7 @@ fn seated(entry: &GearboxEntry, value: &Value) -> Vec<Seated> {
                 entry: serde_json::from_value(bearing.clone()).ok()?,
                 shaft,
                 outer,
+                at: bearing.get("at").and_then(Value::as_f64).unwrap_or(0.0),
                 copies: count * planets,
                 loses: loses(bearing),
             })
@@ -245,7 +239,6 @@ fn seated(entry: &GearboxEntry, value: &Value) -> Vec<Seated> {
 }
 
 fn bearing_node(bearing: &Seated, lay: &mut Lay, casing: &str, sump: &str) {
-    use gearloss_framework::mechanism::bearing::Lubrication;
     let Seated { id, entry, copies, .. } = bearing;
     let (Some(bore), Some(outside)) = (entry.bore, entry.outside) else {
         return;
