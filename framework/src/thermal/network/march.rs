@@ -48,24 +48,30 @@ impl Heats {
 
     /// Adds another stretch.
     pub fn add(&mut self, more: &Self) {
+        self.combine(1.0, more, 1.0);
+    }
+
+    /// A multiple of itself and a multiple of another.
+    pub(super) fn combine(&mut self, own: f64, more: &Self, share: f64) {
+        let one = |sum: &mut f64, x: f64| *sum = own * *sum + share * x;
         let each = |sums: &mut Vec<f64>, more: &[f64]| {
             sums.resize(more.len(), 0.0);
-            sums.iter_mut().zip(more).for_each(|(sum, x)| *sum += x);
+            sums.iter_mut().zip(more).for_each(|(sum, x)| one(sum, *x));
         };
-        self.duration += more.duration;
+        one(&mut self.duration, more.duration);
         each(&mut self.parts, &more.parts);
         each(&mut self.held, &more.held);
         each(&mut self.exchangers, &more.exchangers);
         self.motors.resize(more.motors.len(), [0.0; 2]);
         for (sum, x) in self.motors.iter_mut().zip(&more.motors) {
-            sum[0] += x[0];
-            sum[1] += x[1];
+            one(&mut sum[0], x[0]);
+            one(&mut sum[1], x[1]);
         }
-        self.sources += more.sources;
-        self.stored += more.stored;
-        self.flows += more.flows;
-        self.input += more.input;
-        self.output += more.output;
+        one(&mut self.sources, more.sources);
+        one(&mut self.stored, more.stored);
+        one(&mut self.flows, more.flows);
+        one(&mut self.input, more.input);
+        one(&mut self.output, more.output);
         self.beyond_map |= more.beyond_map;
     }
 }
