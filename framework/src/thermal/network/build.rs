@@ -231,9 +231,15 @@ impl Network {
                     heat[*first] += share * watts;
                     heat[*second] += (1.0 - share) * watts;
                 }
-                (HeatPath::Gears(nodes), _) => nodes.iter().for_each(|node| heat[*node] += 0.5 * watts),
+                (HeatPath::Gears(nodes), _) => {
+                    for node in nodes {
+                        heat[*node] += 0.5 * watts;
+                    }
+                }
                 (HeatPath::Nodes(nodes), _) => {
-                    nodes.iter().for_each(|node| heat[*node] += watts / nodes.len() as f64);
+                    for node in nodes {
+                        heat[*node] += watts / nodes.len() as f64;
+                    }
                 }
             }
         }
