@@ -20,7 +20,7 @@ fn free(taken: &Map<String, Value>, wanted: &str, what: &str) -> String {
         return wanted.to_owned();
     }
     let named = format!("{wanted}_{what}");
-    (1..)
+    (1..=taken.len() + 1)
         .map(|n| if n == 1 { named.clone() } else { format!("{named}_{n}") })
         .find(|name| !taken.contains_key(name))
         .unwrap_or(named)
