@@ -5,6 +5,7 @@
 
 mod build;
 mod placed;
+mod recipe;
 mod slot;
 
 use std::any::Any;
@@ -15,6 +16,7 @@ use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
 pub use placed::{Common, Placed, Section};
+pub use recipe::NetworkRecipe;
 pub use slot::{ModelRef, NamedSlots, Slot};
 
 use crate::conformance;
@@ -299,6 +301,7 @@ pub struct Registry {
     catalogues: Vec<Catalogue>,
     sets: Vec<ShippedSet>,
     cycles: Vec<ShippedCycle>,
+    recipes: Vec<NetworkRecipe>,
 }
 
 impl Registry {
@@ -313,7 +316,15 @@ impl Registry {
             inventory::iter::<Catalogue>().copied(),
             inventory::iter::<ShippedSet>().copied(),
         )?
+        .with_recipes(inventory::iter::<NetworkRecipe>().copied())
         .with_cycles(inventory::iter::<ShippedCycle>().copied())
+    }
+
+    /// The same with recipes for thermal networks.
+    pub fn with_recipes(mut self, recipes: impl IntoIterator<Item = NetworkRecipe>) -> Self {
+        self.recipes.extend(recipes);
+        self.recipes.sort_by_key(|r| (r.origin.module, r.origin.line));
+        self
     }
 
     /// The same with driving cycles.
@@ -392,6 +403,7 @@ impl Registry {
                 catalogues,
                 sets,
                 cycles: Vec::new(),
+                recipes: Vec::new(),
             })
         } else {
             Err(found)
@@ -443,6 +455,14 @@ impl Registry {
     /// One driving cycle by its name.
     pub fn cycle(&self, name: &str) -> Option<&ShippedCycle> {
         self.cycles.iter().find(|c| c.name == name)
+    }
+
+    /// The recipe that lays out thermal networks.
+    ///
+    /// # Errors
+    /// Where no crate ships one, or two do.
+    pub fn network_recipe(&self) -> Result<&NetworkRecipe, Diagnostic> {
+        recipe::only(&self.recipes)
     }
 
     /// Crates that registered something, in the order of their names.

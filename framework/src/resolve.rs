@@ -5,6 +5,7 @@
 
 mod catalogue;
 mod choice;
+mod network;
 mod paths;
 
 use std::collections::BTreeMap;
@@ -39,6 +40,8 @@ pub enum Came {
     Set(String),
     /// From `surface` of the gearbox.
     Surface,
+    /// From the recipe behind `network: auto`.
+    Network,
     /// From an override.
     Override,
 }
@@ -104,7 +107,12 @@ pub fn resolve(
             document.shift_remove(key);
         }
     }
+    // A network that is laid out sees all other changes, and those inside it change what was laid out.
+    let (inside, later): (Vec<_>, Vec<_>) = later.into_iter().partition(|(path, _)| network::meets_inside(path));
     apply(language, &mut value, &later, &mut came, &mut found);
+    if network::expand(language, &mut value, &mut came, &mut found) {
+        apply(language, &mut value, &inside, &mut came, &mut found);
+    }
     if found.is_empty() {
         Ok(Resolved { value, came, unreached })
     } else {

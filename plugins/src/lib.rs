@@ -1,4 +1,4 @@
-//! The loss models and catalogues that ship with gearloss: one file per model, a folder per mechanism.
+//! The loss models, catalogues and recipes that ship with gearloss: one file per model, a folder per mechanism.
 //!
 //! The crate uses the framework exactly as an in-house crate does. A program links it by `use gearloss_plugins as _;`.
 
@@ -15,6 +15,7 @@ pub mod gear_mesh;
 pub mod heat_dissipation;
 pub mod heat_link;
 pub mod mean_friction;
+pub mod network;
 pub mod path;
 pub mod planetary_drag;
 pub mod rotating;

@@ -194,6 +194,7 @@ fn inputs(path: &str, value: &Value, gearbox: &Gearbox, resolved: &Resolved, out
                 Came::Models => "models".to_owned(),
                 Came::Set(name) => format!("set {name}"),
                 Came::Surface => "surface".to_owned(),
+                Came::Network => "network: auto".to_owned(),
                 Came::Document => match gearbox.places.get(path).and_then(|p| gearbox.sources.locate(p.value)) {
                     Some((file, line, column)) => format!("{file}:{line}:{column}"),
                     None => "default".to_owned(),

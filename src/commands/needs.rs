@@ -200,6 +200,7 @@ fn state(gearbox: &Gearbox, resolved: &Resolved, path: &str) -> String {
             designation,
             confidence,
         } => format!("derived (catalogue {designation}, confidence {confidence})"),
+        Came::Network => "derived (network: auto)".to_owned(),
         _ if assumed => "assumed".to_owned(),
         _ if gearbox.places.is_written(path) => "given".to_owned(),
         _ => "default".to_owned(),

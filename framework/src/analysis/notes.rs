@@ -137,6 +137,10 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
             }
         }
     }
+    for (path, _) in resolved.came.iter().filter(|(_, came)| **came == Came::Network) {
+        let because = "capacities and conductances by size";
+        add("network: auto".to_owned(), Evidence::Assumed, because, path);
+    }
     for (path, came) in &resolved.came {
         if let Came::Catalogue {
             designation,

@@ -450,14 +450,15 @@ impl<'a> Walker<'a> {
         if let Some(shape) = text_first.or_else(|| shapes.iter().filter(fits).rev().max_by_key(known)) {
             self.value(node, shape)
         } else {
-            let kinds: Vec<&str> = shapes
+            let kinds: Vec<String> = shapes
                 .iter()
                 .map(|s| match schema.follow(s) {
-                    Shape::Number { .. } => "a quantity",
-                    Shape::List { .. } => "a list",
-                    Shape::Bool => "true or false",
-                    Shape::Text(_) => "a text",
-                    _ => "a map",
+                    Shape::Number { .. } => "a quantity".to_owned(),
+                    Shape::List { .. } => "a list".to_owned(),
+                    Shape::Bool => "true or false".to_owned(),
+                    Shape::Text(words) if words.is_empty() => "a text".to_owned(),
+                    Shape::Text(words) => format!("`{}`", words.join("` or `")),
+                    _ => "a map".to_owned(),
                 })
                 .collect();
             self.wrong(node, &kinds.join(" or "))

@@ -62,7 +62,7 @@ impl Housing {
     /// The housing of a description.
     pub(crate) fn new(entry: &GearboxEntry, build: &mut Build<'_>, found: &mut Vec<Diagnostic>) -> Self {
         let thermal = &entry.thermal;
-        let part = Arc::new(part(entry.housing.outside.as_ref()));
+        let part = Arc::new(HousingPart::from(entry.housing.outside.unwrap_or_default()));
         let before = found.len();
         let mut ways = Vec::new();
         let slots = thermal.heat_dissipation.iter().flat_map(|slots| slots.0.iter());
@@ -251,22 +251,23 @@ impl Housing {
     }
 }
 
-/// What the models see of the outside; a box stands for what is not stated.
-fn part(outside: Option<&OutsideEntry>) -> HousingPart {
-    let outside = outside.copied().unwrap_or_default();
-    let of_box = outside
-        .sides
-        .map(|[l, w, h]| 2.0 * (l * w + l * h + w * h) - outside.mounting_area);
-    let area = outside.area.or(of_box).filter(|a| *a > 0.0);
-    HousingPart {
-        area,
-        oil_area: outside.oil_area.or(area),
-        height: outside.height.or(outside.sides.map(|s| s[2])),
-        length: outside.length.or(outside.sides.map(|s| s[0])),
-        wall_thickness: outside.wall_thickness,
-        wall_conductivity: outside.wall_conductivity,
-        emissivity: outside.emissivity,
-        air_speed: outside.air_speed,
+impl From<OutsideEntry> for HousingPart {
+    /// A box stands for what is not stated.
+    fn from(outside: OutsideEntry) -> Self {
+        let of_box = outside
+            .sides
+            .map(|[l, w, h]| 2.0 * (l * w + l * h + w * h) - outside.mounting_area);
+        let area = outside.area.or(of_box).filter(|a| *a > 0.0);
+        Self {
+            area,
+            oil_area: outside.oil_area.or(area),
+            height: outside.height.or(outside.sides.map(|s| s[2])),
+            length: outside.length.or(outside.sides.map(|s| s[0])),
+            wall_thickness: outside.wall_thickness,
+            wall_conductivity: outside.wall_conductivity,
+            emissivity: outside.emissivity,
+            air_speed: outside.air_speed,
+        }
     }
 }
 
@@ -287,7 +288,7 @@ mod tests {
         let registry = Registry::of([mechanism], [own], [], []).unwrap();
         let files = Files::default();
         let mut build = Build::new(&registry, &files);
-        let part = Arc::new(part(None));
+        let part = Arc::new(HousingPart::from(OutsideEntry::default()));
         let way = |(i, (conductance, sink)): (usize, &(f64, f64))| {
             let law = serde_json::json!({ "type": "formula", "formula": format!("{conductance}") });
             Way {

@@ -5,9 +5,11 @@ pub mod circuit;
 mod faults;
 mod march;
 mod steady;
+mod stepping;
 
 pub(crate) use build::Around;
 pub use build::{Network, Surroundings};
 pub use circuit::Circuit;
-pub use march::{Heats, March, Moment, Scheme, StepSize};
+pub use march::{Heats, March, Moment};
 pub use steady::Steady;
+pub use stepping::{Scheme, StepSize};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::drags::{Covered, DragSeat, body, mates, named, part, twice};
 use super::gearing::{GearSeat, MeshSeat, gearing};
 use super::members::Members;
-use super::nodes::{HeatPath, NodeNames};
+use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oils::OilNumbers;
 use super::planets;
 use super::states::states;
@@ -87,7 +87,7 @@ impl Transmission {
         let mut network = Network::new(&entry, &around, &mut build, &mut found);
         if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
             let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
-            NodeNames::unmet(written, &paths, &mut found);
+            unmet(written, &paths, &mut found);
         } else if entry.thermal.mode == ThermalMode::Network {
             found.push(
                 Diagnostic::error("thermal.mode", "no network is described")

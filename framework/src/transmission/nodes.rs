@@ -135,21 +135,21 @@ impl NodeNames {
         }
         HeatPath::Nodes(nodes)
     }
+}
 
-    /// Patterns under `parts` and `oil_of` that meet no part, with the path of their list.
-    pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>) {
-        for (id, node) in network.nodes.iter() {
-            for (key, patterns) in [("parts", &node.parts), ("oil_of", &node.oil_of)] {
-                for pattern in patterns.iter().filter(|p| !parts.iter().any(|part| meets(p, part))) {
-                    found.push(
-                        Diagnostic::error(
-                            format!("thermal.network.nodes.{id}.{key}"),
-                            format!("`{pattern}` meets no part that loses power"),
-                        )
-                        .note(format!("there are: {}", parts.join(", ")))
-                        .mend("name a part, such as `bearings.B1` or `meshes.*`"),
-                    );
-                }
+/// Patterns under `parts` and `oil_of` that meet no part, with the path of their list.
+pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>) {
+    for (id, node) in network.nodes.iter() {
+        for (key, patterns) in [("parts", &node.parts), ("oil_of", &node.oil_of)] {
+            for pattern in patterns.iter().filter(|p| !parts.iter().any(|part| meets(p, part))) {
+                found.push(
+                    Diagnostic::error(
+                        format!("thermal.network.nodes.{id}.{key}"),
+                        format!("`{pattern}` meets no part that loses power"),
+                    )
+                    .note(format!("there are: {}", parts.join(", ")))
+                    .mend("name a part, such as `bearings.B1` or `meshes.*`"),
+                );
             }
         }
     }

@@ -215,6 +215,7 @@ mod tests {
             ra: 0.4e-6,
             rq: 0.5e-6,
             temperature: 80.0,
+            bodies: None,
             nu: 10e-6,
             eta: 8e-3,
             alpha: 15e-9,

@@ -490,6 +490,9 @@ fn law(
         }
         None => own,
     };
+    if matches!(gear, Some(None)) {
+        return None;
+    }
     let law = match (link.conductance, &link.model) {
         (Some(given), None) => Law::Given(given),
         (None, Some(choice)) => {

@@ -167,7 +167,7 @@ impl Circuit {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::thermal::Arrangement;
@@ -232,7 +232,7 @@ mod tests {
     }
 
     /// The drive unit of seventeen nodes, counted from one as in its publication; node 0 is nothing.
-    pub(super) fn drive_unit() -> (Circuit, Vec<f64>) {
+    pub fn drive_unit() -> (Circuit, Vec<f64>) {
         let mut links = vec![
             (1, 2, 10.0),
             (1, 3, 5.0),

@@ -6,7 +6,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::circuit::Leaving;
-use super::march::{Moment, Warm, farthest};
+use super::march::{Moment, Warm};
+use super::stepping::farthest;
 use crate::evaluate::Scratch;
 use crate::thermal::{Outcome, Unbalanced};
 use crate::transmission::Transmission;

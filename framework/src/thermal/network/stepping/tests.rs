@@ -1,0 +1,239 @@
+#![allow(clippy::unwrap_used)]
+use ode_solvers::dop_shared::OutputType;
+use ode_solvers::{DVector, Dop853, System};
+
+use super::super::circuit::tests::drive_unit;
+use super::super::circuit::{Circuit, Exchange};
+use super::*;
+
+/// Nodes of the drive unit that store heat; its first is nothing, its second the surroundings, its last behind the exchanger.
+const STORING: std::ops::Range<usize> = 2..17;
+const START: f64 = 23.0;
+
+/// The drive unit, its heat falling and the link of casing and sump rising by a share per kelvin.
+#[derive(Clone)]
+struct Unit {
+    circuit: Circuit,
+    heat: Vec<f64>,
+    per_kelvin: f64,
+    steps: [usize; 2],
+}
+
+impl Unit {
+    fn new(per_kelvin: f64) -> Self {
+        let (circuit, heat) = drive_unit();
+        Self {
+            circuit,
+            heat,
+            per_kelvin,
+            steps: [0; 2],
+        }
+    }
+
+    fn heat(&self, node: usize, temperature: f64) -> f64 {
+        self.heat[node] * (1.0 - self.per_kelvin * (temperature - START))
+    }
+
+    fn conductance(&self, [a, b]: [usize; 2], given: f64, t: &[f64]) -> f64 {
+        if [a, b] == [2, 14] {
+            given * (1.0 + self.per_kelvin * (0.5 * (t[a] + t[b]) - START))
+        } else {
+            given
+        }
+    }
+
+    /// Temperatures after an interval in s, and its energies.
+    fn march(&mut self, scheme: Scheme, step: StepSize, intervals: &[f64]) -> (Vec<f64>, Heats) {
+        let mut t = vec![START; self.heat.len()];
+        let mut stepping = Stepping::new(scheme, step);
+        let mut heats = Heats::default();
+        for duration in intervals {
+            heats.add(&stepping.advance(self, &mut t, *duration).unwrap());
+        }
+        (t, heats)
+    }
+
+    /// The temperatures that another solver finds: Dormand and Prince, 8(5,3), without a matrix.
+    fn reference(&self, duration: f64) -> Vec<f64> {
+        let start = DVector::from_element(self.heat.len(), START);
+        let mut solver = Dop853::new(self.clone(), 0.0, duration, duration, start, 1e-11, 1e-11);
+        // Its own steps only: what it interpolates over long ones is wrong.
+        solver.set_output(OutputType::Sparse);
+        solver.integrate().unwrap();
+        let end = solver.y_out().last().unwrap();
+        end.as_slice().to_vec()
+    }
+}
+
+impl Heated for Unit {
+    fn warm(&mut self, t: &[f64], warm: &mut Warm) -> Result<(), Unbalanced> {
+        warm.circuit = self.circuit.clone();
+        for (ends, g) in &mut warm.circuit.links {
+            *g = self.conductance(*ends, *g, t);
+        }
+        warm.heat = (0..t.len()).map(|i| self.heat(i, t[i])).collect();
+        warm.parts.clone_from(&warm.heat);
+        Ok(())
+    }
+    fn stepped(&mut self, taken: bool) {
+        self.steps[usize::from(!taken)] += 1;
+    }
+}
+
+impl System<f64, DVector<f64>> for Unit {
+    fn system(&self, _: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
+        let mut t = y.as_slice().to_vec();
+        // What stores nothing follows at once.
+        let Exchange { from, to, .. } = self.circuit.exchangers[0];
+        t[to] = self.circuit.exchangers[0].outlet(t[from]);
+        let mut heat: Vec<f64> = (0..t.len()).map(|i| self.heat(i, t[i])).collect();
+        for (ends, given) in &self.circuit.links {
+            let [a, b] = *ends;
+            let through = self.conductance(*ends, *given, &t) * (t[a] - t[b]);
+            heat[a] -= through;
+            heat[b] += through;
+        }
+        for ([up, down], capacity) in &self.circuit.flows {
+            heat[*down] += capacity * (t[*up] - t[*down]);
+        }
+        dy.fill(0.0);
+        for node in STORING {
+            dy[node] = heat[node] / self.circuit.capacities[node];
+        }
+    }
+}
+
+fn error(one: &[f64], other: &[f64]) -> f64 {
+    farthest(&one[STORING], &other[STORING])
+}
+
+/// Errors after a time with steps of 8, 4, 2 and 1 s.
+fn errors(unit: &mut Unit, scheme: Scheme, duration: f64) -> Vec<f64> {
+    let reference = unit.reference(duration);
+    let error = |step| error(&unit.march(scheme, StepSize::Fixed(step), &[duration]).0, &reference);
+    [8.0, 4.0, 2.0, 1.0].map(error).to_vec()
+}
+
+#[test]
+fn halved_steps_halve_the_error_against_another_solver() {
+    for scheme in [Scheme::Implicit, Scheme::Lagged] {
+        for duration in [64.0, 600.0] {
+            let errors = errors(&mut Unit::new(0.0), scheme, duration);
+            assert!(errors[3] < 0.06, "{scheme:?} {duration} {errors:?}");
+
+            for pair in errors.windows(2) {
+                let ratio = pair[0] / pair[1];
+                assert!((1.7..2.2).contains(&ratio), "{scheme:?} {duration} {errors:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn losses_that_fall_and_links_that_rise_with_temperature_follow_too() {
+    for scheme in [Scheme::Implicit, Scheme::Lagged] {
+        let errors = errors(&mut Unit::new(0.01), scheme, 600.0);
+        assert!(errors[3] < 0.06, "{scheme:?} {errors:?}");
+
+        for pair in errors.windows(2) {
+            let ratio = pair[0] / pair[1];
+            assert!((1.6..2.4).contains(&ratio), "{scheme:?} {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn adapted_steps_keep_to_their_tolerance() {
+    for per_kelvin in [0.0, 0.01] {
+        let reference = Unit::new(per_kelvin).reference(600.0);
+        for tolerance in [0.3, 0.1, 0.03] {
+            let mut unit = Unit::new(per_kelvin);
+            let (t, heats) = unit.march(Scheme::Implicit, StepSize::Adaptive(tolerance), &[600.0]);
+            let error = error(&t, &reference);
+            assert!(error < 0.5 * tolerance, "{per_kelvin} {tolerance}: {error}");
+            assert!(heats.residual().abs() < 1e-9 * heats.came());
+            assert!(unit.steps[0] < 200 && unit.steps[1] < 20, "{:?}", unit.steps);
+        }
+    }
+}
+
+#[test]
+fn energy_is_kept_whatever_the_steps() {
+    let steps = [StepSize::Fixed(1.0), StepSize::Fixed(60.0), StepSize::Adaptive(0.1)];
+    for (scheme, step) in [Scheme::Implicit, Scheme::Lagged]
+        .into_iter()
+        .flat_map(|scheme| steps.map(|step| (scheme, step)))
+    {
+        let (_, heats) = Unit::new(0.01).march(scheme, step, &[30.0, 600.0, 0.5]);
+        assert!((heats.duration - 630.5).abs() < 1e-9);
+        assert!(
+            heats.residual().abs() < 1e-9 * heats.came(),
+            "{scheme:?} {step:?} {}",
+            heats.residual()
+        );
+    }
+}
+
+#[test]
+fn a_long_march_ends_at_rest() {
+    for per_kelvin in [0.0, 0.01] {
+        let mut unit = Unit::new(per_kelvin);
+        let (t, _) = unit.march(Scheme::Implicit, StepSize::Fixed(2e4), &[4e6]);
+        let mut warm = Warm::default();
+        let mut rest = t.clone();
+        for _ in 0..100 {
+            unit.warm(&rest, &mut warm).unwrap();
+            rest = warm.circuit.solve(&warm.heat, None).unwrap();
+        }
+        // The losses of a step belong to its end within a hundredth of a kelvin.
+        assert!(error(&t, &rest) < 0.01, "{per_kelvin} {}", error(&t, &rest));
+        if per_kelvin == 0.0 {
+            assert!(error(&t, &rest) < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn u5k_lagged_steps_are_the_published_ones() {
+    let mut unit = Unit::new(0.0);
+    let mut stepping = Stepping::new(Scheme::Lagged, StepSize::Fixed(1.0));
+    let mut t = vec![START; unit.heat.len()];
+    for (duration, node, printed) in [
+        (1.0, 14, 23.262936),
+        (59.0, 14, 29.263425),
+        (540.0, 4, 37.525723),
+        (1200.0, 9, 44.789050),
+        (5400.0, 16, 46.610521),
+    ] {
+        stepping.advance(&mut unit, &mut t, duration).unwrap();
+        assert!(
+            (t[node] - printed).abs() < 1e-6,
+            "{node}: {} against {printed}",
+            t[node]
+        );
+    }
+}
+
+#[test]
+fn what_never_agrees_is_told_and_changes_nothing() {
+    struct Wild(bool);
+    impl Heated for Wild {
+        fn warm(&mut self, _: &[f64], warm: &mut Warm) -> Result<(), Unbalanced> {
+            // Two answers in turn, far apart however short the step.
+            self.0 = !self.0;
+            warm.circuit = Circuit {
+                capacities: vec![0.0, 0.0],
+                held: vec![Some(20.0), None],
+                links: vec![([0, 1], 1.0)],
+                ..Circuit::default()
+            };
+            warm.heat = vec![0.0, if self.0 { 50.0 } else { 0.0 }];
+            Ok(())
+        }
+        fn stepped(&mut self, _: bool) {}
+    }
+    let mut t = vec![20.0, 21.0];
+    let mut stepping = Stepping::new(Scheme::Implicit, StepSize::Fixed(1.0));
+    assert_eq!(stepping.advance(&mut Wild(false), &mut t, 1.0), Err(Unbalanced::Flow));
+    assert_eq!(t, [20.0, 21.0]);
+}

@@ -1,0 +1,329 @@
+//! The thermal network behind `network: auto`: nodes and links from shafts, bearings, gears and housing.
+//!
+//! Nodes: the oil of the sump, the casing, every shaft that carries gears or bearings with the gears that are fixed to it, every
+//! loose gear, every bearing. A planet body is one node for all its copies. The heat of a mesh goes into its gears, that of a
+//! bearing into the bearing, that of a seal into its shaft, because a lip of rubber insulates; all else heats the oil.
+//!
+//! Nothing but geometry and oil is known of a gearbox, so the figures below are assumed: the conductances of bearings are those of
+//! thermal networks of drive units, which scatter by a factor of two either way. Each is written into the description, where it
+//! can be changed or identified.
+
+mod body;
+mod lay;
+
+use gearloss_framework::description::{GearboxEntry, HeatInto, Mounting};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::lubricant::Lubricant;
+use gearloss_framework::mechanism::bearing::{BearingEntry, Lubrication};
+use gearloss_framework::mechanism::heat_dissipation::HousingPart;
+use gearloss_framework::origin;
+use gearloss_framework::registry::{NetworkRecipe, inventory};
+use serde_json::{Value, json};
+
+use body::{Bodies, Metal};
+use lay::Lay;
+
+/// From a bearing to what runs in its bore, for each metre of the bore. \[W/(m K)\]
+const TO_BORE: f64 = 90.0;
+/// From a bearing to what holds it, for each metre of its outside diameter. \[W/(m K)\]
+const TO_OUTSIDE: f64 = 80.0;
+/// From a bearing in oil to the sump. \[W/K\]
+const TO_OIL: f64 = 2.0;
+/// From gear to gear through the teeth in contact. \[W/K\]
+const TEETH: f64 = 10.0;
+/// From a loose gear that no bearing carries to its shaft. \[W/K\]
+const PLAIN_BORE: f64 = 5.0;
+/// From what is screwed to the housing to the casing. \[W/K\]
+const SCREWED: f64 = 20.0;
+/// From a gear to oil and mist that stand still about it. \[W/(m2 K)\]
+const AT_REST: f64 = 50.0;
+/// From oil to casing where no gear is known that splashes. \[W/(m2 K)\]
+const WITHOUT_SPLASH: f64 = 100.0;
+/// Share of the room between bore and outside diameter that the metal of a bearing fills.
+const FILLED: f64 = 0.7;
+/// Volume of the oil where none is stated. \[m3\]
+const ONE_LITRE: f64 = 1e-3;
+
+inventory::submit! {
+    NetworkRecipe {
+        meaning: "Nodes for oil, casing, shafts with their gears, loose gears and bearings; conductances by size.",
+        lay_out,
+        origin: origin!(),
+    }
+}
+
+/// A bearing with its place.
+struct Seated {
+    id: String,
+    entry: BearingEntry,
+    shaft: String,
+    outer: Option<String>,
+    /// Place along the shaft. \[m\]
+    at: f64,
+    /// Equal copies, those on all planets together.
+    copies: f64,
+    /// True where its model says how much it loses.
+    loses: bool,
+}
+
+fn lay_out(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
+    let housing = HousingPart::from(entry.housing.outside.unwrap_or_default());
+    let area = outside(&housing)?;
+    let bodies = Bodies::new(entry);
+    let bearings = seated(value, &bodies);
+    let mut lay = Lay::default();
+
+    let sump = lay.node("sump", "oil", sump_capacity(entry));
+    let wall = Metal::of_wall(housing.wall_conductivity);
+    let casing = lay.node("casing", "wall", area * housing.wall_thickness * wall.heat_capacity());
+    lay.oil(&sump);
+
+    for (id, shaft) in entry.shafts.iter() {
+        let carried = bearings.iter().any(|b| b.shaft == id || b.outer.as_deref() == Some(id));
+        let fixed = || entry.gears.iter().filter(|(_, g)| is_fixed(g.mounted) && g.shaft == id);
+        if !carried && fixed().next().is_none() {
+            continue;
+        }
+        let bores = bearings.iter().filter(|b| b.shaft == id);
+        let capacity = if shaft.mass > 0.0 {
+            shaft.mass * Metal::STEEL.specific_heat
+        } else {
+            let gears: f64 = fixed().map(|(gear, _)| bodies.capacity(gear)).sum();
+            let places = bores.map(|b| (b.entry.bore, b.at));
+            gears + bodies.shaft_capacity(id, shaft, places)
+        };
+        let node = lay.node(id, "shaft", bodies.copies(id) * capacity);
+        lay.member(id, &node);
+        for (gear, _) in fixed() {
+            lay.gear(gear, &node);
+        }
+    }
+    for (id, gear) in entry.gears.iter().filter(|(_, g)| !is_fixed(g.mounted)) {
+        let node = lay.node(id, "gear", bodies.copies(&gear.shaft) * bodies.capacity(id));
+        lay.member(id, &node);
+        lay.gear(id, &node);
+        if let Some(shaft) = lay.of_member(&gear.shaft)
+            && !bearings.iter().any(|b| b.outer.as_deref() == Some(id) || b.shaft == id)
+        {
+            lay.link(&format!("{id}_bore"), &node, &shaft, PLAIN_BORE);
+        }
+    }
+    for bearing in &bearings {
+        bearing_node(bearing, &mut lay, &casing, &sump);
+    }
+    gears_to_oil(entry, &bodies, &mut lay, &sump);
+    for (id, mesh) in entry.meshes.iter() {
+        let [first, second] = mesh.gears.each_ref().map(|gear| lay.of_gear(gear));
+        if let (Some(first), Some(second)) = (first, second) {
+            let copies = mesh
+                .gears
+                .iter()
+                .map(|gear| bodies.copies_of_gear(gear))
+                .fold(1.0, f64::max);
+            lay.link(id, &first, &second, copies * TEETH);
+        }
+    }
+    screwed(value, &mut lay, &casing);
+    seals(value, &mut lay, &sump);
+
+    match bodies.splashing() {
+        Some(splash) => {
+            let mut model = json!({ "type": "oil_casing" });
+            if let Some(reach) = splash.reach {
+                model["tip_diameter"] = lay::number(1e3 * reach);
+            }
+            let link = if splash.reach.is_some() {
+                json!({ "model": model, "shaft": splash.member })
+            } else {
+                json!({ "model": model, "gear": splash.member })
+            };
+            lay.law("sump_casing", &sump, &casing, link);
+        }
+        None => lay.link(
+            "sump_casing",
+            &sump,
+            &casing,
+            WITHOUT_SPLASH * housing.oil_area.unwrap_or(area),
+        ),
+    }
+    lay.law(
+        "casing_ambient",
+        &casing,
+        "ambient",
+        json!({ "model": { "type": "casing_air" } }),
+    );
+    for (id, source) in entry.thermal.sources.iter() {
+        let into = match source.into {
+            HeatInto::Oil => &sump,
+            HeatInto::Surface => &casing,
+        };
+        lay.source(id, source.heat, into);
+    }
+    Ok(lay.written())
+}
+
+/// The area of the outside, with all else that its heat needs.
+fn outside(housing: &HousingPart) -> Result<f64, Diagnostic> {
+    let missing: Vec<&str> = [
+        (housing.area.is_none(), "area"),
+        (housing.height.is_none(), "height"),
+        (housing.length.is_none(), "length"),
+    ]
+    .into_iter()
+    .filter_map(|(missing, name)| missing.then_some(name))
+    .collect();
+    housing.area.filter(|_| missing.is_empty()).ok_or_else(|| {
+        Diagnostic::error(
+            "thermal.network",
+            format!("`auto` needs the {} of the housing outside", missing.join(" and the ")),
+        )
+        .mend("add `housing: { outside: { box: [400 mm, 250 mm, 300 mm] } }` with your length, width and height, or `area`, `height` and `length` there")
+    })
+}
+
+/// Heat capacity of the oil; its values at the given temperature of the oil. \[J/K\]
+fn sump_capacity(entry: &GearboxEntry) -> f64 {
+    let sump = entry.housing.oil.as_ref();
+    let lubricant = match sump {
+        Some(oil) => entry.lubricants.get(&oil.lubricant),
+        None => entry.lubricants.iter().next().map(|(_, oil)| oil),
+    };
+    // What is wrong with an oil is said where it is built.
+    let volumetric = lubricant.and_then(|oil| Lubricant::new(oil).ok()).map_or(0.0, |oil| {
+        oil.density(entry.thermal.oil) * oil.heat_capacity(entry.thermal.oil)
+    });
+    sump.and_then(|oil| oil.volume).unwrap_or(ONE_LITRE) * volumetric
+}
+
+fn is_fixed(mounted: Mounting) -> bool {
+    mounted == Mounting::Fixed
+}
+
+/// Entries of a section of components.
+fn section<'a>(value: &'a Value, name: &str) -> impl Iterator<Item = (&'a String, &'a Value)> + use<'a> {
+    value.get(name).and_then(Value::as_object).into_iter().flatten()
+}
+
+fn text<'a>(entry: &'a Value, key: &str) -> Option<&'a str> {
+    entry.get(key).and_then(Value::as_str)
+}
+
+/// True where a component has a model that is not `none`.
+fn loses(entry: &Value) -> bool {
+    entry
+        .get("model")
+        .is_some_and(|model| model != "none" && model.get("type").is_none_or(|name| name != "none"))
+}
+
+fn seated(value: &Value, bodies: &Bodies<'_>) -> Vec<Seated> {
+    section(value, "bearings")
+        .filter_map(|(id, bearing)| {
+            let shaft = text(bearing, "shaft")?.to_owned();
+            let outer = text(bearing, "outer").map(str::to_owned);
+            let count = bearing.get("count").and_then(Value::as_f64).unwrap_or(1.0);
+            let planets = bodies
+                .copies(&shaft)
+                .max(outer.as_deref().map_or(1.0, |outer| bodies.copies(outer)));
+            Some(Seated {
+                id: id.clone(),
+                // What is wrong with a bearing is said where it is built.
+                entry: serde_json::from_value(bearing.clone()).ok()?,
+                shaft,
+                outer,
+                at: bearing.get("at").and_then(Value::as_f64).unwrap_or(0.0),
+                copies: count * planets,
+                loses: loses(bearing),
+            })
+        })
+        .collect()
+}
+
+fn bearing_node(bearing: &Seated, lay: &mut Lay, casing: &str, sump: &str) {
+    let Seated { id, entry, copies, .. } = bearing;
+    let (Some(bore), Some(outside)) = (entry.bore, entry.outside) else {
+        return;
+    };
+    let room = 0.25 * std::f64::consts::PI * (outside * outside - bore * bore).max(0.0) * entry.width.unwrap_or(0.0);
+    let node = lay.node(id, "bearing", copies * FILLED * room * Metal::STEEL.heat_capacity());
+    if bearing.loses {
+        lay.part(&node, &format!("bearings.{id}"));
+    }
+    let around = match &bearing.outer {
+        Some(outer) => lay.of_member(outer),
+        None => Some(casing.to_owned()),
+    };
+    if let Some(shaft) = lay.of_member(&bearing.shaft) {
+        lay.link(&format!("{node}_{shaft}"), &node, &shaft, copies * TO_BORE * bore);
+    }
+    if let Some(around) = around {
+        lay.link(
+            &format!("{node}_{around}"),
+            &node,
+            &around,
+            copies * TO_OUTSIDE * outside,
+        );
+    }
+    if entry.lubrication != Lubrication::Grease {
+        lay.link(&format!("{node}_{sump}"), &node, sump, copies * TO_OIL);
+    }
+}
+
+/// Every gear gives heat to the oil: at rest through the oil that stands about it, in motion by what it flings off.
+fn gears_to_oil(entry: &GearboxEntry, bodies: &Bodies<'_>, lay: &mut Lay, sump: &str) {
+    for (id, gear) in entry.gears.iter() {
+        let (Some(node), Some(size)) = (lay.of_gear(id), bodies.size(id)) else {
+            continue;
+        };
+        let copies = bodies.copies(&gear.shaft);
+        lay.link(
+            &format!("{id}_{sump}_at_rest"),
+            &node,
+            sump,
+            copies * AT_REST * size.wetted(),
+        );
+        // A ring holds its oil.
+        if !size.ring {
+            let mut model = json!({ "type": "fling_off" });
+            if copies > 1.0 {
+                // All teeth of all planets.
+                model["teeth"] = json!(copies * f64::from(gear.z));
+            }
+            lay.law(
+                &format!("{id}_{sump}"),
+                &node,
+                sump,
+                json!({ "model": model, "gear": id }),
+            );
+        }
+    }
+}
+
+/// Members that a coupling or clutch can join to the housing.
+fn screwed(value: &Value, lay: &mut Lay, casing: &str) {
+    for (id, coupling) in section(value, "couplings").chain(section(value, "clutches")) {
+        let between: Vec<&str> = coupling
+            .get("between")
+            .and_then(Value::as_array)
+            .into_iter()
+            .flatten()
+            .filter_map(Value::as_str)
+            .collect();
+        if let [one, other] = between[..]
+            && let Some(member) = match (one, other) {
+                ("housing", member) | (member, "housing") => lay.of_member(member),
+                _ => None,
+            }
+        {
+            lay.link(id, &member, casing, SCREWED);
+        }
+    }
+}
+
+fn seals(value: &Value, lay: &mut Lay, sump: &str) {
+    for (id, seal) in section(value, "seals").filter(|(_, seal)| loses(seal)) {
+        if let Some(node) = text(seal, "shaft").and_then(|shaft| lay.of_member(shaft)) {
+            lay.part(&node, &format!("seals.{id}"));
+            lay.oil_of(sump, &format!("seals.{id}"));
+        }
+    }
+}
