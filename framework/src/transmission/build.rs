@@ -20,7 +20,7 @@ use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{Build, Common, Files, ModelRef, NamedSlots};
-use crate::resolve::Resolved;
+use crate::resolve::{Came, Resolved};
 use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
 
@@ -88,6 +88,10 @@ impl Transmission {
         if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
             let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
             unmet(written, &paths, &mut found);
+            let laid_out = *resolved.came("thermal.network") == Came::Network;
+            if entry.thermal.mode == ThermalMode::Network {
+                unused(&entry, laid_out, &mut found, &mut warnings);
+            }
         } else if entry.thermal.mode == ThermalMode::Network {
             found.push(
                 Diagnostic::error("thermal.mode", "no network is described")
@@ -179,6 +183,29 @@ impl Transmission {
             found.extend(self.case(&state.name, &[], &order).err().into_iter().flatten());
         }
         if found.is_empty() { Ok(()) } else { Err(found) }
+    }
+}
+
+/// What a balance of the oil would use, and a network does not.
+fn unused(entry: &GearboxEntry, laid_out: bool, found: &mut Vec<Diagnostic>, warnings: &mut Vec<Diagnostic>) {
+    let thermal = &entry.thermal;
+    if !laid_out && !thermal.sources.is_empty() {
+        found.push(
+            Diagnostic::error("thermal.sources", "a network does not know where this heat comes in")
+                .mend("write it under `thermal.network.sources`, with the node that it warms"),
+        );
+    }
+    if thermal.oil_to_surface != 0.0 {
+        warnings.push(
+            Diagnostic::warning("thermal.oil_to_surface", "a network has links in its place")
+                .mend("link the oil to the casing, and leave it out"),
+        );
+    }
+    if thermal.heat_dissipation.as_ref().is_some_and(|ways| !ways.0.is_empty()) {
+        warnings.push(
+            Diagnostic::warning("thermal.heat_dissipation", "a network has links in its place")
+                .mend("link the casing to `ambient`, by `casing_air` say, and leave it out"),
+        );
     }
 }
 

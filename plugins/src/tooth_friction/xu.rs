@@ -222,7 +222,6 @@ mod tests {
             beta: 0.03,
             conductivity: 0.135,
             x_l: 1.0,
-            bodies: None,
             mean: &MeanFrictionAt::usual(&part, Notes::MUTED),
             notes: Notes::MUTED,
         };

@@ -1,0 +1,109 @@
+//! A WLTC of 1800 seconds through the electric drive unit: friction of both meshes settled at every second, and looked up in tables;
+//! seventeen temperatures, losses and temperatures in agreement at the end of every second. One thread.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::path::Path;
+
+use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use gearloss_framework::analysis::{OilTemperature, Ride, drive};
+use gearloss_framework::duty::{CycleEntry, Interval, ShippedCycleEntry, Vehicle, VehicleEntry};
+use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
+use gearloss_framework::registry::Registry;
+use gearloss_framework::resolve::{Choice, lookup};
+use gearloss_framework::thermal::network::{Scheme, StepSize};
+use gearloss_framework::transmission::Transmission;
+use gearloss_plugins as _;
+use serde_json::json;
+
+/// Loss over the whole cycle. \[J\]
+fn wltc(t: &Transmission, vehicle: &Vehicle, intervals: &[Interval], scheme: Scheme) -> f64 {
+    let ride = Ride {
+        intervals,
+        port: "input",
+        vehicle: Some(vehicle),
+        gear: &t.states()[0].name,
+        oil: OilTemperature::Network,
+        spectrum: false,
+        start: Some(23.0),
+        ambient: Some(23.0),
+        scheme,
+        step: StepSize::Fixed(1.0),
+        flow: PowerFlow::Real,
+    };
+    let driven = drive(t, &ride, &|_| true).unwrap().unwrap();
+    driven.total.parts.iter().sum()
+}
+
+fn cycle(c: &mut Criterion) {
+    let language = Language::new(Registry::linked().unwrap()).unwrap();
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/electric-drive-unit/gearbox.yaml");
+    let gearbox = Gearbox::read(&language, &file).unwrap_or_else(|f| panic!("{}", f.render()));
+    let own = gearbox.resolve(&language, &Choice::default()).unwrap();
+    let table = |mesh: &str, torques: [&str; 2]| {
+        let model = lookup(&own.value, &format!("meshes.{mesh}.model")).unwrap();
+        // The law as written in the gearbox; resolved values are SI.
+        assert_eq!(model["type"], "path_integral");
+        let law = json!({ "type": "ehl_mixed" });
+        let of = json!({ "type": "path_integral", "load_sharing": "ramp", "tooth_friction": law });
+        (
+            format!("meshes.{mesh}.model"),
+            json!({ "type": "tabulated", "of": of, "torques": torques }),
+        )
+    };
+    let tabulated = Choice {
+        overrides: vec![table("M1", ["0.3 Nm", "350 Nm"]), table("M2", ["0.8 Nm", "950 Nm"])],
+        ..Choice::default()
+    };
+    let build = |choice: &Choice| {
+        gearbox
+            .transmission(&language, choice)
+            .unwrap_or_else(|f| panic!("{}", f.render()))
+    };
+    let (full, fast) = (build(&Choice::default()), build(&tabulated));
+    let vehicle: VehicleEntry = serde_json::from_value(json!({
+        "mass": 1928.0, "coast_down": { "a": 165.34, "b": 0.46767, "c": 0.32052 }, "tyre_radius": 0.3357,
+        "rotating_mass_factor": 1.04, "regeneration": { "torque": 350.0, "power": 190e3, "fade_speed": 2.0 },
+    }))
+    .unwrap();
+    let vehicle = vehicle.vehicle("vehicles.car").unwrap();
+    let entry = CycleEntry::Shipped(ShippedCycleEntry {
+        shipped: "wltc_class3b".to_owned(),
+        repeat: 1,
+        start: None,
+        end: None,
+    });
+    let duty = entry.read(language.registry(), |_| Err(String::new())).unwrap();
+    let intervals = duty.intervals(Some(&vehicle)).unwrap();
+    let run = |t: &Transmission, scheme| wltc(t, &vehicle, &intervals, scheme);
+    let (exact, looked_up) = (run(&full, Scheme::Implicit), run(&fast, Scheme::Implicit));
+    eprintln!(
+        "loss of the cycle: {exact:.0} J, by tables {:+.3} %",
+        100.0 * (looked_up / exact - 1.0)
+    );
+    c.bench_function("WLTC, friction settled", |b| b.iter(|| run(&full, Scheme::Implicit)));
+    c.bench_function("WLTC, friction settled, lagged", |b| {
+        b.iter(|| run(&full, Scheme::Lagged))
+    });
+    c.bench_function("WLTC, friction from tables", |b| {
+        b.iter(|| run(&fast, Scheme::Implicit))
+    });
+    c.bench_function("WLTC, friction from tables, lagged", |b| {
+        b.iter(|| run(&fast, Scheme::Lagged))
+    });
+    c.bench_function("WLTC, friction from tables, with building them", |b| {
+        b.iter_batched(
+            || build(&tabulated),
+            |t| run(&t, Scheme::Implicit),
+            BatchSize::PerIteration,
+        );
+    });
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(10);
+    targets = cycle
+}
+criterion_main!(benches);
