@@ -146,7 +146,7 @@ impl Transmission {
         s.cells.fill(Extent::EMPTY);
         s.idle_drags.fill(0.0);
         s.passes = 0;
-        s.asked.set(0);
+        s.called += s.asked.replace(0);
         s.loads.fill(SupportLoad::default());
         let standing = s.speeds.iter().all(|w| *w == 0.0);
 

@@ -294,7 +294,10 @@ pub fn because(transmission: &Transmission, why: &Unbalanced) -> String {
             let path = transmission.network().and_then(|n| n.links().nth(*link));
             format!("{}: {reason}", path.map_or("a link", |(path, _)| path))
         }
-        Unbalanced::Flow => "the transmission locks itself, or loads, losses and temperatures do not agree".to_owned(),
+        Unbalanced::Flow => "the transmission locks itself, or loads and losses do not agree".to_owned(),
+        Unbalanced::Network => {
+            "the temperatures of the network do not settle, or a node hangs on nothing while its oil stands".to_owned()
+        }
     }
 }
 

@@ -139,6 +139,8 @@ struct Asked {
     speed: f64,
     /// Power that the brakes and the transmission take together, while braking. \[W\]
     braking: f64,
+    /// Power that the brakes take, where it is known beforehand. \[W\]
+    brakes: Option<f64>,
 }
 
 /// Drives a duty. `progress` hears of each interval; where it answers false the work is broken off, and there is no result.
@@ -151,10 +153,8 @@ pub fn drive(
     progress: &dyn Fn(usize) -> bool,
 ) -> Result<Option<Driven>, Vec<Diagnostic>> {
     let reference = transmission.reference_port();
-    let wheels = match ride.vehicle {
-        Some(_) => Some(wheels(transmission)?),
-        None => None,
-    };
+    let on_wheels = ride.intervals.iter().any(|i| matches!(i.demand, Demand::Wheel { .. }));
+    let wheels = if on_wheels { Some(wheels(transmission)?) } else { None };
     let mut cases = Cases {
         transmission,
         ride,
@@ -215,10 +215,10 @@ pub fn drive(
                 break;
             }
         };
-        driven.calls += scratch.calls();
         let member = |port: usize| transmission.ports()[port].member;
-        let brakes = match wheels {
-            Some(wheels) if asked.braking > 0.0 => {
+        let brakes = match (asked.brakes, wheels) {
+            (Some(watts), _) => watts * interval.duration,
+            (None, Some(wheels)) if asked.braking > 0.0 => {
                 let taken = scratch.port_torque(member(wheels)) * scratch.speeds()[member(wheels)];
                 (asked.braking - taken).max(0.0) * interval.duration
             }
@@ -245,6 +245,7 @@ pub fn drive(
         driven.start.clone_from(&first.temperatures);
     }
     for (.., scratch) in &cases.known {
+        driven.calls += scratch.all_calls();
         super::merge(&mut driven.seen, &scratch.totals);
     }
     Ok(Some(driven))
@@ -295,6 +296,7 @@ fn ask(
                     torque: 0.0,
                     speed: 0.0,
                     braking: 0.0,
+                    brakes: None,
                 });
             };
             let ratio = cases.ratio(gear)?;
@@ -308,12 +310,19 @@ fn ask(
                     torque,
                     speed: wheel_speed,
                     braking,
+                    brakes: None,
                 })
             };
             let regained = |torque: f64| vehicle.regained(torque, input_speed, around.vehicle_speed);
             if let Some(efficiency) = vehicle.efficiency {
-                let torque = input_torque(torque, ratio.abs(), efficiency);
-                return at_input(cases, regained(torque));
+                let wanted = input_torque(torque, ratio.abs(), efficiency);
+                let taken = regained(wanted);
+                // Brakes take what the input does not give back, as the efficiency has it at the wheels.
+                let brakes = Some((taken - wanted).max(0.0) * input_speed / efficiency);
+                return Ok(Asked {
+                    brakes,
+                    ..at_input(cases, taken)?
+                });
             }
             let place = cases.place(gear, At::Wheels)?;
             let at_wheels = Asked {
@@ -321,14 +330,12 @@ fn ask(
                 torque: -torque * ratio.signum(),
                 speed: wheel_speed,
                 braking,
+                brakes: None,
             };
             let ideal = torque / ratio.abs();
             // Losses take from what comes back, so what the limit leaves without them it leaves with them.
             if regained(ideal) <= ideal {
                 return Ok(at_wheels);
-            }
-            if regained(ideal) == 0.0 {
-                return at_input(cases, 0.0);
             }
             let (_, case, scratch) = &mut cases.known[place];
             let point = Point {
@@ -337,7 +344,8 @@ fn ask(
                 flow: ride.flow,
                 tolerance: Tolerance::default(),
             };
-            let oil = [ride.oil.given().unwrap_or_default()];
+            let given = interval.given.oil_temperature.or(ride.oil.given());
+            let oil = [given.unwrap_or(cases.transmission.oil_temperature)];
             driven.evaluations += 1;
             let t = cases.transmission;
             let tried = t.try_point(
@@ -347,7 +355,6 @@ fn ask(
                 scratch,
                 crate::evaluate::Noting::Muted,
             );
-            driven.calls += scratch.calls();
             let own = scratch.port_torque(t.ports()[t.reference_port()].member);
             // Where losses have no value the point itself will say so.
             return if tried.is_err() || regained(own) <= own {
@@ -362,6 +369,7 @@ fn ask(
         torque,
         speed,
         braking: 0.0,
+        brakes: None,
     })
 }
 

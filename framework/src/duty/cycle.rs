@@ -152,6 +152,18 @@ impl CycleEntry {
         }
     }
 
+    /// What a reader has to know of the file; absent where nothing is said.
+    pub fn about(&self) -> Option<&str> {
+        match self {
+            Self::Shipped(_) => None,
+            Self::File(entry) => entry.about.as_deref(),
+            Self::Spectrum(entry) => match &entry.spectrum {
+                Spectrum::Loads(_) => None,
+                Spectrum::File(file) => file.about.as_deref(),
+            },
+        }
+    }
+
     /// Port that recorded torques and speeds belong to; absent for a shipped cycle, which knows none.
     pub fn port(&self) -> Option<&str> {
         match self {

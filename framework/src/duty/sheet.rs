@@ -136,6 +136,19 @@ impl Sheet {
         Ok(number)
     }
 
+    /// As [`Sheet::number`], refused where no oil, coolant or air is so cold or so warm. \[degC\]
+    pub fn temperature(&self, row: usize, wanted: usize) -> Result<Option<f64>, String> {
+        let number = self.number(row, wanted)?;
+        if number.is_some_and(|t| !(-60.0..=250.0).contains(&t)) {
+            return Err(format!(
+                "{}: `{}` lies outside of -60 to 250 degC",
+                self.at(row, wanted),
+                self.text(row, wanted).unwrap_or_default()
+            ));
+        }
+        Ok(number)
+    }
+
     /// A text of a row; absent where the file has no such column, or the cell is empty.
     pub fn text(&self, row: usize, wanted: usize) -> Option<&str> {
         let column = self.columns[wanted].as_ref()?;

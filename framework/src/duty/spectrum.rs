@@ -94,7 +94,7 @@ impl SpectrumFile {
                 speed: sheet.number(row, 1)?.unwrap_or(0.0),
                 share: sheet.not_negative(row, 2)?,
                 time: sheet.not_negative(row, 3)?,
-                oil_temperature: sheet.number(row, 4)?,
+                oil_temperature: sheet.temperature(row, 4)?,
             })
         };
         let mut faulty = Vec::new();

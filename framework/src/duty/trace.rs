@@ -228,10 +228,10 @@ fn sample(sheet: &Sheet, row: usize, nodes: usize) -> Result<Sample, String> {
         given: Given {
             vehicle_speed: sheet.not_negative(row, VEHICLE_SPEED)?,
             oil_flow: sheet.not_negative(row, OIL_FLOW)?,
-            oil_temperature: sheet.number(row, OIL_TEMPERATURE)?,
+            oil_temperature: sheet.temperature(row, OIL_TEMPERATURE)?,
             coolant_flow: sheet.not_negative(row, COOLANT_FLOW)?,
-            coolant_temperature: sheet.number(row, COOLANT_TEMPERATURE)?,
-            ambient: sheet.number(row, AMBIENT)?,
+            coolant_temperature: sheet.temperature(row, COOLANT_TEMPERATURE)?,
+            ambient: sheet.temperature(row, AMBIENT)?,
             gear: sheet.text(row, GEAR).map(str::to_owned),
         },
         temperatures: (QUANTITIES.len()..QUANTITIES.len() + nodes)

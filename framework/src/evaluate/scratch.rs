@@ -47,6 +47,8 @@ pub struct Scratch {
     pub(super) passes: usize,
     /// Loss models asked for the point.
     pub(super) asked: Cell<usize>,
+    /// Loss models asked for the points before.
+    pub(super) called: usize,
     /// What was seen of every limit and observed quantity since the scratch was made, one count for each point.
     pub totals: Vec<Extent>,
 }
@@ -60,6 +62,16 @@ impl Scratch {
     /// Losses of all parts at the point that was evaluated last, in their order; zero where undefined. \[W\]
     pub(crate) fn watts(&self) -> &[f64] {
         &self.watts
+    }
+
+    /// Speeds of the members there (rad/s), and where laws of heat note what they see.
+    pub(crate) fn speeds_and_cells(&mut self) -> (&[f64], &[Cell<Extent>]) {
+        (&self.speeds, Cell::from_mut(&mut self.cells[..]).as_slice_of_cells())
+    }
+
+    /// Calls of loss models for all points so far.
+    pub(crate) fn all_calls(&self) -> usize {
+        self.called + self.asked.get()
     }
 
     /// Speeds of the members there. \[rad/s\]
@@ -145,6 +157,7 @@ impl Scratch {
             status: Status::Standstill,
             passes: 0,
             asked: Cell::new(0),
+            called: 0,
             totals: vec![Extent::EMPTY; transmission.cells],
         }
     }

@@ -29,9 +29,8 @@ pub struct DriveEntry {
     /// Temperature of the surroundings where a duty tells none; absent, that of the gearbox. [degC]
     #[schemars(range(min = -60.0, max = 120.0))]
     pub ambient: Option<f64>,
-    /// Whether the losses of a step in time are those of its end or of its beginning.
-    #[serde(default)]
-    pub scheme: Scheme,
+    /// Whether the losses of a step in time are those of its end or of its beginning; absent, of its end.
+    pub scheme: Option<Scheme>,
     /// Longest step in time; absent, the intervals of the duty. Not with `tolerance`. [s]
     #[schemars(range(min = 1e-3, max = 1e6))]
     pub step: Option<f64>,
@@ -72,7 +71,7 @@ fn samples() -> u32 {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ReferenceLoss {
     /// Mean loss of the transmission over the whole duty. [W]
-    #[schemars(range(min = 0.0, max = 1e9))]
+    #[schemars(range(min = 1e-6, max = 1e9))]
     pub loss: f64,
     /// Where it comes from.
     pub source: Option<String>,

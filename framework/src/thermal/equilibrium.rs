@@ -17,8 +17,10 @@ pub enum Unbalanced {
     Way(usize, Undefined),
     /// The law of a link of the thermal network, by number, is undefined.
     Link(usize, Undefined),
-    /// The transmission locks itself, or losses, loads and temperatures do not agree.
+    /// The transmission locks itself, or losses and loads do not agree.
     Flow,
+    /// The temperatures of the thermal network do not settle, or a node hangs on nothing while its oil stands.
+    Network,
 }
 
 /// The temperature of an operating point with the balance behind it.

@@ -54,6 +54,20 @@ impl Transmission {
         for mesh in &mut mesh_models {
             let gears = mesh.seat.gears.map(|g| gears[g].id.as_str());
             mesh.bodies = nodes.bodies(&mesh.seat.path, gears);
+            let known = gears.map(|gear| nodes.of_gear(gear).is_some());
+            if let Some(i) = known.iter().position(|known| *known).filter(|_| known[0] != known[1]) {
+                warnings.push(
+                    Diagnostic::warning(
+                        mesh.seat.path.clone(),
+                        format!(
+                            "`{}` has a thermal node and `{}` has none, so that neither counts",
+                            gears[i],
+                            gears[1 - i]
+                        ),
+                    )
+                    .mend("name both gears under `gears` of a node, or the mesh under `parts`"),
+                );
+            }
         }
         let held = planets::models(&entry, &members, &gears, &meshes, &mut oils, &mut build, &mut found);
         let mut covered = Vec::new();
@@ -130,6 +144,7 @@ impl Transmission {
             let order = |path: &str| document_order(resolved, path);
             parts.sort_by_key(|p| order(&p.path));
             if let Some(network) = &mut network {
+                warnings.extend(network.warnings());
                 let heat = |part: &PartInfo| match part.kind {
                     PartKind::Mesh(i) => mesh_models[i].bodies.map(HeatPath::Gears),
                     _ => None,

@@ -54,8 +54,19 @@ impl NodeNames {
                     .mend("give the node another name"),
                 );
             }
+            let before = names.gears.len();
             names.add(i + 1, node);
             for gear in &node.gears {
+                if let Some((_, first)) = names.gears[..before].iter().find(|(known, _)| known == gear) {
+                    let first = names.names[*first].clone();
+                    found.push(
+                        Diagnostic::error(
+                            format!("{path}.gears"),
+                            format!("`{gear}` belongs to `{first}` already"),
+                        )
+                        .mend("name each gear at one node"),
+                    );
+                }
                 if entry.gears.get(gear).is_none() {
                     let ids: Vec<&str> = entry.gears.ids().collect();
                     found.push(dangling(&format!("{path}.gears"), "gear", gear, &ids));

@@ -2,7 +2,7 @@
 
 use gearloss_framework::analysis::{Driven, OilTemperature, Ride, drive};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::duty::{Duty, Interval, Vehicle};
+use gearloss_framework::duty::{Demand, Duty, Interval, Vehicle};
 use gearloss_framework::study::{Conditions, DriveEntry};
 use gearloss_framework::thermal::network::StepSize;
 use gearloss_framework::transmission::Transmission;
@@ -20,7 +20,9 @@ pub struct Read {
     /// Its intervals.
     pub intervals: Vec<Interval>,
     /// Port of recorded torques.
-    port: String,
+    port: Option<String>,
+    /// What a reader has to know of its file.
+    pub about: Option<String>,
 }
 
 /// Duties of an analysis, with how they are driven. It can be shared among threads.
@@ -76,7 +78,8 @@ impl<'a> Duties<'a> {
                     name: name.clone(),
                     duty,
                     intervals,
-                    port: cycle.port().unwrap_or("input").to_owned(),
+                    port: cycle.port().map(str::to_owned),
+                    about: cycle.about().map(str::to_owned),
                 }),
                 Err(fault) => found.push(Diagnostic::error(&at, fault.message).mend(fault.mend)),
             }
@@ -109,13 +112,26 @@ impl<'a> Duties<'a> {
             let mend = "write `thermal: { mode: network, network: auto }` in the gearbox, or `conditions: { oil_temperature: ... }`";
             return Err(runner.wrong(path, message, mend));
         }
-        if oil.given().is_some() && self.entry.start.is_some() {
-            let message = "the temperature of the oil is given, so nothing starts at another one";
-            return Err(runner.wrong(
-                &format!("{path}.start"),
-                message,
-                "leave it out, or let the gearbox have a thermal network",
-            ));
+        // Keys that need temperatures that go on, or that follow.
+        let goes_on = oil == OilTemperature::Network && in_time.is_some();
+        let unused = [
+            ("start", self.entry.start.is_some() && !goes_on),
+            ("step", self.entry.step.is_some() && !goes_on),
+            ("tolerance", self.entry.tolerance.is_some() && !goes_on),
+            ("scheme", self.entry.scheme.is_some() && !goes_on),
+            (
+                "ambient",
+                self.entry.ambient.is_some() && oil != OilTemperature::Network,
+            ),
+        ];
+        if let Some((key, _)) = unused.iter().find(|(_, unused)| *unused) {
+            let message = match oil {
+                OilTemperature::Network => "loads without an order in time have no temperatures that go on",
+                OilTemperature::Fixed(_) => "the temperature of the oil is given, so that nothing follows from it",
+                OilTemperature::Balance => "the balance of the gearbox has surroundings of its own",
+            };
+            let mend = "leave it out, or let the gearbox have a thermal network";
+            return Err(runner.wrong(&format!("{path}.{key}"), message, mend));
         }
         let told = |read: &&Read| read.intervals.iter().any(|i| i.given.oil_temperature.is_some());
         if let (OilTemperature::Network, Some(read)) = (oil, self.list.iter().find(told)) {
@@ -148,17 +164,23 @@ impl<'a> Duties<'a> {
         read: &Read,
         progress: &dyn Fn(usize) -> bool,
     ) -> Result<Option<Driven>, Vec<Diagnostic>> {
+        let of_port = read.intervals.iter().any(|i| matches!(i.demand, Demand::Port { .. }));
         let longest = read.intervals.iter().map(|i| i.duration).fold(0.0, f64::max);
         let ride = Ride {
             intervals: &read.intervals,
-            port: &read.port,
+            // What tells no torque belongs to no port, and rests at the reference port.
+            port: read
+                .port
+                .as_deref()
+                .filter(|_| of_port)
+                .unwrap_or(&t.ports()[t.reference_port()].name),
             vehicle: self.vehicle.as_ref(),
             gear: gear_of(self.entry.gear.as_deref(), t),
             oil: OilTemperature::of(t, self.conditions.oil_temperature),
             spectrum: matches!(read.duty, Duty::Spectrum(_)),
             start: self.entry.start,
             ambient: self.entry.ambient,
-            scheme: self.entry.scheme,
+            scheme: self.entry.scheme.unwrap_or_default(),
             step: match self.entry.tolerance {
                 Some(tolerance) => StepSize::Adaptive(tolerance),
                 None => StepSize::Fixed(self.entry.step.unwrap_or(longest)),
@@ -173,6 +195,7 @@ impl<'a> Duties<'a> {
 pub fn nodes(t: &Transmission, driven: &Driven) -> Vec<String> {
     match t.network().filter(|n| n.names().len() == driven.start.len()) {
         Some(network) => network.names().to_vec(),
-        None => vec!["oil".to_owned()],
+        // A duty that could not even begin has no temperature.
+        None => vec!["oil".to_owned(); driven.start.len()],
     }
 }

@@ -210,11 +210,12 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &FluidSweepEntry, out: &mut O
     }
     let duties = Duties::new(runner, &path, &entry.drive)?;
     let mut all = Vec::new();
-    for b in runner.built(gearbox, &entry.drive.model_sets)? {
+    let built = runner.built(gearbox, &entry.drive.model_sets)?;
+    let names = together(built.iter().map(|b| &b.transmission), entry.by);
+    for b in built {
         duties.check(runner, &path, &b)?;
-        all.push(sweep(runner, &path, entry, b, &duties, out)?);
+        all.push(sweep(runner, &path, entry, b, (&duties, &names), out)?);
     }
-    let names = together(all.iter().map(|s| &s.built.transmission), entry.by);
     for s in &all {
         show::show(name, s, &duties, out)?;
     }
@@ -258,16 +259,15 @@ fn sweep<'a>(
     path: &str,
     entry: &FluidSweepEntry,
     built: Built<'a>,
-    duties: &Duties<'_>,
+    (duties, names): (&Duties<'_>, &[String]),
     out: &mut Out,
 ) -> Result<Sweep<'a>, Failure> {
     let swept = Swept::new(runner, path, entry, &built)?;
     let values = swept.values(runner, path, entry)?;
-    let names = together(std::iter::once(&built.transmission), entry.by);
     let trial = Trial::new(runner, &built);
     let drive = |value: f64, refined: bool| -> Result<(Fluid, Left), String> {
         let t = trial.build(swept.overrides(value)?)?;
-        let shares = Shares::of(&t, entry.by).under(&names);
+        let shares = Shares::of(&t, entry.by).under(names);
         let mut losses = Vec::new();
         let mut seen = Left::new();
         for read in &duties.list {

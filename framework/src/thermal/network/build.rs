@@ -81,6 +81,8 @@ struct Exchanger {
 /// An electric motor at a port.
 struct Motor {
     path: String,
+    /// What was noted while its map was read.
+    notes: Vec<String>,
     map: MotorMap,
     rotor_share: RotorShare,
     member: usize,
@@ -303,7 +305,17 @@ impl Network {
     pub fn exchangers(&self) -> impl ExactSizeIterator<Item = &str> {
         self.exchangers.iter().map(|e| e.path.as_str())
     }
-    /// Paths of the motors, and whether the loss of each is known at any temperature.
+    /// What is worth knowing of the maps of motors.
+    pub(crate) fn warnings(&self) -> impl Iterator<Item = Diagnostic> {
+        let motors = self.motors.iter();
+        motors.flat_map(|m| {
+            let path = format!("{}.map", m.path);
+            m.notes
+                .iter()
+                .map(move |note| Diagnostic::warning(path.clone(), note.clone()))
+        })
+    }
+    /// Paths of the motors.
     pub fn motors(&self) -> impl ExactSizeIterator<Item = &str> {
         self.motors.iter().map(|m| m.path.as_str())
     }
@@ -339,9 +351,8 @@ impl Network {
     pub(crate) fn circuit(
         &self,
         temperatures: &[f64],
-        speeds: &[f64],
+        (speeds, cells): (&[f64], &[Cell<Extent>]),
         around: &Surroundings,
-        cells: Option<&[Cell<Extent>]>,
         circuit: &mut Circuit,
     ) -> Result<(), (usize, Undefined)> {
         circuit.capacities.clone_from(&self.capacities);
@@ -395,7 +406,7 @@ impl Lawful {
         speeds: &[f64],
         vehicle_speed: f64,
         oil_flow: f64,
-        cells: Option<&[Cell<Extent>]>,
+        cells: &[Cell<Extent>],
     ) -> Result<f64, Undefined> {
         let oil = self.lubricant.at(0.5 * (first + second));
         let at = HeatLinkAt {
@@ -410,7 +421,7 @@ impl Lawful {
             heat_capacity: self.lubricant.heat_capacity(oil.temperature),
             conductivity: oil.conductivity,
             oil_flow,
-            notes: cells.map_or(Notes::MUTED, |cells| Notes::new(cells, self.model.notes)),
+            notes: Notes::new(cells, self.model.notes),
         };
         let conductance = self.model.conductance(&at)?;
         if conductance.is_finite() && conductance >= 0.0 {
@@ -597,9 +608,11 @@ fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Di
             }
         },
     };
+    let map = map?;
     Some(Motor {
         path: path.to_owned(),
-        map: map?,
+        notes: map.notes.clone(),
+        map,
         rotor_share: entry.rotor_share.clone(),
         member: port?.member,
         rotor: rotor?,
@@ -619,6 +632,14 @@ fn exchanger(
     let oil = rate(path, entry.capacity, None, network, found);
     if from.is_some() && from == to {
         found.push(same(path));
+    }
+    if network
+        .nodes
+        .get(&entry.to)
+        .is_some_and(|node| node.temperature.is_some())
+    {
+        let message = format!("`{}` is held at a temperature, and the exchanger decides it", entry.to);
+        found.push(Diagnostic::error(format!("{path}.to"), message).mend("leave the `temperature` of the node out"));
     }
     Some(Exchanger {
         path: path.to_owned(),

@@ -54,7 +54,7 @@ pub struct Circuit {
 /// Where heat leaves a circuit. \[W\]
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Leaving {
-    /// Through links into held nodes: one for each node, zero for those that are free.
+    /// Into held nodes, through links and by what arises there: one for each node, zero for those that are free.
     pub held: Vec<f64>,
     /// Through each heat exchanger.
     pub exchangers: Vec<f64>,
@@ -116,6 +116,14 @@ impl Circuit {
                 right[i] += held_back * before[i];
             }
         }
+        // Oil that stands is as warm as that from which it came, where nothing else warms or cools it.
+        let ways = self.flows.iter().map(|(ends, _)| *ends);
+        for [from, to] in ways.chain(self.exchangers.iter().map(|e| [e.from, e.to])) {
+            if k[(to, to)] == 0.0 && heat[to] == 0.0 {
+                k[(to, to)] = 1.0;
+                k[(to, from)] = -1.0;
+            }
+        }
         for (i, held) in self.held.iter().enumerate() {
             if let Some(temperature) = held {
                 k.row_mut(i).fill(0.0);
@@ -127,14 +135,19 @@ impl Circuit {
         solved.iter().all(|t| t.is_finite()).then(|| solved.as_slice().to_vec())
     }
 
-    /// Where heat leaves at given temperatures.
-    pub fn leaving(&self, temperatures: &[f64]) -> Leaving {
+    /// Where heat leaves at given temperatures, under heat (W) at each node: what arises in a held node leaves by it.
+    pub fn leaving(&self, temperatures: &[f64], heat: &[f64]) -> Leaving {
         let mut leaving = Leaving {
-            held: vec![0.0; self.len()],
+            held: heat.to_vec(),
             exchangers: Vec::with_capacity(self.exchangers.len()),
             flows: 0.0,
         };
         let is_held = |i: usize| self.held[i].is_some();
+        for (i, held) in leaving.held.iter_mut().enumerate() {
+            if !is_held(i) {
+                *held = 0.0;
+            }
+        }
         for ([a, b], g) in &self.links {
             for (own, other) in [(*a, *b), (*b, *a)] {
                 if is_held(own) && !is_held(other) {
@@ -228,7 +241,7 @@ pub(super) mod tests {
         let t = open.solve(&[0.0, 1500.0, 300.0], None).unwrap();
         assert!((t[1] - 57.53659).abs() < 5e-6);
         close(t[2], 59.0);
-        close(open.leaving(&t).total(), 1800.0);
+        close(open.leaving(&t, &[0.0, 1500.0, 300.0]).total(), 1800.0);
     }
 
     /// The drive unit of seventeen nodes, counted from one as in its publication; node 0 is nothing.
@@ -365,12 +378,12 @@ pub(super) mod tests {
                 );
             }
         }
-        let leaving = circuit.leaving(&t);
+        let leaving = circuit.leaving(&t, &heat);
         assert!((leaving.held[1] - 297.380).abs() < 1e-3 && (leaving.exchangers[0] - 768.515).abs() < 1e-3);
         // At rest all that comes in leaves, and both schemes agree.
         let rest = circuit.solve(&heat, None).unwrap();
         let all: f64 = heat.iter().sum();
-        assert!((circuit.leaving(&rest).total() - all).abs() < 1e-9 * all);
+        assert!((circuit.leaving(&rest, &heat).total() - all).abs() < 1e-9 * all);
         assert!(rest.iter().zip(&t).all(|(a, b)| (a - b).abs() < 0.02), "{rest:?} {t:?}");
     }
 
@@ -382,10 +395,26 @@ pub(super) mod tests {
         for duration in [0.01, 1.0, 1000.0] {
             let after = circuit.solve(&heat, Some((duration, &t))).unwrap();
             let came: f64 = heat.iter().sum::<f64>() * duration;
-            let went = circuit.stored(&t, &after) + circuit.leaving(&after).total() * duration;
+            let went = circuit.stored(&t, &after) + circuit.leaving(&after, &heat).total() * duration;
             assert!((came - went).abs() < 1e-9 * came, "{duration}: {came} {went}");
             t = after;
         }
+    }
+
+    #[test]
+    fn oil_that_stands_keeps_the_temperature_of_its_source_and_heat_of_held_nodes_leaves() {
+        let (mut circuit, mut heat) = drive_unit();
+        for (_, flow) in &mut circuit.flows {
+            *flow = 0.0;
+        }
+        (circuit.exchangers[0].oil, circuit.exchangers[0].transfer) = (0.0, 0.0);
+        circuit.held[14] = Some(60.0);
+        heat[1] = 7.0;
+        let t = circuit.solve(&heat, Some((1.0, &[23.0; 18]))).unwrap();
+        assert_eq!(t[17], 60.0);
+        let came: f64 = heat.iter().sum();
+        let went = circuit.stored(&[23.0; 18], &t) + circuit.leaving(&t, &heat).total();
+        assert!((came - went).abs() < 1e-9 * came, "{came} {went}");
     }
 
     #[test]

@@ -55,14 +55,14 @@ impl Heats {
     pub(super) fn combine(&mut self, own: f64, more: &Self, share: f64) {
         let one = |sum: &mut f64, x: f64| *sum = own * *sum + share * x;
         let each = |sums: &mut Vec<f64>, more: &[f64]| {
-            sums.resize(more.len(), 0.0);
+            sums.resize(sums.len().max(more.len()), 0.0);
             sums.iter_mut().zip(more).for_each(|(sum, x)| one(sum, *x));
         };
         one(&mut self.duration, more.duration);
         each(&mut self.parts, &more.parts);
         each(&mut self.held, &more.held);
         each(&mut self.exchangers, &more.exchangers);
-        self.motors.resize(more.motors.len(), [0.0; 2]);
+        self.motors.resize(self.motors.len().max(more.motors.len()), [0.0; 2]);
         for (sum, x) in self.motors.iter_mut().zip(&more.motors) {
             one(&mut sum[0], x[0]);
             one(&mut sum[1], x[1]);
@@ -142,7 +142,12 @@ impl Transmission {
             warm.sources += watts;
         }
         network
-            .circuit(temperatures, scratch.speeds(), moment.around, None, &mut warm.circuit)
+            .circuit(
+                temperatures,
+                scratch.speeds_and_cells(),
+                moment.around,
+                &mut warm.circuit,
+            )
             .map_err(|(link, reason)| Unbalanced::Link(link, reason))
     }
 }

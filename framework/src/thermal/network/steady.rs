@@ -18,6 +18,8 @@ const SETTLED: f64 = 1e-8;
 const MOST: usize = 200;
 /// How many changes are remembered.
 const REMEMBERED: usize = 4;
+/// Passes beyond the range after which nothing is expected to come back.
+const TOO_HOT: usize = 5;
 /// Range in which losses are asked. \[degC\]
 const ASKED: [f64; 2] = [-60.0, 250.0];
 /// How much warmer than the surroundings the search begins. \[K\]
@@ -66,10 +68,11 @@ impl Transmission {
             undefined: None,
         };
         let mut memory = Memory::default();
+        let mut hot = 0;
         while steady.evaluations < MOST {
             steady.evaluations += 1;
             let asked = self.warm(network, moment, &guess, scratch, &mut warm);
-            let after = asked.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Flow));
+            let after = asked.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Network));
             let after = match after {
                 Ok(after) => after,
                 Err(reason) => {
@@ -80,13 +83,12 @@ impl Transmission {
                 }
             };
             if farthest(&after, &guess) <= SETTLED {
-                let hottest = after.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                steady.outcome = if hottest > self.housing().maximum.max(ASKED[1]) {
+                steady.outcome = if after[network.oil()] > self.housing().maximum {
                     Outcome::NoneBelowMaximum
                 } else {
                     Outcome::Converged
                 };
-                steady.leaving = warm.circuit.leaving(&after);
+                steady.leaving = warm.circuit.leaving(&after, &warm.heat);
                 steady.residual = warm.heat.iter().sum::<f64>() - steady.leaving.total();
                 steady.heat = warm.heat;
                 steady.motors = warm.motors;
@@ -95,7 +97,14 @@ impl Transmission {
                 scratch.count_seen();
                 return Some(steady);
             }
-            if after.iter().all(|t| *t >= ASKED[1]) {
+            // Asked no warmer, a node would be warmer still: there is no rest in the range.
+            let beyond = |(guess, after): (&f64, &f64)| *guess >= ASKED[1] && *after > ASKED[1];
+            hot = if guess.iter().zip(&after).any(beyond) {
+                hot + 1
+            } else {
+                0
+            };
+            if hot == TOO_HOT {
                 steady.outcome = Outcome::NoneBelowMaximum;
                 steady.temperatures = after;
                 return Some(steady);

@@ -87,6 +87,7 @@ impl Stepping {
         };
         let least = (most * SHORTEST).min(SHORT);
         while left > 1e-9 * duration {
+            let cut = left < length;
             length = length.min(left);
             match self.tried(heated, now, length) {
                 Ok((after, more, error)) => {
@@ -104,11 +105,16 @@ impl Stepping {
                         heats.add(&more);
                         left -= length;
                         *now = after;
-                        self.next = length * factor;
+                        // What is left of an interval says nothing of the next one's steps.
+                        self.next = if cut {
+                            self.next.max(length * factor)
+                        } else {
+                            length * factor
+                        };
                     }
                     length = (length * factor).clamp(least, most);
                 }
-                Err(Unbalanced::Flow) if length > least => {
+                Err(Unbalanced::Flow | Unbalanced::Network) if length > least => {
                     heated.stepped(false);
                     length *= 0.5;
                 }
@@ -183,13 +189,14 @@ impl Stepping {
         }
         let after = circuit
             .solve(&self.warm.heat, Some((length, before)))
-            .ok_or(Unbalanced::Flow)?;
-        let mut leaving = circuit.leaving(&after);
+            .ok_or(Unbalanced::Network)?;
+        let mut leaving = circuit.leaving(&after, &self.warm.heat);
         for e in &exchangers {
-            // What the oil has lost on its way through the exchanger stands among the gains of the other flows.
-            let heat = e.oil * (after[e.from] - after[e.to]);
-            leaving.exchangers.push(heat);
-            leaving.flows -= heat;
+            // What the oil has lost on its way through the exchanger stands among the gains of the other flows. What links bring
+            // to its outlet, which is held over the step, the coolant takes.
+            let lost = e.oil * (after[e.from] - after[e.to]);
+            leaving.flows -= lost;
+            leaving.exchangers.push(lost + std::mem::take(&mut leaving.held[e.to]));
         }
         Ok((after, leaving))
     }
@@ -207,9 +214,9 @@ impl Stepping {
                 .warm
                 .circuit
                 .solve(&self.warm.heat, Some((length, before)))
-                .ok_or(Unbalanced::Flow)?;
+                .ok_or(Unbalanced::Network)?;
             if farthest(&after, &guess) <= AGREED {
-                let leaving = self.warm.circuit.leaving(&after);
+                let leaving = self.warm.circuit.leaving(&after, &self.warm.heat);
                 return Ok((after, leaving));
             }
             let share = if pass < CAREFUL { 1.0 } else { 0.5 };
@@ -217,7 +224,7 @@ impl Stepping {
                 *guess += share * (after - *guess);
             }
         }
-        Err(Unbalanced::Flow)
+        Err(Unbalanced::Network)
     }
 }
 

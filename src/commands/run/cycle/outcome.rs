@@ -85,6 +85,11 @@ impl<'a> Outcome<'a> {
         self.driven.total.motors.iter().flatten().sum()
     }
 
+    /// True where the losses of motors are known: they need a thermal network.
+    fn has_motors(&self) -> bool {
+        !self.driven.total.motors.is_empty()
+    }
+
     /// Losses by share. \[J\]
     pub fn by_share(&self) -> Vec<f64> {
         self.shares.sums(&self.driven.total.parts)
@@ -193,7 +198,13 @@ impl<'a> Outcome<'a> {
             row.push(s.status.name().to_owned());
             row.extend([power(heats.input), power(heats.output), power(heats.parts.iter().sum())]);
             row.extend(self.stack(s).into_iter().map(|watts| cell(Some(watts))));
-            row.extend([power(heats.motors.iter().flatten().sum()), power(s.brakes)]);
+            let motors: f64 = heats.motors.iter().flatten().sum();
+            row.push(if self.has_motors() {
+                power(motors)
+            } else {
+                String::new()
+            });
+            row.push(power(s.brakes));
             row.extend(places.iter().map(|place| cell(place.map(|node| s.temperatures[node]))));
             row
         };
@@ -240,10 +251,10 @@ impl<'a> Outcome<'a> {
             "intervals": self.driven.stretches.len(), "mean_loss_w": self.mean(self.loss()), "shares": self.names,
             "mean_losses_w": shares,
             "energy": {
-                "input_j": total.input, "output_j": total.output, "loss_j": self.loss(), "motors_j": self.motors(),
+                "input_j": total.input, "output_j": total.output, "loss_j": self.loss(), "motors_j": self.has_motors().then(|| self.motors()),
                 "brakes_j": self.driven.brakes, "residual_share": self.flow_residual(),
             },
-            "heat": heat, "motors": motors, "nodes": nodes,
+            "heat": heat, "motors": motors, "motors_beyond_map": total.beyond_map, "nodes": nodes, "about": self.read.about,
             "reference": self.reference.map(|r| json!({ "mean_loss_w": r.loss, "source": r.source })),
             "bands": self.bands.as_ref().map(|b| b.json(self.reference)),
             "evaluations": self.driven.evaluations, "calls": self.driven.calls, "steps": self.driven.steps[0],

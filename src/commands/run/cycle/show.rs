@@ -1,6 +1,7 @@
 //! Driven duties as tables.
 
 use gearloss_framework::analysis::notes;
+use gearloss_framework::duty::Duty;
 
 use super::super::super::solve::outside;
 use super::outcome::Outcome;
@@ -17,6 +18,14 @@ pub fn show(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         significant(o.mean(loss)),
         significant(1e-3 * loss),
     ))?;
+    if let Some(about) = &o.read.about {
+        out.line(format!("  {about}"))?;
+    }
+    if let Duty::Trace(trace) = &o.read.duty {
+        for note in &trace.notes {
+            out.line(format!("  note: {note}"))?;
+        }
+    }
     if let Some(reference) = o.reference {
         let source = reference.source.as_deref().unwrap_or("reference");
         let ratio = 100.0 * (o.mean(loss) / reference.loss - 1.0);
@@ -78,7 +87,12 @@ fn heat(o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         parts.push(format!("sources {}", kj(total.sources)));
     }
     let mut ways = vec![format!("stored {}", kj(total.stored))];
-    for (node, joule) in total.held.iter().enumerate().filter(|(node, _)| network.is_held(*node)) {
+    for (node, joule) in total
+        .held
+        .iter()
+        .enumerate()
+        .filter(|(node, joule)| network.is_held(*node) || **joule != 0.0)
+    {
         ways.push(format!("{} {}", network.names()[node], kj(*joule)));
     }
     for (path, joule) in network.exchangers().zip(&total.exchangers) {

@@ -44,7 +44,8 @@ pub fn wanted(points: &[(f64, f64)]) -> Option<f64> {
     }
     let (to, from) = coordinate(points);
     let [a, b, c] = [i - 1, i, i + 1].map(|k| (to(points[k].0), points[k].1));
-    let tolerance = FOUND * if points[0].0 > 0.0 { 1.0 } else { (c.0 - a.0).abs() };
+    let span = to(points[points.len() - 1].0) - to(points[0].0);
+    let tolerance = FOUND * if points[0].0 > 0.0 { 1.0 } else { span };
     if c.0 - a.0 <= 2.0 * tolerance {
         return None;
     }

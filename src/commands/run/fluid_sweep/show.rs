@@ -47,7 +47,7 @@ pub fn show(name: &str, s: &Sweep<'_>, duties: &Duties<'_>, out: &mut Out) -> Re
     Ok(())
 }
 
-/// Mean loss over the property, whole and relative to the greatest of each duty's listed oils.
+/// Mean loss over the property, whole and relative to the least of each duty.
 pub fn pictures(
     runner: &Runner<'_>,
     name: &str,
@@ -61,13 +61,10 @@ pub fn pictures(
         for s in all {
             for (k, read) in duties.list.iter().enumerate() {
                 let scale = if relative { 100.0 / s.least[k].loss } else { 1.0 };
+                let points = s.fluids.iter().map(|f| (f.value, scale * f.losses[k].0));
                 lines.push(Line {
                     name: format!("{} {}", s.built.name, read.name),
-                    points: s
-                        .fluids
-                        .iter()
-                        .map(|f| Some((f.value, scale * f.losses[k].0)))
-                        .collect(),
+                    points: points.filter(|(_, y)| y.is_finite()).map(Some).collect(),
                     stroke: Stroke::Marked,
                 });
             }
