@@ -234,6 +234,9 @@ fn what_never_agrees_is_told_and_changes_nothing() {
     }
     let mut t = vec![20.0, 21.0];
     let mut stepping = Stepping::new(Scheme::Implicit, StepSize::Fixed(1.0));
-    assert_eq!(stepping.advance(&mut Wild(false), &mut t, 1.0), Err(Unbalanced::Network));
+    assert_eq!(
+        stepping.advance(&mut Wild(false), &mut t, 1.0),
+        Err(Unbalanced::Network)
+    );
     assert_eq!(t, [20.0, 21.0]);
 }
