@@ -96,10 +96,11 @@ mod tests {
     }
 
     #[test]
-    fn d2_index_of_known_oils() {
+    fn d2_u8a_index_of_known_oils() {
         close(index(22.83, 5.05).unwrap(), 156.461);
         close(index(73.30, 8.86).unwrap(), 92.4260);
-        close(index(27.3, 5.9).unwrap(), 169.298);
+        close(index(27.3, 5.9).unwrap(), 169.2978);
+        close(index(27.3, 5.97).unwrap(), 173.6855);
     }
 
     #[test]

@@ -413,9 +413,11 @@ fn traces(x: &str, y: &str, lines: &[Line]) -> (Vec<Value>, Value) {
                 Stroke::Marked => "lines+markers",
                 Stroke::Dots => "markers",
             };
+            // Colours that come again are dashed.
+            let dash = ["solid", "dash", "dot", "dashdot"][(i / COLOURS.len()) % 4];
             json!({
                 "type": "scatter", "mode": mode, "name": line.name, "x": coordinate(|p| p.0), "y": coordinate(|p| p.1),
-                "line": { "color": css(i) }, "marker": { "color": css(i) }, "connectgaps": false,
+                "line": { "color": css(i), "dash": dash }, "marker": { "color": css(i) }, "connectgaps": false,
             })
         })
         .collect();

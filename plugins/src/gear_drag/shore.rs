@@ -128,4 +128,25 @@ mod tests {
             assert!((own.1 / torque - 1.0).abs() < 1e-5, "{own:?}");
         }
     }
+
+    /// Oil of 27.3 mm2/s and 826 kg/m3 at 40 degC.
+    #[test]
+    fn u9a_u9b_u9c_three_speeds() {
+        let model = Shore {
+            fill: 0.30,
+            swell: 0.0,
+            radial: 6e-3,
+            axial: 30e-3,
+        };
+        for (n, h_eff, torque) in [
+            (1000.0, 0.02748452, 0.08101279),
+            (4000.0, 0.01698586, 0.1466633),
+            (12000.0, 0.01562399, 0.3257352),
+        ] {
+            let omega = n * std::f64::consts::PI / 30.0;
+            let own = model.torque(74e-3, 70e-3, 20e-3, 35e-3, 27.3e-6, 826.0, omega);
+            assert!((own.0 / h_eff - 1.0).abs() < 1e-6, "{own:?}");
+            assert!((own.1 / torque - 1.0).abs() < 1e-6, "{own:?}");
+        }
+    }
 }

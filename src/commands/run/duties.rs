@@ -2,9 +2,9 @@
 
 use gearloss_framework::analysis::{Driven, OilTemperature, Ride, drive};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::duty::{Demand, Duty, Interval, Vehicle};
+use gearloss_framework::duty::{Demand, Duty, Given, Interval, Vehicle};
 use gearloss_framework::study::{Conditions, DriveEntry};
-use gearloss_framework::thermal::network::StepSize;
+use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
 use super::write::hash;
@@ -43,6 +43,11 @@ impl<'a> Duties<'a> {
             return Err(runner.wrong(path, message, "leave one of them out"));
         }
         let mut found = Vec::new();
+        if entry.vehicle.is_none() && study.vehicles.len() > 1 {
+            let names: Vec<&str> = study.vehicles.ids().collect();
+            let message = format!("the study has several vehicles: {}", names.join(", "));
+            return Err(runner.wrong(path, message, "name one, such as `vehicle: car`"));
+        }
         let own = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
         let vehicle = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
         let vehicle = vehicle.and_then(|(id, vehicle)| {
@@ -130,7 +135,10 @@ impl<'a> Duties<'a> {
                 OilTemperature::Fixed(_) => "the temperature of the oil is given, so that nothing follows from it",
                 OilTemperature::Balance => "the balance of the gearbox has surroundings of its own",
             };
-            let mend = "leave it out, or let the gearbox have a thermal network";
+            let mend = match oil {
+                OilTemperature::Network => "leave it out",
+                _ => "leave it out, or let the gearbox have a thermal network",
+            };
             return Err(runner.wrong(&format!("{path}.{key}"), message, mend));
         }
         let told = |read: &&Read| read.intervals.iter().any(|i| i.given.oil_temperature.is_some());
@@ -139,12 +147,37 @@ impl<'a> Duties<'a> {
                 "`{}` tells temperatures of the oil, which the thermal network finds itself",
                 read.name
             );
-            let mend = "leave them out; a column under `temperatures`, with its node, is compared";
+            let mend = "leave them out, or give all of them by `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is compared";
             return Err(runner.wrong(&format!("cycles.{}", read.name), message, mend));
         }
+        let network = b.transmission.network().filter(|_| oil == OilTemperature::Network);
+        let cooled = network.is_some_and(|n| n.exchangers().len() > 0);
         for read in &self.list {
+            let any = |of: fn(&Given) -> bool| read.intervals.iter().any(|i| of(&i.given));
+            let unused = [
+                (
+                    "coolant_temperature",
+                    any(|g| g.coolant_temperature.is_some()) && !cooled,
+                ),
+                ("coolant_flow", any(|g| g.coolant_flow.is_some()) && !cooled),
+                (
+                    "oil_flow",
+                    any(|g| g.oil_flow.is_some()) && !network.is_some_and(Network::is_pumped),
+                ),
+                ("ambient", any(|g| g.ambient.is_some()) && network.is_none()),
+            ];
+            if let Some((column, _)) = unused.iter().find(|(_, unused)| *unused) {
+                let what = match *column {
+                    "oil_flow" => "a thermal network with `oil_flow`",
+                    "ambient" => "a thermal network",
+                    _ => "a heat exchanger in the thermal network",
+                };
+                let message = format!("`{column}` of `{}` needs {what}", read.name);
+                let mend = "leave the column out, or describe what uses it";
+                return Err(runner.wrong(&format!("cycles.{}.columns", read.name), message, mend));
+            }
             let Duty::Trace(trace) = &read.duty else { continue };
-            let nodes: Vec<&str> = match b.transmission.network().filter(|_| oil == OilTemperature::Network) {
+            let nodes: Vec<&str> = match network {
                 Some(network) => network.names().iter().map(String::as_str).collect(),
                 None => vec!["oil"],
             };

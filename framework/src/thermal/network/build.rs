@@ -17,7 +17,7 @@ use crate::mechanism::heat_dissipation::HousingPart;
 use crate::mechanism::heat_link::{GearShape, HeatLink, HeatLinkAt, HeatLinkPart};
 use crate::registry::{Build, Files, Slot};
 use crate::thermal::Arrangement;
-use crate::transmission::{GearSeat, HeatPath, NodeNames, PartKind, Port, Transmission};
+use crate::transmission::{AMBIENT, GearSeat, HeatPath, NodeNames, PartKind, Port, Transmission};
 
 /// What surrounds a gearbox at one time. Absent is what the description says.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -300,6 +300,10 @@ impl Network {
     /// Links with their paths and ends.
     pub fn links(&self) -> impl ExactSizeIterator<Item = (&str, [usize; 2])> {
         self.links.iter().map(|link| (link.path.as_str(), link.between))
+    }
+    /// True where a pump drives oil round, so that a recorded flow counts.
+    pub fn is_pumped(&self) -> bool {
+        self.pumped.is_some()
     }
     /// Paths of the heat exchangers.
     pub fn exchangers(&self) -> impl ExactSizeIterator<Item = &str> {
@@ -633,13 +637,16 @@ fn exchanger(
     if from.is_some() && from == to {
         found.push(same(path));
     }
-    if network
+    let held = network
         .nodes
         .get(&entry.to)
-        .is_some_and(|node| node.temperature.is_some())
-    {
+        .is_some_and(|node| node.temperature.is_some());
+    if held || entry.to == AMBIENT {
         let message = format!("`{}` is held at a temperature, and the exchanger decides it", entry.to);
-        found.push(Diagnostic::error(format!("{path}.to"), message).mend("leave the `temperature` of the node out"));
+        found.push(
+            Diagnostic::error(format!("{path}.to"), message)
+                .mend("name a node of its own for the oil behind the exchanger, without a `temperature`"),
+        );
     }
     Some(Exchanger {
         path: path.to_owned(),

@@ -131,7 +131,10 @@ impl Circuit {
                 right[i] = *temperature;
             }
         }
-        let solved = k.lu().solve(&right)?;
+        let mut solved = k.lu().solve(&right)?;
+        for (t, held) in solved.iter_mut().zip(&self.held) {
+            *t = held.unwrap_or(*t);
+        }
         solved.iter().all(|t| t.is_finite()).then(|| solved.as_slice().to_vec())
     }
 

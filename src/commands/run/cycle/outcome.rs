@@ -23,6 +23,8 @@ pub struct Outcome<'a> {
     shares: Shares,
     /// Names of the nodes whose temperatures are known.
     pub nodes: Vec<String>,
+    /// Measured temperatures of each node: time and value.
+    measured: Vec<Vec<(f64, f64)>>,
     pub reference: Option<&'a ReferenceLoss>,
     /// Bands of uncertain inputs.
     pub bands: Option<Band>,
@@ -52,6 +54,7 @@ impl<'a> Outcome<'a> {
         Self {
             shares: Shares::of(&built.transmission, entry.by).under(names),
             names: names.to_vec(),
+            measured: nodes.iter().map(|node| measured(read, node)).collect(),
             nodes,
             reference: entry.reference.get(&read.name),
             built,
@@ -168,15 +171,18 @@ impl<'a> Outcome<'a> {
     }
 
     /// Measured temperatures of a node: time and value. \[s and degC\]
-    pub fn measured(&self, node: usize) -> Vec<(f64, f64)> {
-        let Duty::Trace(trace) = &self.read.duty else {
-            return Vec::new();
-        };
-        let Some(column) = trace.nodes.iter().position(|n| *n == self.nodes[node]) else {
-            return Vec::new();
-        };
-        let samples = trace.samples.iter();
-        samples.map(|s| (s.time, s.temperatures[column])).collect()
+    pub fn measured(&self, node: usize) -> &[(f64, f64)] {
+        &self.measured[node]
+    }
+
+    /// The temperature that was measured at a time, to a millisecond; absent without one. \[degC\]
+    fn measured_at(&self, node: usize, time: f64) -> Option<f64> {
+        let measured = self.measured.get(node)?;
+        let i = measured.partition_point(|(t, _)| *t < time - 1e-3);
+        measured
+            .get(i)
+            .filter(|(t, _)| *t <= time + 1e-3)
+            .map(|(_, value)| *value)
     }
 
     /// Rows of the table, one for each interval; nodes that this set does not have are empty.
@@ -206,6 +212,12 @@ impl<'a> Outcome<'a> {
             });
             row.push(power(s.brakes));
             row.extend(places.iter().map(|place| cell(place.map(|node| s.temperatures[node]))));
+            let end = s.start + s.heats.duration;
+            row.extend(
+                places
+                    .iter()
+                    .map(|place| cell(place.and_then(|node| self.measured_at(node, end)))),
+            );
             row
         };
         self.driven.stretches.iter().map(row).collect()
@@ -265,6 +277,17 @@ impl<'a> Outcome<'a> {
     }
 }
 
+/// Temperatures of a node that a duty tells: time and value. \[s and degC\]
+fn measured(read: &Read, node: &str) -> Vec<(f64, f64)> {
+    let Duty::Trace(trace) = &read.duty else {
+        return Vec::new();
+    };
+    let Some(column) = trace.nodes.iter().position(|n| n == node) else {
+        return Vec::new();
+    };
+    trace.samples.iter().map(|s| (s.time, s.temperatures[column])).collect()
+}
+
 /// Nodes of all outcomes, in the order of the first.
 pub fn all_nodes(outcomes: &[Outcome<'_>]) -> Vec<String> {
     let mut all: Vec<String> = Vec::new();
@@ -295,6 +318,7 @@ pub fn header(shares: &[String], nodes: &[String]) -> Vec<String> {
     .to_vec();
     header.extend(shares.iter().map(|s| format!("{s}_w")));
     header.extend(["motors_w", "brakes_w"].map(str::to_owned));
-    header.extend(nodes.iter().map(|n| format!("{n}_degc")));
+    header.extend(nodes.iter().map(|n| format!("{n}_end_degc")));
+    header.extend(nodes.iter().map(|n| format!("{n}_measured_degc")));
     header
 }

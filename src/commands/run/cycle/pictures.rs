@@ -80,7 +80,7 @@ pub fn pictures(runner: &Runner<'_>, name: &str, entry: &CycleAnalysisEntry, o: 
             let every = measured.len().div_ceil(MOST / 8);
             lines.push(Line {
                 name: format!("{own}, measured"),
-                points: measured.into_iter().step_by(every).map(Some).collect(),
+                points: measured.iter().step_by(every).copied().map(Some).collect(),
                 stroke: Stroke::Dots,
             });
         }
