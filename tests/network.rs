@@ -353,3 +353,31 @@ fn a_conductance_that_turns_negative_is_told_with_its_link() {
         "{text}"
     );
 }
+
+#[test]
+fn a_circuit_of_oil_that_does_not_close_is_told_and_no_exchanger_cools_the_air() {
+    let language = common::language();
+    let gearbox = Gearbox::read(&language, &common::file("examples/electric-drive-unit/gearbox.yaml")).unwrap();
+    let with = |path: &str, value: Value| Choice {
+        overrides: vec![(path.to_owned(), value)],
+        ..Choice::default()
+    };
+    let own = gearbox.transmission(&language, &Choice::default()).unwrap();
+    assert!(
+        own.warnings.iter().all(|w| !w.message.contains("flows out")),
+        "{:?}",
+        own.warnings
+    );
+    let half = with("thermal.network.flows.to_gears.share", json!(0.25));
+    let open = gearbox.transmission(&language, &half).unwrap();
+    let told: Vec<&str> = open.warnings.iter().map(|w| w.path.as_str()).collect();
+    for node in ["sump", "exchanger_outlet"] {
+        assert!(
+            told.contains(&format!("thermal.network.nodes.{node}").as_str()),
+            "{told:?}"
+        );
+    }
+    let air = with("thermal.network.exchangers.cooler.to", json!("ambient"));
+    let refused = gearbox.transmission(&language, &air).err().unwrap();
+    assert!(refused.first().contains("`ambient` is held"), "{}", refused.first());
+}

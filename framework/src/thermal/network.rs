@@ -4,12 +4,14 @@ mod build;
 pub mod circuit;
 mod faults;
 mod march;
+mod parts;
+mod state;
 mod steady;
 mod stepping;
 
 pub(crate) use build::Around;
-pub use build::{Network, Surroundings};
 pub use circuit::Circuit;
 pub use march::{Heats, March, Moment};
+pub use parts::{Network, Surroundings};
 pub use steady::Steady;
 pub use stepping::{Scheme, StepSize};

@@ -1,7 +1,7 @@
 //! Temperatures of the network of a transmission in time.
 
-use super::build::{Network, Surroundings};
 use super::circuit::Circuit;
+use super::parts::{Network, Surroundings};
 use super::stepping::{Heated, Scheme, StepSize, Stepping};
 use crate::evaluate::{Noting, Point, Scratch};
 use crate::thermal::Unbalanced;

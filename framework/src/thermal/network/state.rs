@@ -1,0 +1,163 @@
+//! The numbers of a network at one state: heat of parts and motors, and its circuit.
+
+use std::cell::Cell;
+
+use super::circuit::{Circuit, Exchange};
+use super::parts::{Law, Lawful, Network, Rate, Surroundings};
+use crate::evaluate::Scratch;
+use crate::loss::{Extent, Notes, Undefined};
+use crate::mechanism::heat_link::HeatLinkAt;
+use crate::transmission::{HeatPath, PartKind, Transmission};
+
+impl Network {
+    /// Adds the heat of all parts at the point that was evaluated last to that of the nodes. \[W\]
+    pub(super) fn add_parts(&self, transmission: &Transmission, scratch: &Scratch, heat: &mut [f64]) {
+        for ((part, way), watts) in transmission.parts().iter().zip(&self.heat).zip(scratch.watts()) {
+            match (way, part.kind) {
+                (HeatPath::Gears([first, second]), PartKind::Mesh(mesh)) => {
+                    let share = scratch.first_heat(mesh);
+                    heat[*first] += share * watts;
+                    heat[*second] += (1.0 - share) * watts;
+                }
+                (HeatPath::Gears(nodes), _) => spread(*watts, nodes, heat),
+                (HeatPath::Nodes(nodes), _) => spread(*watts, nodes, heat),
+            }
+        }
+    }
+    /// Adds the losses of all motors at the point that was evaluated last to the heat of the nodes, and tells them for rotor and
+    /// stator; true where one is beyond its map. \[W\]
+    pub(super) fn add_motors(
+        &self,
+        temperatures: &[f64],
+        scratch: &Scratch,
+        heat: &mut [f64],
+        losses: &mut Vec<[f64; 2]>,
+    ) -> bool {
+        let mut outside = false;
+        losses.clear();
+        for motor in &self.motors {
+            let (speed, torque) = (scratch.speeds()[motor.member], scratch.port_torque(motor.member));
+            // The windings are in the stator.
+            let found = motor.map.loss(speed, torque, temperatures[motor.stator]);
+            outside |= found.outside;
+            let share = motor.rotor_share.at(speed.abs()).unwrap_or(0.0);
+            let own = [share * found.loss, (1.0 - share) * found.loss];
+            heat[motor.rotor] += own[0];
+            heat[motor.stator] += own[1];
+            losses.push(own);
+        }
+        outside
+    }
+    /// Temperatures at the start: held nodes as they are held, others as stated, else `start`, else the surroundings. \[degC\]
+    pub fn start(&self, start: Option<f64>, around: &Surroundings) -> Vec<f64> {
+        let ambient = around.ambient.unwrap_or(self.ambient);
+        (0..self.names.len())
+            .map(|i| self.held(i, around).or(self.starts[i]).or(start).unwrap_or(ambient))
+            .collect()
+    }
+
+    /// Temperature of a held node. \[degC\]
+    fn held(&self, node: usize, around: &Surroundings) -> Option<f64> {
+        match (node, around.ambient) {
+            (0, Some(ambient)) => Some(ambient),
+            _ => self.held[node],
+        }
+    }
+
+    /// Writes the numbers of the network at temperatures of its nodes (degC) and speeds of the members (rad/s).
+    ///
+    /// # Errors
+    /// Number of the link whose law has no value, and why.
+    pub(crate) fn circuit(
+        &self,
+        temperatures: &[f64],
+        (speeds, cells): (&[f64], &[Cell<Extent>]),
+        around: &Surroundings,
+        circuit: &mut Circuit,
+    ) -> Result<(), (usize, Undefined)> {
+        circuit.capacities.clone_from(&self.capacities);
+        circuit.held.clear();
+        circuit.held.extend((0..self.names.len()).map(|i| self.held(i, around)));
+        // One mass flow all round, so that none is lost: that of the oil of the housing.
+        let oil = temperatures[self.oil];
+        let pumped = || self.pumped.unwrap_or(0.0) * self.lubricant.density(oil);
+        let mass = around.oil_flow.unwrap_or_else(pumped);
+        let capacity = mass * self.lubricant.heat_capacity(oil);
+        let rate = |rate: Rate| match rate {
+            Rate::Given(given) => given,
+            Rate::Share(share) => share * capacity,
+        };
+        circuit.links.clear();
+        for (i, link) in self.links.iter().enumerate() {
+            let conductance = match &link.law {
+                Law::Given(given) => *given,
+                Law::Model(law) => {
+                    let ends = link.between.map(|node| temperatures[node]);
+                    law.conductance(ends, speeds, around.vehicle_speed, mass, cells)
+                        .map_err(|e| (i, e))?
+                }
+            };
+            circuit.links.push((link.between, conductance));
+        }
+        circuit.flows.clear();
+        circuit
+            .flows
+            .extend(self.flows.iter().map(|(ends, flow)| (*ends, rate(*flow))));
+        circuit.exchangers.clear();
+        circuit.exchangers.extend(self.exchangers.iter().map(|e| {
+            let oil = rate(e.oil);
+            let coolant = around.coolant_flow.unwrap_or(e.coolant_flow) * e.coolant_heat_capacity;
+            Exchange {
+                from: e.from,
+                to: e.to,
+                oil,
+                transfer: e.arrangement.transfer(e.ua, [oil, coolant]),
+                coolant: around.coolant_temperature.unwrap_or(e.coolant_temperature),
+            }
+        }));
+        Ok(())
+    }
+}
+
+impl Lawful {
+    fn conductance(
+        &self,
+        [first, second]: [f64; 2],
+        speeds: &[f64],
+        vehicle_speed: f64,
+        oil_flow: f64,
+        cells: &[Cell<Extent>],
+    ) -> Result<f64, Undefined> {
+        let oil = self.lubricant.at(0.5 * (first + second));
+        let at = HeatLinkAt {
+            part: &self.part,
+            temperature_1: first,
+            temperature_2: second,
+            speed: self.member.map_or(0.0, |member| speeds[member].abs()),
+            vehicle_speed: vehicle_speed.abs(),
+            nu: oil.nu,
+            eta: oil.eta,
+            rho: oil.rho,
+            heat_capacity: self.lubricant.heat_capacity(oil.temperature),
+            conductivity: oil.conductivity,
+            oil_flow,
+            notes: Notes::new(cells, self.model.notes),
+        };
+        let conductance = self.model.conductance(&at)?;
+        if conductance.is_finite() && conductance >= 0.0 {
+            Ok(conductance)
+        } else {
+            Err(Undefined {
+                what: "conductance of a link, which is negative or not finite [W/K]",
+                value: conductance,
+            })
+        }
+    }
+}
+
+/// Adds a heat to nodes by equal parts.
+fn spread(watts: f64, nodes: &[usize], heat: &mut [f64]) {
+    for node in nodes {
+        heat[*node] += watts / nodes.len() as f64;
+    }
+}
