@@ -7,6 +7,7 @@ mod field;
 mod intervals;
 
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -256,6 +257,33 @@ pub(super) fn bars(
     })
 }
 
+/// A chart with two axes of numbers.
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Draws two axes with their names over an area.
+fn axes<'a, 'b>(
+    area: &'a DrawingArea<SVGBackend<'b>, Shift>,
+    (x_name, y_name): (&str, &str),
+    x: (f64, f64),
+    y: (f64, f64),
+) -> Result<Chart<'a, 'b>, PlotFault> {
+    let mut chart = ChartBuilder::on(area)
+        .x_label_area_size(50)
+        .y_label_area_size(70)
+        .build_cartesian_2d(x.0..x.1, y.0..y.1)
+        .map_err(fault)?;
+    chart
+        .configure_mesh()
+        .x_desc(x_name)
+        .y_desc(y_name)
+        .light_line_style(TRANSPARENT)
+        .label_style(("sans-serif", TEXT))
+        .axis_desc_style(("sans-serif", TEXT))
+        .draw()
+        .map_err(fault)?;
+    Ok(chart)
+}
+
 /// Areas on top of each other over one axis.
 ///
 /// # Errors
@@ -271,20 +299,8 @@ pub(super) fn areas(
         let highest = stacks.iter().map(|s| s.iter().sum()).fold(0.0, f64::max);
         let (first, last) = range(places.iter().copied());
         let area = root.margin(40, 10, 10, 200);
-        let mut chart = ChartBuilder::on(&area)
-            .x_label_area_size(50)
-            .y_label_area_size(70)
-            .build_cartesian_2d(first..last, 0.0..(1.08 * highest).max(1e-9))
-            .map_err(fault)?;
-        chart
-            .configure_mesh()
-            .x_desc(x_name)
-            .y_desc(y_name)
-            .light_line_style(TRANSPARENT)
-            .label_style(("sans-serif", TEXT))
-            .axis_desc_style(("sans-serif", TEXT))
-            .draw()
-            .map_err(fault)?;
+        let heights = (0.0, (1.08 * highest).max(1e-9));
+        let mut chart = axes(&area, (x_name, y_name), (first, last), heights)?;
         let below = |stack: &Vec<f64>, count: usize| stack.iter().take(count).sum::<f64>();
         for i in 0..names.len() {
             let along = |count: usize| places.iter().zip(stacks).map(move |(x, s)| (*x, below(s, count)));
@@ -309,20 +325,7 @@ pub(super) fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> 
         let points = || lines.iter().flat_map(|l| l.points.iter().flatten());
         let (x, y) = (range(points().map(|p| p.0)), range(points().map(|p| p.1)));
         let area = root.margin(40, 10, 10, 200);
-        let mut chart = ChartBuilder::on(&area)
-            .x_label_area_size(50)
-            .y_label_area_size(70)
-            .build_cartesian_2d(x.0..x.1, y.0..y.1)
-            .map_err(fault)?;
-        chart
-            .configure_mesh()
-            .x_desc(x_name)
-            .y_desc(y_name)
-            .light_line_style(TRANSPARENT)
-            .label_style(("sans-serif", TEXT))
-            .axis_desc_style(("sans-serif", TEXT))
-            .draw()
-            .map_err(fault)?;
+        let mut chart = axes(&area, (x_name, y_name), x, y)?;
         for (i, line) in lines.iter().enumerate() {
             for stretch in line.points.split(Option::is_none) {
                 let stretch: Vec<(f64, f64)> = stretch.iter().flatten().copied().collect();
