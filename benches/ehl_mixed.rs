@@ -69,18 +69,17 @@ fn one_mesh(c: &mut Criterion, language: &Language) {
         .slot_beside::<ToothFriction, _>("law", &part, &model["tooth_friction"])
         .unwrap();
     let oil = part.oil.as_ref().unwrap().lubricant.at(60.0);
-    let at = GearMeshAt {
-        torque: 50.0,
-        speed: 4000.0 * RPM,
-        temperature: 60.0,
-        nu: oil.nu,
-        eta: oil.eta,
-        rho: oil.rho,
-        alpha: oil.alpha,
-        beta: oil.beta,
-        conductivity: oil.conductivity,
-        ..GearMeshAt::usual(&part, Notes::MUTED)
-    };
+    let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+        to.torque = 50.0;
+        to.speed = 4000.0 * RPM;
+        to.temperature = 60.0;
+        to.nu = oil.nu;
+        to.eta = oil.eta;
+        to.rho = oil.rho;
+        to.alpha = oil.alpha;
+        to.beta = oil.beta;
+        to.conductivity = oil.conductivity;
+    });
     c.bench_function("one mesh with ehl_mixed", |b| {
         b.iter(|| mesh.loss(black_box(&at)).unwrap().sum());
     });

@@ -35,6 +35,14 @@ fn language() -> Result<Language, Failure> {
     Language::new(Registry::linked().map_err(failed)?).map_err(failed)
 }
 
+/// A fault of the arguments, which lie in no file.
+fn alone(fault: Diagnostic) -> Findings {
+    Findings {
+        list: vec![fault],
+        sources: Sources::default(),
+    }
+}
+
 /// Models and overrides from the arguments.
 fn choice(args: &ChoiceArgs) -> Result<Choice, Failure> {
     let mut overrides = Vec::new();

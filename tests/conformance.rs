@@ -7,7 +7,7 @@ use gearloss_framework::conformance::check_all;
 use gearloss_framework::language::Language;
 use gearloss_framework::mechanism::Mechanism;
 use gearloss_framework::mechanism::seal::Seal;
-use gearloss_framework::registry::{Entry, MechanismEntry, Registry, inventory};
+use gearloss_framework::registry::{Entry, MechanismEntry, Package, Registry, inventory};
 
 #[test]
 fn all_models_conform() {
@@ -48,7 +48,11 @@ fn two_models_of_one_name_name_both_places() {
         .iter()
         .find(|m| m.name == "iso14179_2" && m.mechanism == Seal::KEY)
         .unwrap();
-    copy.origin.module = "my_models::seal";
+    copy.origin.package = Package {
+        name: "my-models",
+        version: "2.1.0",
+    };
+    copy.origin.file = "src/seal.rs";
     models.push(copy);
     let text = refused(mechanisms, models);
     assert!(
@@ -56,7 +60,7 @@ fn two_models_of_one_name_name_both_places() {
         "{text}"
     );
     assert!(
-        text.contains("my_models::seal") && text.contains("gearloss_plugins::seal::iso14179_2"),
+        text.contains("my-models 2.1.0, src/seal.rs") && text.contains("plugins/src/seal/iso14179_2.rs"),
         "{text}"
     );
 }

@@ -15,7 +15,6 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::PathAt;
 use gearloss_framework::registry::{Build, Files};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::network::{Scheme, StepSize};
@@ -149,10 +148,7 @@ fn passes(t: &Transmission, laws: &[(EhlMixed, ContactPath)], s: &Stretch) -> (u
             continue;
         }
         let mean = MeanFrictionAt::of(&at, Notes::MUTED);
-        let along = PathAt {
-            bodies: at.bodies(),
-            ..path.at(&mean, Notes::MUTED)
-        };
+        let along = path.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
         let mut mu = vec![0.0; path.len()];
         let (tally, _) = law.settle(&along, &mut mu, |_, _| {});
         runs += tally.runs;

@@ -29,13 +29,10 @@ const LEFT_OUT: &str = "\
 ";
 
 fn head_of(entry: &Entry) -> String {
-    // The module path is the file: crate::a::b is in src/a/b.rs.
-    let parts: Vec<&str> = entry.origin.module.split("::").collect();
-    let folder = match parts[0] {
-        "gearloss_plugins" => "plugins/src",
-        _ => return String::new(),
-    };
-    let path = common::file(&format!("{folder}/{}.rs", parts[1..].join("/")));
+    if entry.origin.package.name != "gearloss-plugins" {
+        return String::new();
+    }
+    let path = common::file(entry.origin.file);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let lines: Vec<&str> = text
         .lines()
@@ -146,7 +143,7 @@ fn parameters(out: &mut String, language: &Language, entry: &Entry) {
 }
 
 fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entry: &Entry) {
-    writeln!(out, "## {}\n\n{}\n", entry.name, entry.meaning).unwrap();
+    writeln!(out, "## {}\n\n{}\n", entry.name, entry.meaning()).unwrap();
     let head = head_of(entry);
     if !head.is_empty() {
         writeln!(out, "{head}\n").unwrap();
@@ -214,7 +211,10 @@ fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
         writeln!(out, "Its parts stand in the section `{}`.\n", section.name).unwrap();
     }
     out.push_str("What a model sees, and what formulas and tables may name:\n\n");
-    header(&mut out, &["quantity", "usual", "least", "greatest", "what it is"]);
+    header(
+        &mut out,
+        &["quantity", "usual", "least", "greatest", "what it is", "from"],
+    );
     for q in (mechanism.quantities)() {
         row(
             &mut out,
@@ -224,6 +224,7 @@ fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
                 &significant(q.least),
                 &significant(q.greatest),
                 q.doc.trim(),
+                q.from,
             ],
         );
     }
@@ -250,7 +251,7 @@ fn index(language: &Language) -> String {
                 .find(|g| g.key.is_empty())
                 .map_or("", |g| g.grade.name());
             let link = format!("[{0}]({1}.md#{0})", entry.name, mechanism.key);
-            row(&mut out, &[&link, entry.meaning, grade, entry.source]);
+            row(&mut out, &[&link, &entry.meaning(), grade, entry.source]);
             count += 1;
         }
         out.push('\n');

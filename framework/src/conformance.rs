@@ -35,6 +35,7 @@ pub fn check_all(language: &Language) -> Vec<String> {
             match language.example_of(entry) {
                 Ok((model, part)) => {
                     let files = Files::default();
+                    files.put_all(entry.files);
                     // The example of `table` names a file; a plane over the first quantity stands for it.
                     if let Some(q) = (mechanism.quantities)().first() {
                         let unit = crate::document::Unit::of_doc(q.doc).map_or("-", |u| u.symbol);
@@ -223,6 +224,9 @@ fn same<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f6
 
 fn head(entry: &Entry) -> Vec<String> {
     let mut faults = Vec::new();
+    if entry.meaning().is_empty() {
+        faults.push("has no meaning: write a doc comment on its parameters".to_owned());
+    }
     for (i, limit) in entry.limits.iter().enumerate() {
         if limit.index != i {
             faults.push(format!("limit `{}` has index {} in place {i}", limit.name, limit.index));

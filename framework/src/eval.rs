@@ -1,14 +1,17 @@
 //! One model alone: without a gearbox, on a part and a context that the caller gives.
 
 use std::cell::Cell;
+use std::path::Path;
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use crate::document::{Diagnostic, did_you_mean};
+use crate::document::{Diagnostic, Sources, did_you_mean, read_yaml};
+use crate::gearbox::Findings;
+use crate::language::Language;
 use crate::loss::{Extent, Limit, Notes, Observed, Step, Trace};
 use crate::mechanism::{Answer, Mechanism};
-use crate::registry::{Build, Files, Registry, from_resolved};
+use crate::registry::{Build, Entry, Files, MechanismEntry, Registry, from_resolved};
 
 /// What a model answered.
 #[derive(Debug, Clone)]
@@ -25,6 +28,92 @@ pub struct Evaluated {
     pub limits: Vec<(String, Limit, Extent)>,
     /// Every step of the formula, with the path of the model that took it.
     pub steps: Vec<(String, Step)>,
+}
+
+impl Evaluated {
+    /// The value of a step of the formula, in the unit of its source; the last where it was taken several times.
+    pub fn step(&self, symbol: &str) -> Option<f64> {
+        self.steps.iter().rev().find_map(|(_, step)| match step {
+            Step::Value { symbol: own, value, .. } if *own == symbol => Some(*value),
+            _ => None,
+        })
+    }
+
+    /// Names of the limits that the point lies outside of.
+    pub fn outside(&self) -> impl Iterator<Item = &'static str> {
+        self.limits
+            .iter()
+            .filter(|(_, _, e)| e.outside > 0)
+            .map(|(_, limit, _)| limit.name)
+    }
+}
+
+/// A mechanism and a model of a language by their names, `MECHANISM/MODEL`.
+///
+/// # Errors
+/// If there is no such model; the error names those that there are, or a close one.
+pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEntry, &'a Entry), Diagnostic> {
+    let Some((mechanism, model)) = name.split_once('/') else {
+        return Err(
+            Diagnostic::error("", format!("`{name}` is no model")).mend("write MECHANISM/MODEL, such as bearing/skf")
+        );
+    };
+    let mechanism = language.registry().mechanism_named(mechanism)?;
+    Ok((mechanism, language.registry().model_named(mechanism.key, model)?))
+}
+
+/// Evaluates `MECHANISM/MODEL` at an input in YAML with `part`, `at` and, if wanted, `model`; what is absent is that of the
+/// example at its usual point. `source` names the input in errors; files are looked for in `folder`.
+///
+/// # Errors
+/// If there is no such model, what reading the input finds, and what [`eval`] finds.
+pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &Path) -> Result<Evaluated, Findings> {
+    let mut sources = Sources::default();
+    let source = sources.add(source.to_owned(), input);
+    let found = |list: Vec<Diagnostic>| Findings {
+        list,
+        sources: sources.clone(),
+    };
+    let (mechanism, entry) = named(language, name).map_err(|d| found(vec![d]))?;
+    let (example, mut part) = language.example_of(entry).map_err(found)?;
+    let mut model = None;
+    let mut at = Map::new();
+    if !input.trim().is_empty() {
+        let read = read_yaml(source, input);
+        if !read.findings.is_empty() {
+            return Err(found(read.findings));
+        }
+        let walked = language.walk_eval(mechanism.key, &read.node).map_err(found)?;
+        if !walked.findings.is_empty() {
+            return Err(found(walked.findings));
+        }
+        let Value::Object(mut written) = walked.value else {
+            return Err(found(vec![
+                Diagnostic::error("", "the input is no record").mend("write `part`, `at` or `model`"),
+            ]));
+        };
+        if let Some(own) = written.remove("model") {
+            let of = own.as_str().or_else(|| own["type"].as_str()).unwrap_or_default();
+            if of != entry.name {
+                let error = Diagnostic::error("", format!("the input is for `{of}`, not for `{}`", entry.name));
+                let mend = format!("write `model: {{ type: {} }}`, or leave `model` out", entry.name);
+                return Err(found(vec![error.mend(mend)]));
+            }
+            model = Some(own);
+        }
+        if let Some(own) = written.remove("part") {
+            part = own;
+        }
+        if let Some(Value::Object(own)) = written.remove("at") {
+            at = own;
+        }
+    }
+    let files = Files::beside(folder.to_path_buf());
+    if model.is_none() {
+        files.put_all(entry.files);
+    }
+    let model = model.unwrap_or(example);
+    (mechanism.eval)(language.registry(), &files, &model, &part, &at).map_err(|error| found(vec![error]))
 }
 
 /// Evaluates a model of a mechanism on a part, at the usual context with the given quantities changed; all values SI.

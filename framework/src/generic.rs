@@ -91,16 +91,15 @@ pub const PLACE: Limit = Limit::new(
 /// The entries that a mechanism has without anybody's doing.
 pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
     let entry = |name,
-                 meaning,
                  example,
                  schema: fn(&mut SchemaGenerator) -> Schema,
                  build: fn(&Value, &mut Build<'_>) -> Result<Built, Diagnostic>| Entry {
         mechanism: M::KEY,
         name,
-        meaning,
         source: "the user's own",
         example,
         part: None,
+        files: &[],
         limits: if name == "table" { const { &[PLACE] } } else { &[] },
         terms: if name == "none" { &[] } else { const { &[M::TOTAL] } },
         observed: &[],
@@ -113,14 +112,12 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
     let mut entries = vec![
         entry(
             "none",
-            "No loss.",
             "{ type: none }",
             <NoParams as JsonSchema>::json_schema,
             |_, cx| built::<M>(Law::None, cx),
         ),
         entry(
             "constant",
-            "One value.",
             "{ type: constant, value: 0.05 }",
             constant_schema::<M>,
             |value, cx| {
@@ -130,14 +127,12 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
         ),
         entry(
             "formula",
-            "A formula over the quantities of the context, in their documented units.",
             "{ type: formula, formula: \"0.02 + 0.001\" }",
             <FormulaParams as JsonSchema>::json_schema,
             build_formula::<M>,
         ),
         entry(
             "table",
-            "A table over one to four quantities of the context, from a CSV file.",
             "{ type: table, file: table.csv }",
             <TableParams as JsonSchema>::json_schema,
             build_table::<M>,
@@ -147,11 +142,11 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
     entries
 }
 
-/// No parameters.
+/// No loss.
 #[derive(Deserialize, JsonSchema)]
 struct NoParams {}
 
-/// A formula.
+/// A formula over the quantities of the context, in their documented units.
 #[derive(Deserialize, JsonSchema)]
 struct FormulaParams {
     /// Formula over the quantities of the context, such as `0.02 + 1e-6 * abs(speed) * nu`. `gearloss models` lists them with
@@ -159,7 +154,7 @@ struct FormulaParams {
     formula: String,
 }
 
-/// A table.
+/// A table over one to four quantities of the context, from a CSV file.
 #[derive(Deserialize, JsonSchema)]
 struct TableParams {
     /// CSV file: a column for each axis, named as a quantity with its unit, such as `speed [rpm]`, then a column for the

@@ -154,6 +154,8 @@ pub struct Quantity<M: Mechanism> {
     pub least: f64,
     /// Greatest value for which the framework calls a model, in the documented unit.
     pub greatest: f64,
+    /// Where the framework takes the value from.
+    pub from: &'static str,
     /// Reads the value, SI.
     pub get: for<'a, 'b> fn(&'b M::At<'a>) -> f64,
     /// Sets the value, SI.
@@ -183,24 +185,37 @@ pub struct QuantityDoc {
     pub least: f64,
     /// Greatest value in the documented unit.
     pub greatest: f64,
+    /// Where the framework takes the value from.
+    pub from: &'static str,
 }
 
-/// Declares the context of a mechanism: each quantity once, with its meaning and unit in the doc comment, its usual value
-/// and the range in which the framework calls. The fields are SI; the three numbers are in the documented unit.
+/// Declares the context of a mechanism: each quantity once, with its meaning and unit in the doc comment, its usual value,
+/// the range in which the framework calls, and where the value comes from. The fields are SI; the three numbers are in the
+/// documented unit.
 ///
 /// The same list feeds rustdoc, `models`, the schema and input of `eval`, the variables of `formula`, the axes of `table`
 /// and the grid of the conformance suite.
+///
+/// A context may gain quantities, so other crates do not write it out (`#[non_exhaustive]`): they take the usual one, or the
+/// one at hand, and change what they know (`with`, `nested`).
 #[macro_export]
 macro_rules! context {
     ($(#[doc = $head:literal])+ pub struct $At:ident of $M:ty {
-        $($(#[doc = $doc:literal])+ $name:ident: $usual:literal in $least:literal ..= $greatest:literal,)+
+        $($(#[doc = $doc:literal])+ $name:ident: $usual:literal in $least:literal ..= $greatest:literal from $from:literal,)+
     }) => {
         $(#[doc = $head])+
         #[derive(Clone, Copy)]
+        #[non_exhaustive]
         pub struct $At<'a> {
             /// What the component is.
             pub part: &'a <$M as $crate::mechanism::Mechanism>::Part,
-            $($(#[doc = $doc])+ pub $name: f64,)+
+            $(
+                $(#[doc = $doc])+
+                #[doc = ""]
+                #[doc = concat!("SI here; in that unit usually ", stringify!($usual), ", asked from ", stringify!($least), " to ",
+                    stringify!($greatest), ". From ", $from, ".")]
+                pub $name: f64,
+            )+
             /// Where limits, observed quantities and steps are noted.
             pub notes: $crate::loss::Notes<'a>,
         }
@@ -214,17 +229,33 @@ macro_rules! context {
         impl<'a> $At<'a> {
             /// The list of the quantities.
             pub const QUANTITIES: &'static [$crate::mechanism::Quantity<$M>] = &[$($crate::mechanism::Quantity {
-                name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest,
+                name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest, from: $from,
                 get: |at| at.$name, set: |at, si| at.$name = si,
             }),+];
 
             /// The context at its usual point.
             pub fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {
+                // Models ask others at contexts of their own in every point, so units are looked up once.
+                static USUAL: ::std::sync::OnceLock<::std::vec::Vec<f64>> = ::std::sync::OnceLock::new();
+                let usual = USUAL.get_or_init(|| Self::QUANTITIES.iter().map(|q| q.unit().to_si(q.usual)).collect());
                 let mut at = Self { part, $($name: 0.0,)+ notes };
-                for q in Self::QUANTITIES {
-                    (q.set)(&mut at, q.unit().to_si(q.usual));
+                for (q, usual) in Self::QUANTITIES.iter().zip(usual) {
+                    (q.set)(&mut at, *usual);
                 }
                 at
+            }
+
+            /// The same with some quantities changed.
+            #[inline]
+            pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+                change(&mut self);
+                self
+            }
+
+            /// The same for the model of a nested slot, which has notes of its own.
+            #[inline]
+            pub fn nested(&self, slot: &$crate::registry::Slot<$M>) -> Self {
+                self.with(|to| to.notes = self.notes.of(slot.notes))
             }
 
             /// Notes whether a value lies in the range of a limit; returns the value.

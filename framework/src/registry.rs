@@ -20,7 +20,7 @@ pub use recipe::NetworkRecipe;
 pub use slot::{ModelRef, NamedSlots, Slot};
 
 use crate::conformance;
-use crate::document::Diagnostic;
+use crate::document::{Diagnostic, did_you_mean};
 use crate::eval::{self, Evaluated};
 use crate::generic;
 use crate::loss::{Limit, Observed, Term};
@@ -29,25 +29,35 @@ use crate::mechanism::{Component, Mechanism, QuantityDoc};
 
 pub use inventory;
 
-/// Module and line of a registration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Origin {
-    /// Module path; its first segment is the crate.
-    pub module: &'static str,
-    /// Line in the file of the module.
-    pub line: u32,
+/// A crate that registers something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+pub struct Package {
+    /// Name as in its Cargo.toml.
+    pub name: &'static str,
+    /// Version as in its Cargo.toml.
+    pub version: &'static str,
 }
 
-impl Origin {
-    /// Name of the crate.
-    pub fn package(&self) -> &'static str {
-        self.module.split("::").next().unwrap_or(self.module)
+impl std::fmt::Display for Package {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", self.name, self.version)
     }
+}
+
+/// Crate, file and line of a registration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Origin {
+    /// The crate.
+    pub package: Package,
+    /// Its file, as the compiler was told it.
+    pub file: &'static str,
+    /// Line in the file.
+    pub line: u32,
 }
 
 impl std::fmt::Display for Origin {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} (line {})", self.module, self.line)
+        write!(f, "{}, {}:{}", self.package, self.file, self.line)
     }
 }
 
@@ -56,7 +66,11 @@ impl std::fmt::Display for Origin {
 macro_rules! origin {
     () => {
         $crate::registry::Origin {
-            module: module_path!(),
+            package: $crate::registry::Package {
+                name: env!("CARGO_PKG_NAME"),
+                version: env!("CARGO_PKG_VERSION"),
+            },
+            file: file!(),
             line: line!(),
         }
     };
@@ -151,14 +165,14 @@ pub struct Entry {
     pub mechanism: &'static str,
     /// Name in documents.
     pub name: &'static str,
-    /// What it is, as a sentence.
-    pub meaning: &'static str,
     /// Primary source.
     pub source: &'static str,
     /// A valid `model:` record, in YAML flow style.
     pub example: &'static str,
     /// A part that the example is made for, in YAML; absent, that of the mechanism.
     pub part: Option<&'static str>,
+    /// Files that the example names, with their text.
+    pub files: &'static [(&'static str, &'static str)],
     /// Ranges in which the source states the formula to hold.
     pub limits: &'static [Limit],
     /// Named shares of the answer.
@@ -178,6 +192,15 @@ pub struct Entry {
 }
 
 inventory::collect!(Entry);
+
+impl Entry {
+    /// What it is, as a sentence: the first paragraph of the doc comment of its parameters.
+    pub fn meaning(&self) -> String {
+        let schema = (self.schema)(&mut SchemaGenerator::default());
+        let doc = schema.get("description").and_then(Value::as_str).unwrap_or_default();
+        doc.split("\n\n").next().unwrap_or_default().replace('\n', " ")
+    }
+}
 
 /// One mechanism, without its types.
 #[derive(Clone, Copy)]
@@ -244,6 +267,7 @@ fn quantities<M: Mechanism>() -> Vec<QuantityDoc> {
             usual: q.usual,
             least: q.least,
             greatest: q.greatest,
+            from: q.from,
         })
         .collect()
 }
@@ -323,7 +347,7 @@ impl Registry {
     /// The same with recipes for thermal networks.
     pub fn with_recipes(mut self, recipes: impl IntoIterator<Item = NetworkRecipe>) -> Self {
         self.recipes.extend(recipes);
-        self.recipes.sort_by_key(|r| (r.origin.module, r.origin.line));
+        self.recipes.sort_by_key(|r| (r.origin.file, r.origin.line));
         self
     }
 
@@ -333,7 +357,7 @@ impl Registry {
     /// If two cycles have one name; each error names modules and lines.
     pub fn with_cycles(mut self, cycles: impl IntoIterator<Item = ShippedCycle>) -> Result<Self, Vec<Diagnostic>> {
         self.cycles.extend(cycles);
-        self.cycles.sort_by_key(|c| (c.name, c.origin.module, c.origin.line));
+        self.cycles.sort_by_key(|c| (c.name, c.origin.file, c.origin.line));
         let found: Vec<_> = self
             .cycles
             .windows(2)
@@ -354,7 +378,7 @@ impl Registry {
         sets: impl IntoIterator<Item = ShippedSet>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut mechanisms: Vec<_> = mechanisms.into_iter().collect();
-        mechanisms.sort_by_key(|m| (m.key, m.origin.module, m.origin.line));
+        mechanisms.sort_by_key(|m| (m.key, m.origin.file, m.origin.line));
         let mut models: Vec<Entry> = models.into_iter().collect();
         let mut found = Vec::new();
         if models.is_empty() {
@@ -365,7 +389,7 @@ impl Registry {
         for mechanism in &mechanisms {
             models.extend((mechanism.generics)());
         }
-        models.sort_by_key(|m| (m.mechanism, m.name, m.origin.module, m.origin.line));
+        models.sort_by_key(|m| (m.mechanism, m.name, m.origin.file, m.origin.line));
         for pair in mechanisms.windows(2) {
             if pair[0].key == pair[1].key {
                 found.push(twice("mechanism", pair[0].key, pair[0].origin, pair[1].origin));
@@ -395,7 +419,7 @@ impl Registry {
         let mut sets: Vec<_> = sets.into_iter().collect();
         sets.sort_by_key(|s| s.name);
         let mut catalogues: Vec<_> = catalogues.into_iter().collect();
-        catalogues.sort_by_key(|c| (c.section, c.origin.module, c.origin.line));
+        catalogues.sort_by_key(|c| (c.section, c.origin.file, c.origin.line));
         if found.is_empty() {
             Ok(Self {
                 mechanisms,
@@ -428,6 +452,28 @@ impl Registry {
     /// One model.
     pub fn model(&self, mechanism: &str, name: &str) -> Option<&Entry> {
         self.models.iter().find(|m| m.mechanism == mechanism && m.name == name)
+    }
+
+    /// One mechanism by the key that somebody wrote.
+    ///
+    /// # Errors
+    /// If there is none; names those that there are, or a close one.
+    pub fn mechanism_named(&self, key: &str) -> Result<&MechanismEntry, Diagnostic> {
+        self.mechanism(key).ok_or_else(|| {
+            let names: Vec<&str> = self.mechanisms.iter().map(|m| m.key).collect();
+            missing(format!("no mechanism is called `{key}`"), key, &names)
+        })
+    }
+
+    /// One model of a mechanism by the name that somebody wrote.
+    ///
+    /// # Errors
+    /// As [`Registry::mechanism_named`].
+    pub fn model_named(&self, mechanism: &str, name: &str) -> Result<&Entry, Diagnostic> {
+        self.model(mechanism, name).ok_or_else(|| {
+            let names: Vec<&str> = self.models(mechanism).map(|m| m.name).collect();
+            missing(format!("no {mechanism} model is called `{name}`"), name, &names)
+        })
     }
 
     /// The mechanisms that have a section of their own.
@@ -465,18 +511,21 @@ impl Registry {
         recipe::only(&self.recipes)
     }
 
-    /// Crates that registered something, in the order of their names.
-    pub fn packages(&self) -> Vec<&'static str> {
-        let mut names: Vec<_> = self
-            .models
-            .iter()
-            .map(|m| m.origin.package())
-            .chain(self.mechanisms.iter().map(|m| m.origin.package()))
-            .collect();
-        names.sort_unstable();
-        names.dedup();
-        names
+    /// Crates that registered mechanisms or models, in the order of their names.
+    pub fn packages(&self) -> Vec<Package> {
+        let models = self.models.iter().map(|m| m.origin.package);
+        let mut packages: Vec<_> = models.chain(self.mechanisms.iter().map(|m| m.origin.package)).collect();
+        packages.sort_unstable();
+        packages.dedup();
+        packages
     }
+}
+
+fn missing(message: String, name: &str, names: &[&str]) -> Diagnostic {
+    Diagnostic::error("", message).mend(match did_you_mean(name, names.iter().copied()) {
+        Some(close) => format!("write {close}"),
+        None => format!("name one of {}", names.join(", ")),
+    })
 }
 
 fn twice(what: &str, name: &str, one: Origin, other: Origin) -> Diagnostic {
@@ -512,19 +561,19 @@ macro_rules! register_component {
     };
 }
 
-/// Registers a model: mechanism, name in documents, parameters, then its head. Without `prepare` the parameters are the
+/// Registers a model: mechanism, name in documents, parameters, then its head. What the model is stands in the doc comment of
+/// its parameters. Without `prepare` the parameters are the
 /// model; with it, `prepare(parameters, &mut Build)` makes the model.
 #[macro_export]
 macro_rules! register {
     ($M:ty, $name:literal, $Params:ty,
-        meaning: $meaning:expr, source: $source:expr, example: $example:expr, $(part: $part:expr,)?
+        source: $source:expr, example: $example:expr, $(part: $part:expr,)? $(files: [$($file:expr),* $(,)?],)?
         evidence: [$($graded:expr),* $(,)?]
         $(, limits: [$($limit:expr),* $(,)?])? $(, terms: [$($term:expr),* $(,)?])? $(, observed: [$($observed:expr),* $(,)?])?
         $(, scope: $scope:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
         $crate::registry::inventory::submit! {
             $crate::registry::Entry {
-                mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, meaning: $meaning, source: $source,
-                example: $example, part: $crate::register!(@part $($part)?), evidence: &[$($graded),*],
+                mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: $example, part: $crate::register!(@part $($part)?), files: &[$($($file),*)?], evidence: &[$($graded),*],
                 limits: &[$($($limit),*)?], terms: &[$($($term),*)?], observed: &[$($($observed),*)?],
                 scope: $crate::register!(@scope $($scope)?),
                 origin: $crate::origin!(),

@@ -77,15 +77,14 @@ mod cases {
 
     /// An oil of a conductivity, kinematic viscosity, density and specific heat at a speed, for the check cases.
     pub fn at(part: &HeatLinkPart, speed: f64, [k, nu, rho, c]: [f64; 4]) -> HeatLinkAt<'_> {
-        HeatLinkAt {
-            speed,
-            nu,
-            eta: nu * rho,
-            rho,
-            heat_capacity: c,
-            conductivity: k,
-            ..HeatLinkAt::usual(part, Notes::MUTED)
-        }
+        HeatLinkAt::usual(part, Notes::MUTED).with(|to| {
+            to.speed = speed;
+            to.nu = nu;
+            to.eta = nu * rho;
+            to.rho = rho;
+            to.heat_capacity = c;
+            to.conductivity = k;
+        })
     }
 
     /// What building finds for a part.

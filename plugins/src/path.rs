@@ -97,26 +97,7 @@ impl Path {
 
     /// The path at one operating point.
     pub fn at<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
-        PathAt {
-            nodes: &self.nodes,
-            extent: &self.extent,
-            speed: mean.speed,
-            line_load: mean.normal_force / mean.part.pair.facewidth,
-            modulus: mean.part.modulus,
-            length: self.length,
-            ra: mean.ra,
-            rq: mean.rq,
-            temperature: mean.temperature,
-            nu: mean.nu,
-            eta: mean.eta,
-            alpha: mean.alpha,
-            beta: mean.beta,
-            conductivity: mean.conductivity,
-            x_l: mean.x_l,
-            bodies: None,
-            mean,
-            notes,
-        }
+        PathAt::of(&self.nodes, &self.extent, self.length, mean, notes)
     }
 
     /// Runs with space for friction at each point; most paths need little, and zeroing more costs time.

@@ -1,103 +1,39 @@
 //! `eval`: one model alone, without a gearbox.
 
-use gearloss_framework::document::{Sources, read_yaml};
-use gearloss_framework::gearbox::Findings;
-use gearloss_framework::loss::Step;
-use gearloss_framework::registry::Files;
-use serde_json::{Map, Value, json};
+use std::path::Path;
 
-use super::language;
-use super::models::{no_mechanism, no_model};
+use gearloss_framework::eval;
+use gearloss_framework::loss::Step;
+use serde_json::json;
+
+use super::{alone, language};
 use crate::args::{EvalArgs, Format};
 use crate::output::{End, Failure, Out, significant};
 
 pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     let language = language()?;
-    let Some((mechanism, model)) = args.model.split_once('/') else {
-        return Err(Failure::input(
-            format!("`{}` is no model", args.model),
-            "write MECHANISM/MODEL, such as bearing/skf",
-        ));
+    let (mechanism, entry) = eval::named(&language, &args.model).map_err(alone)?;
+    let (text, folder) = match &args.input {
+        Some(file) => (
+            std::fs::read_to_string(file).map_err(|e| {
+                Failure::input(
+                    format!("cannot read {}: {e}", file.display()),
+                    "check the name of the file",
+                )
+            })?,
+            file.parent().map(Path::to_path_buf).unwrap_or_default(),
+        ),
+        None => Default::default(),
     };
-    let entry_of = language
-        .registry()
-        .mechanism(mechanism)
-        .ok_or_else(|| no_mechanism(&language, mechanism))?;
-    let entry = language
-        .registry()
-        .model(mechanism, model)
-        .ok_or_else(|| no_model(&language, mechanism, model))?;
-    let (example, part) = language.example_of(entry).map_err(|list| Findings {
-        list,
-        sources: Sources::default(),
-    })?;
-    let mut sources = Sources::default();
-    let (mut model_value, mut part_value, mut at) = (example, part, Map::new());
-    let mut folder = std::path::PathBuf::new();
-    if let Some(file) = &args.input {
-        let text = std::fs::read_to_string(file).map_err(|e| {
-            Failure::input(
-                format!("cannot read {}: {e}", file.display()),
-                "check the name of the file",
-            )
-        })?;
-        folder = file.parent().map(std::path::Path::to_path_buf).unwrap_or_default();
-        let source = sources.add(file.display().to_string(), text.as_str());
-        let read = read_yaml(source, &text);
-        if !read.findings.is_empty() {
-            return Err(Findings {
-                list: read.findings,
-                sources,
-            }
-            .into());
-        }
-        let walked = language.walk_eval(mechanism, &read.node).map_err(|list| Findings {
-            list,
-            sources: sources.clone(),
-        })?;
-        if !walked.findings.is_empty() {
-            return Err(Findings {
-                list: walked.findings,
-                sources,
-            }
-            .into());
-        }
-        if let Some(written) = walked.value.get("model") {
-            let name = written
-                .as_str()
-                .or_else(|| written["type"].as_str())
-                .unwrap_or_default();
-            if name != model {
-                return Err(Failure::input(
-                    format!("the input is for `{name}`, not for `{model}`"),
-                    format!("write `model: {{ type: {model} }}`, or leave `model` out"),
-                ));
-            }
-            model_value = written.clone();
-        }
-        if let Some(written) = walked.value.get("part") {
-            part_value = written.clone();
-        }
-        at = walked
-            .value
-            .get("at")
-            .and_then(Value::as_object)
-            .cloned()
-            .unwrap_or_default();
-    }
-    let files = Files::beside(folder);
-    let evaluated =
-        (entry_of.eval)(language.registry(), &files, &model_value, &part_value, &at).map_err(|error| Findings {
-            list: vec![error],
-            sources,
-        })?;
+    let source = args.input.as_deref().unwrap_or(Path::new("")).display().to_string();
+    let evaluated = eval::ask(&language, &args.model, &source, &text, &folder)?;
     if args.format == Format::Json {
         let value = json!({
             "format": "gearloss-eval/1",
             "gearloss": env!("CARGO_PKG_VERSION"),
-            "mechanism": mechanism,
-            "model": model,
-            "answer": entry_of.answer,
+            "mechanism": mechanism.key,
+            "model": entry.name,
+            "answer": mechanism.answer,
             "values": evaluated.values.iter().map(|(n, v)| json!({ "name": n, "value": v })).collect::<Vec<_>>(),
             "total": evaluated.total,
             "moment_nm": evaluated.moment,
@@ -112,7 +48,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
         out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
         return Ok(End::Fine);
     }
-    out.line(format!("{mechanism}/{model}: {}", entry.meaning))?;
+    out.line(format!("{}: {}", args.model, entry.meaning()))?;
     out.line(format!("source: {}", entry.source))?;
     for (path, step) in &evaluated.steps {
         let place = if path == "model" {
@@ -140,7 +76,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
             significant(evaluated.moment.unwrap_or(0.0))
         ))?;
     } else {
-        out.line(format!("{} {}", entry_of.answer, significant(evaluated.total)))?;
+        out.line(format!("{} {}", mechanism.answer, significant(evaluated.total)))?;
     }
     for (path, limit, extent) in evaluated.limits.iter().filter(|(_, _, e)| e.outside > 0) {
         out.line(format!(

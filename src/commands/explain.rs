@@ -138,7 +138,10 @@ fn explain_way(
         let entry = &instance.entry;
         out.line(format!(
             "{path}: {} `{}`\n  {}\n  source: {}",
-            entry.mechanism, entry.name, entry.meaning, entry.source
+            entry.mechanism,
+            entry.name,
+            entry.meaning(),
+            entry.source
         ))?;
     }
     out.line(format!(
@@ -171,7 +174,11 @@ fn source(transmission: &Transmission, info: &PartInfo) -> String {
     let entry = &transmission.instances()[info.notes.instance].entry;
     format!(
         "{}: {} `{}`\n  {}\n  source: {}\n",
-        info.path, info.mechanism, entry.name, entry.meaning, entry.source
+        info.path,
+        info.mechanism,
+        entry.name,
+        entry.meaning(),
+        entry.source
     )
 }
 

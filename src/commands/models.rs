@@ -1,11 +1,10 @@
 //! `models`: what is linked into this program.
 
-use gearloss_framework::document::did_you_mean;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::{Entry, MechanismEntry};
 use serde_json::Value;
 
-use super::{language, needs};
+use super::{alone, language, needs};
 use crate::args::ModelsArgs;
 use crate::output::{End, Failure, Out, Table, significant};
 
@@ -17,45 +16,16 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
     match (&args.mechanism, &args.model) {
         (None, _) => all(&language, out)?,
         (Some(mechanism), None) => {
-            let entry = language
-                .registry()
-                .mechanism(mechanism)
-                .ok_or_else(|| no_mechanism(&language, mechanism))?;
-            one_mechanism(&language, entry, out)?;
+            let mechanism = language.registry().mechanism_named(mechanism).map_err(alone)?;
+            one_mechanism(&language, mechanism, out)?;
         }
         (Some(mechanism), Some(model)) => {
-            language
-                .registry()
-                .mechanism(mechanism)
-                .ok_or_else(|| no_mechanism(&language, mechanism))?;
-            let entry = language
-                .registry()
-                .model(mechanism, model)
-                .ok_or_else(|| no_model(&language, mechanism, model))?;
-            one_model(&language, entry, out)?;
+            let mechanism = language.registry().mechanism_named(mechanism).map_err(alone)?;
+            let model = language.registry().model_named(mechanism.key, model).map_err(alone)?;
+            one_model(&language, model, out)?;
         }
     }
     Ok(End::Fine)
-}
-
-/// The error for an unknown mechanism.
-pub fn no_mechanism(language: &Language, name: &str) -> Failure {
-    let names: Vec<&str> = language.registry().mechanisms().iter().map(|m| m.key).collect();
-    let mend = did_you_mean(name, names.iter().copied()).map_or_else(
-        || format!("name one of {}", names.join(", ")),
-        |close| format!("write {close}"),
-    );
-    Failure::input(format!("no mechanism is called `{name}`"), mend)
-}
-
-/// The error for an unknown model.
-pub fn no_model(language: &Language, mechanism: &str, name: &str) -> Failure {
-    let names: Vec<&str> = language.registry().models(mechanism).map(|m| m.name).collect();
-    let mend = did_you_mean(name, names.iter().copied()).map_or_else(
-        || format!("name one of {}", names.join(", ")),
-        |close| format!("write {close}"),
-    );
-    Failure::input(format!("no {mechanism} model is called `{name}`"), mend)
 }
 
 fn all(language: &Language, out: &mut Out) -> Result<(), Failure> {
@@ -70,16 +40,22 @@ fn all(language: &Language, out: &mut Out) -> Result<(), Failure> {
             table.row(vec![
                 mechanism.key.to_owned(),
                 model.name.to_owned(),
-                model.origin.package().to_owned(),
+                model.origin.package.name.to_owned(),
                 grade.to_owned(),
-                model.meaning.to_owned(),
+                model.meaning(),
             ]);
         }
     }
     out.text(&table.render())?;
     out.line("")?;
     for set in language.registry().shipped_sets() {
-        out.line(format!("set {}: {} ({})", set.name, set.meaning, set.origin.package()))?;
+        out.line(format!(
+            "set {}: {} ({})",
+            set.name, set.meaning, set.origin.package.name
+        ))?;
+    }
+    for package in language.registry().packages() {
+        out.line(format!("crate {package}"))?;
     }
     Ok(())
 }
@@ -92,7 +68,7 @@ fn one_mechanism(language: &Language, mechanism: &MechanismEntry, out: &mut Out)
     }
     out.line(format!("registered at {}", mechanism.origin))?;
     out.line("")?;
-    let mut quantities = Table::new(&["quantity", "usual", "least", "greatest", "what it is"]);
+    let mut quantities = Table::new(&["quantity", "usual", "least", "greatest", "what it is", "from"]);
     for q in (mechanism.quantities)() {
         quantities.row(vec![
             q.name.to_owned(),
@@ -100,24 +76,21 @@ fn one_mechanism(language: &Language, mechanism: &MechanismEntry, out: &mut Out)
             significant(q.least),
             significant(q.greatest),
             q.doc.trim().to_owned(),
+            q.from.to_owned(),
         ]);
     }
     out.text(&quantities.render())?;
     out.line("")?;
     let mut models = Table::new(&["model", "what it is", "source"]);
     for model in language.registry().models(mechanism.key) {
-        models.row(vec![
-            model.name.to_owned(),
-            model.meaning.to_owned(),
-            model.source.to_owned(),
-        ]);
+        models.row(vec![model.name.to_owned(), model.meaning(), model.source.to_owned()]);
     }
     out.text(&models.render())?;
     Ok(())
 }
 
 fn one_model(language: &Language, entry: &Entry, out: &mut Out) -> Result<(), Failure> {
-    out.line(format!("{}/{}: {}", entry.mechanism, entry.name, entry.meaning))?;
+    out.line(format!("{}/{}: {}", entry.mechanism, entry.name, entry.meaning()))?;
     out.line(format!("source: {}", entry.source))?;
     out.line(format!("registered at {}", entry.origin))?;
     out.line(format!("example: {}", entry.example))?;

@@ -43,6 +43,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     match args.format {
         Format::Json => {
             let mut value = as_json(&transmission, &solution, &prepared);
+            value["packages"] = json!(language.registry().packages());
             // Without a balance there is no temperature of the oil; the losses belong to another one.
             value["oil_temperature_degc"] = json!(warm.is_sound().then_some(warm.oil));
             value["evaluated_at_degc"] = json!(warm.oil);

@@ -1,8 +1,10 @@
-//! A mechanism of a maker's own, with its section, and two models: a parking lock whose pawl drags, and a seal.
+//! The models of a maker of gearboxes: a bearing law from its rig, a baffle around a dipping gear, and a mechanism of its own,
+//! the drag of parking locks. All figures are invented.
 //!
-//! Nothing else names this crate: linking it (`use in_house_plugin as _;`) puts its mechanism and models into schema,
-//! `models`, `check`, `solve`, `explain` and the conformance suite.
+//! Nothing else names this crate: linking it (`use in_house_plugin as _;`) puts its models and its section into schema, `models`,
+//! `check`, `solve`, `explain`, `run`, the report and the conformance suite.
 
-pub mod measured_seal;
+pub mod baffled;
 pub mod parking_lock;
 pub mod pawl;
+pub mod rig_line;

@@ -2,13 +2,7 @@
 
 use std::sync::Arc;
 
-use gearloss_framework::attach::{MemberSite, OnMember};
-use gearloss_framework::generic::Scalar;
-use gearloss_framework::loss::{Loss, Notes, Undefined};
-use gearloss_framework::mechanism::{Component, Mechanism, Quantity};
-use gearloss_framework::{context, register_component};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use gearloss_framework::prelude::*;
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -32,9 +26,9 @@ context! {
     /// All that a model of a parking lock may look at.
     pub struct ParkingLockAt of ParkingLock {
         /// Speed of the wheel, signed. [rpm]
-        speed: 1000.0 in -20000.0..=20000.0,
+        speed: 1000.0 in -20000.0..=20000.0 from "kinematics of its shaft",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0,
+        eta: 8.0 in 0.5..=10000.0 from "the oil of the component at its temperature",
     }
 }
 
@@ -68,7 +62,12 @@ impl Component for ParkingLock {
     type Attachment = OnMember;
 
     fn at<'a>(part: &'a ParkingLockPart, site: MemberSite<'a>, notes: Notes<'a>) -> ParkingLockAt<'a> {
-        ParkingLockAt { part, speed: site.speed, eta: site.oil.eta, notes }
+        ParkingLockAt {
+            part,
+            speed: site.speed,
+            eta: site.oil.eta,
+            notes,
+        }
     }
 }
 

@@ -1,20 +1,13 @@
-//! A pawl that is held off the wheel by a spring and rattles along its teeth.
-//!
-//! Source: invented for this example; the figures mean nothing.
+//! The moment is that of a mean force at the rim; it does not hang on speed.
 
-use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
-use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::register;
-use gearloss_framework::registry::{Evidence, default_of, formula};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use gearloss_framework::prelude::*;
 
 use crate::parking_lock::{ParkingLock, ParkingLockAt, ParkingLockModel};
 
 const RATTLE: Term = Term::no_load(0, "rattle");
 const SPEED: Limit = Limit::new(0, "n", "1/min", 0.0, 6000.0, "rig of the example");
 
-/// A pawl held off the wheel by a spring.
+/// A pawl that rattles along the wheel.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Pawl {
     /// Mean force of the pawl on the wheel. [N]
@@ -36,7 +29,6 @@ impl ParkingLockModel for Pawl {
 }
 
 register!(ParkingLock, "pawl", Pawl,
-    meaning: "A pawl that rattles along the wheel.",
     source: "rig report 17 of nobody",
     example: "{ type: pawl, force: 0.8 N }",
     evidence: [formula(Evidence::Assumed, "invented"), default_of("force", Evidence::Assumed, "invented")],

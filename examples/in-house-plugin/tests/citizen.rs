@@ -14,7 +14,11 @@ fn out(args: &[&str]) -> String {
         .args(args)
         .output()
         .unwrap();
-    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{args:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     String::from_utf8(output.stdout).unwrap()
 }
 
@@ -50,10 +54,24 @@ fn check_solve_and_explain_know_them() {
     let solved = out(&[&["solve", "gearbox.yaml"][..], &POINT].concat());
     // 0.5 N at 45 mm on the wheel at 1500 rpm.
     let expected = 0.5 * 0.045 * 1500.0 * std::f64::consts::PI / 30.0;
-    assert!(solved.contains("parking_locks.lock") && solved.contains(&format!("{expected:.4}")), "{solved}");
+    assert!(
+        solved.contains("parking_locks.lock") && solved.contains(&format!("{expected:.4}")),
+        "{solved}"
+    );
     let explained = out(&[&["explain", "gearbox.yaml", "lock"][..], &POINT].concat());
-    assert!(explained.contains("rig report 17") && explained.contains("M = 0.0225 Nm"), "{explained}");
-    let formula = [&["solve", "gearbox.yaml", "--set", "parking_locks.lock.model={ type: formula, formula: \"1e-5 * abs(speed)\" }"][..], &POINT];
+    assert!(
+        explained.contains("rig report 17") && explained.contains("M = 0.0225 Nm"),
+        "{explained}"
+    );
+    let formula = [
+        &[
+            "solve",
+            "gearbox.yaml",
+            "--set",
+            "parking_locks.lock.model={ type: formula, formula: \"1e-5 * abs(speed)\" }",
+        ][..],
+        &POINT,
+    ];
     assert!(out(&formula.concat()).contains("formula"));
 }
 
@@ -66,5 +84,9 @@ fn a_fault_in_the_section_is_found_like_any_other() {
         .output()
         .unwrap();
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(String::from_utf8(wrong.stderr).unwrap().contains("torque, not a length"));
+    assert!(
+        String::from_utf8(wrong.stderr)
+            .unwrap()
+            .contains("torque, not a length")
+    );
 }

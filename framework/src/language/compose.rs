@@ -187,14 +187,13 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
         for entry in registry.models(mechanism.key) {
             let mut schema = (entry.schema)(&mut generator).to_value();
             let object = schema.as_object_mut().expect("a model's parameters are a record");
-            object.insert("description".to_owned(), json!(entry.meaning));
             object.insert("title".to_owned(), json!(entry.name));
             object.entry("type").or_insert(json!("object"));
             let fields = object.remove("properties").unwrap_or_else(|| json!({}));
             let mut with_type = Map::new();
             with_type.insert(
                 "type".to_owned(),
-                json!({ "const": entry.name, "description": entry.meaning }),
+                json!({ "const": entry.name, "description": entry.meaning() }),
             );
             with_type.extend(fields.as_object().cloned().unwrap_or_default());
             object.insert("properties".to_owned(), Value::Object(with_type));

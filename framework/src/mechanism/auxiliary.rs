@@ -22,15 +22,15 @@ context! {
     /// All that the model of an auxiliary may look at.
     pub struct AuxiliaryAt of Auxiliary {
         /// Speed of the shaft that drives it, signed. [rpm]
-        speed: 2000.0 in -30000.0..=30000.0,
+        speed: 2000.0 in -30000.0..=30000.0 from "kinematics of its shaft",
         /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0,
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the component: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0,
+        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0,
+        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0,
+        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
     }
 }
 

@@ -237,27 +237,27 @@ context! {
     /// All that a bearing model may look at.
     pub struct BearingAt of Bearing {
         /// Speed of the inner ring relative to the outer ring, signed. [rpm]
-        speed: 3000.0 in -30000.0..=30000.0,
+        speed: 3000.0 in -30000.0..=30000.0 from "kinematics of `shaft` and `outer`",
         /// Speed of the outer ring, signed; zero in the housing. [rpm]
-        outer_speed: 0.0 in -30000.0..=30000.0,
+        outer_speed: 0.0 in -30000.0..=30000.0 from "kinematics of `outer`",
         /// Radial load. [N]
-        radial: 1000.0 in 0.0..=100000.0,
+        radial: 1000.0 in 0.0..=100000.0 from "statics of the shaft with tooth forces, weights, outside forces and preload, times `radial_factor`",
         /// Axial load. [N]
-        axial: 300.0 in 0.0..=50000.0,
+        axial: 300.0 in 0.0..=50000.0 from "the bearings of the shaft that take its thrust, with preload, times `axial_factor`",
         /// Tilting moment. [Nm]
-        tilting: 0.0 in 0.0..=1000.0,
+        tilting: 0.0 in 0.0..=1000.0 from "statics of a shaft that this support alone carries",
         /// Temperature of the oil at the bearing. [degC]
-        temperature: 80.0 in -40.0..=200.0,
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the component: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil at the bearing. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0,
+        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Density of the oil at the bearing. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0,
+        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Height of the oil above the lowest point of the outer raceway; zero when dry. [mm]
-        oil_height: 5.0 in 0.0..=500.0,
+        oil_height: 5.0 in 0.0..=500.0 from "`oil_height`, else the level of the oil at its place",
         /// Coefficient of boundary friction that the oil states; zero where it states none. [-]
-        mu_bl: 0.0 in 0.0..=0.3,
+        mu_bl: 0.0 in 0.0..=0.3 from "`mu_bl` of the oil",
         /// Coefficient of full-film friction of ball bearings that the oil states. [-]
-        mu_ehl: 0.05 in 0.001..=0.2,
+        mu_ehl: 0.05 in 0.001..=0.2 from "`mu_ehl` of the oil, or its kind",
     }
 }
 

@@ -47,15 +47,15 @@ context! {
     /// All that a clutch model may look at.
     pub struct ClutchAt of Clutch {
         /// Speed of the first member relative to the second, signed; zero when closed. [rpm]
-        speed: 500.0 in -30000.0..=30000.0,
+        speed: 500.0 in -30000.0..=30000.0 from "kinematics of both members and the gear state",
         /// Speed of the first member, signed. [rpm]
-        first_speed: 1000.0 in -30000.0..=30000.0,
+        first_speed: 1000.0 in -30000.0..=30000.0 from "kinematics",
         /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0,
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the component: given, balanced or a node of the network, and `temperature_offset`",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0,
+        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0,
+        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
     }
 }
 

@@ -107,29 +107,29 @@ context! {
     /// All that a drag model may look at. Quantities that end in `_2` belong to the second gear of a pair.
     pub struct GearDragAt of GearDrag {
         /// Speed of the gear, or of the first gear, signed. [rpm]
-        speed: 1500.0 in -30000.0..=30000.0,
+        speed: 1500.0 in -30000.0..=30000.0 from "kinematics",
         /// Speed of the second gear, signed. [rpm]
-        speed_2: -500.0 in -30000.0..=30000.0,
+        speed_2: -500.0 in -30000.0..=30000.0 from "kinematics",
         /// Depth of the tip circle in the oil. [mm]
-        tip_dip: 20.0 in 0.0..=5000.0,
+        tip_dip: 20.0 in 0.0..=5000.0 from "the oil level and the place of the shaft",
         /// Depth of the reference circle in the oil. [mm]
-        dip: 18.0 in 0.0..=5000.0,
+        dip: 18.0 in 0.0..=5000.0 from "the oil level and the place of the shaft",
         /// Depth of the second gear's tip circle in the oil. [mm]
-        tip_dip_2: 0.0 in 0.0..=5000.0,
+        tip_dip_2: 0.0 in 0.0..=5000.0 from "the oil level and the place of its shaft",
         /// Depth of the second gear's reference circle in the oil. [mm]
-        dip_2: 0.0 in 0.0..=5000.0,
+        dip_2: 0.0 in 0.0..=5000.0 from "the oil level and the place of its shaft",
         /// One where the gear's lowest point moves towards a mate, zero where it moves away from all of them. [-]
-        towards_mesh: 0.0 in 0.0..=1.0,
+        towards_mesh: 0.0 in 0.0..=1.0 from "sense of rotation and the places of the mates",
         /// The same for the second gear. [-]
-        towards_mesh_2: 0.0 in 0.0..=1.0,
+        towards_mesh_2: 0.0 in 0.0..=1.0 from "sense of rotation and the places of its mates",
         /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0,
+        temperature: 80.0 in -40.0..=200.0 from "the oil that the gears dip into: given, balanced or a node of the network",
         /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0,
+        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0,
+        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0,
+        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
     }
 }
 

@@ -190,33 +190,33 @@ context! {
     /// All that a mesh model may look at: one mesh, in the frame of its carrier.
     pub struct GearMeshAt of GearMesh {
         /// Torque of one mesh on the first gear, magnitude. [Nm]
-        torque: 50.0 in 0.0..=5000.0,
+        torque: 50.0 in 0.0..=5000.0 from "the flow of torque, losses before the mesh included",
         /// Speed of the first gear relative to the carrier, signed. [rpm]
-        speed: 3000.0 in -30000.0..=30000.0,
+        speed: 3000.0 in -30000.0..=30000.0 from "kinematics",
         /// One where the first gear drives, zero where the second does. [-]
-        first_drives: 1.0 in 0.0..=1.0,
+        first_drives: 1.0 in 0.0..=1.0 from "the sense of the power in the flow",
         /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0,
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network",
         /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0,
+        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0,
+        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0,
+        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0,
+        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
         /// Relative fall of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3,
+        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5,
+        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density after Cragoe",
         /// Lubricant factor of mean mesh friction that the oil states. [-]
-        x_l: 1.0 in 0.1..=2.0,
+        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
         /// One where a thermal network knows the temperatures of the gears, zero where a model finds them itself. [-]
-        bodies_known: 0.0 in 0.0..=1.0,
+        bodies_known: 0.0 in 0.0..=1.0 from "the thermal network",
         /// Temperature of the body of the first gear, where it is known. [degC]
-        temperature_1: 80.0 in -40.0..=200.0,
+        temperature_1: 80.0 in -40.0..=200.0 from "the node of the first gear",
         /// Temperature of the body of the second gear, where it is known. [degC]
-        temperature_2: 80.0 in -40.0..=200.0,
+        temperature_2: 80.0 in -40.0..=200.0 from "the node of the second gear",
     }
 }
 

@@ -70,15 +70,15 @@ context! {
     /// All that a model of heat dissipation may look at.
     pub struct HeatDissipationAt of HeatDissipation {
         /// Temperature of the oil. [degC]
-        oil_temperature: 80.0 in -60.0..=250.0,
+        oil_temperature: 80.0 in -60.0..=250.0 from "the balance, or what is tried on the way to it",
         /// Temperature of the surface of the housing. [degC]
-        surface_temperature: 75.0 in -60.0..=250.0,
+        surface_temperature: 75.0 in -60.0..=250.0 from "the balance, with `thermal.oil_to_surface`",
         /// Temperature of the surroundings. [degC]
-        ambient: 20.0 in -60.0..=120.0,
+        ambient: 20.0 in -60.0..=120.0 from "`thermal.ambient`",
         /// Density of the oil. [kg/m3]
-        rho: 830.0 in 500.0..=1300.0,
+        rho: 830.0 in 500.0..=1300.0 from "the oil of the housing at its temperature",
         /// Specific heat of the oil. [J/(kg K)]
-        heat_capacity: 2100.0 in 1000.0..=4000.0,
+        heat_capacity: 2100.0 in 1000.0..=4000.0 from "the oil of the housing at its temperature",
     }
 }
 

@@ -58,25 +58,25 @@ context! {
     /// All that a model of a heat link may look at.
     pub struct HeatLinkAt of HeatLink {
         /// Temperature of the first end. [degC]
-        temperature_1: 80.0 in -60.0..=300.0,
+        temperature_1: 80.0 in -60.0..=300.0 from "the network, or what is tried on the way to it",
         /// Temperature of the second end. [degC]
-        temperature_2: 60.0 in -60.0..=300.0,
+        temperature_2: 60.0 in -60.0..=300.0 from "the network, or what is tried on the way to it",
         /// Speed of the shaft or gear that the link names, without its sense; zero where it names none. [rpm]
-        speed: 3000.0 in 0.0..=30000.0,
+        speed: 3000.0 in 0.0..=30000.0 from "kinematics",
         /// Speed of the vehicle; zero outside of a drive cycle. [m/s]
-        vehicle_speed: 0.0 in 0.0..=100.0,
+        vehicle_speed: 0.0 in 0.0..=100.0 from "the duty",
         /// Kinematic viscosity of the oil at the mean of both temperatures. [mm2/s]
-        nu: 12.0 in 0.5..=100000.0,
+        nu: 12.0 in 0.5..=100000.0 from "the oil of the housing",
         /// Dynamic viscosity of the oil at the mean of both temperatures. [mPa s]
-        eta: 10.0 in 0.3..=100000.0,
+        eta: 10.0 in 0.3..=100000.0 from "`nu` times `rho`",
         /// Density of the oil at the mean of both temperatures. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0,
+        rho: 820.0 in 500.0..=1300.0 from "the oil of the housing",
         /// Specific heat of the oil at the mean of both temperatures. [J/(kg K)]
-        heat_capacity: 2100.0 in 1000.0..=4000.0,
+        heat_capacity: 2100.0 in 1000.0..=4000.0 from "the oil of the housing",
         /// Thermal conductivity of the oil at the mean of both temperatures. [W/(m K)]
-        conductivity: 0.14 in 0.05..=1.0,
+        conductivity: 0.14 in 0.05..=1.0 from "the oil of the housing",
         /// Mass flow of the oil in its circuit; zero without one. [kg/s]
-        oil_flow: 0.1 in 0.0..=100.0,
+        oil_flow: 0.1 in 0.0..=100.0 from "the flow of the network that the link names",
     }
 }
 

@@ -22,37 +22,37 @@ context! {
     /// All that a law of mean friction may look at: the mesh at its pitch point, in the frame of its carrier.
     pub struct MeanFrictionAt of MeanFriction {
         /// Tangential force at the base circle over the face width. [N/mm]
-        line_load: 200.0 in 0.0..=3000.0,
+        line_load: 200.0 in 0.0..=3000.0 from "torque of the mesh over its face width",
         /// Normal force of the mesh. [N]
-        normal_force: 3000.0 in 0.0..=1000000.0,
+        normal_force: 3000.0 in 0.0..=1000000.0 from "torque of the mesh and base circle",
         /// Hertz pressure at the pitch point under the whole normal force. [GPa]
-        pressure: 0.8 in 0.0..=4.0,
+        pressure: 0.8 in 0.0..=4.0 from "`normal_force`, `radius` and the material",
         /// Speed of the first gear relative to the carrier, magnitude. [rpm]
-        speed: 3000.0 in 0.0..=30000.0,
+        speed: 3000.0 in 0.0..=30000.0 from "kinematics",
         /// Pitch line speed. [m/s]
-        pitch_speed: 10.0 in 0.0..=200.0,
+        pitch_speed: 10.0 in 0.0..=200.0 from "`speed` and the working pitch circle",
         /// Sum of the surface speeds at the pitch point. [m/s]
-        sum_speed: 7.0 in 0.0..=200.0,
+        sum_speed: 7.0 in 0.0..=200.0 from "`speed` and the geometry of the pair",
         /// Radius of relative curvature at the pitch point, normal plane. [mm]
-        radius: 8.0 in 0.1..=500.0,
+        radius: 8.0 in 0.1..=500.0 from "the geometry of the pair",
         /// Arithmetic mean roughness, mean of both flanks. [um]
-        ra: 0.4 in 0.01..=5.0,
+        ra: 0.4 in 0.01..=5.0 from "`surface.ra` of both gears",
         /// Root mean square roughness of both flanks together. [um]
-        rq: 0.5 in 0.01..=5.0,
+        rq: 0.5 in 0.01..=5.0 from "`surface.rq` of both gears",
         /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0,
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network",
         /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0,
+        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0,
+        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0,
+        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
         /// Relative fall of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3,
+        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5,
+        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density after Cragoe",
         /// Lubricant factor that the oil states. [-]
-        x_l: 1.0 in 0.1..=2.0,
+        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
     }
 }
 

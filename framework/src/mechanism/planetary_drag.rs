@@ -61,27 +61,27 @@ context! {
     /// All that a planetary drag model may look at.
     pub struct PlanetaryDragAt of PlanetaryDrag {
         /// Speed of the reference shaft, signed. [rpm]
-        speed: 300.0 in -30000.0..=30000.0,
+        speed: 300.0 in -30000.0..=30000.0 from "kinematics of `reference`, else of the carrier",
         /// Speed of the carrier, signed. [rpm]
-        carrier_speed: 300.0 in -30000.0..=30000.0,
+        carrier_speed: 300.0 in -30000.0..=30000.0 from "kinematics",
         /// Speed of the first planet in the housing's frame, signed. [rpm]
-        planet_speed: -750.0 in -100000.0..=100000.0,
+        planet_speed: -750.0 in -100000.0..=100000.0 from "kinematics",
         /// Volume of the oil. [ml]
-        volume: 90.0 in 1.0..=100000.0,
+        volume: 90.0 in 1.0..=100000.0 from "`housing.oil.volume`",
         /// Height of the oil above the carrier's axis. [mm]
-        level: -10.0 in -10000.0..=10000.0,
+        level: -10.0 in -10000.0..=10000.0 from "the oil level and the place of the carrier",
         /// Temperature of the oil. [degC]
-        temperature: 60.0 in -40.0..=200.0,
+        temperature: 60.0 in -40.0..=200.0 from "the oil of the housing: given, balanced or a node of the network",
         /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 100.0 in 1.0..=10000.0,
+        nu: 100.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 85.0 in 0.5..=10000.0,
+        eta: 85.0 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
-        rho: 850.0 in 500.0..=1300.0,
+        rho: 850.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Size of the gearbox in its family. [mm]
-        size: 75.0 in 1.0..=10000.0,
+        size: 75.0 in 1.0..=10000.0 from "`size` of the planetary set",
         /// Ratio of the gearbox in its family. [-]
-        ratio: 10.0 in 0.001..=10000.0,
+        ratio: 10.0 in 0.001..=10000.0 from "`ratio` of the planetary set",
     }
 }
 

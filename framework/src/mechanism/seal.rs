@@ -47,15 +47,15 @@ context! {
     /// All that a seal model may look at.
     pub struct SealAt of Seal {
         /// Speed of the shaft in the seal, signed. [rpm]
-        speed: 3000.0 in -30000.0..=30000.0,
+        speed: 3000.0 in -30000.0..=30000.0 from "kinematics of its shaft",
         /// Temperature of the oil at the seal. [degC]
-        temperature: 80.0 in -40.0..=200.0,
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the component: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil at the seal. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0,
+        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Kinematic viscosity of the oil at 40 degC. [mm2/s]
-        nu40: 32.0 in 2.0..=1000.0,
+        nu40: 32.0 in 2.0..=1000.0 from "the viscosity of that oil",
         /// Density of the oil at the seal. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0,
+        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
     }
 }
 

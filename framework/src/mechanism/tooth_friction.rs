@@ -7,6 +7,7 @@ use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::mean_friction::MeanFrictionAt;
 use crate::mechanism::{Mechanism, NoPart, Quantity};
+use crate::registry::Slot;
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -50,37 +51,37 @@ context! {
     /// All that a friction law may look at in one contact.
     pub struct ContactAt of ToothFriction {
         /// Sliding speed, magnitude. [m/s]
-        sliding: 1.0 in 0.0..=30.0,
+        sliding: 1.0 in 0.0..=30.0 from "speed of the mesh and the place on the path",
         /// Sum of the surface speeds. [m/s]
-        sum_speed: 10.0 in 0.0..=200.0,
+        sum_speed: 10.0 in 0.0..=200.0 from "speed of the mesh and the place on the path",
         /// Radius of relative curvature. [mm]
-        radius: 8.0 in 0.1..=500.0,
+        radius: 8.0 in 0.1..=500.0 from "the place on the path",
         /// Line load. [N/mm]
-        line_load: 200.0 in 0.0..=3000.0,
+        line_load: 200.0 in 0.0..=3000.0 from "torque of the mesh and the share of this place",
         /// Hertz pressure. [GPa]
-        pressure: 0.8 in 0.0..=4.0,
+        pressure: 0.8 in 0.0..=4.0 from "`line_load`, `radius` and `modulus`",
         /// Reduced modulus E/(1 - nu^2) of equal materials. [GPa]
-        modulus: 226.0 in 1.0..=500.0,
+        modulus: 226.0 in 1.0..=500.0 from "the material of the gears",
         /// Length of the line of contact. [mm]
-        length: 20.0 in 0.1..=2000.0,
+        length: 20.0 in 0.1..=2000.0 from "face width and base helix",
         /// Arithmetic mean roughness, mean of both flanks. [um]
-        ra: 0.4 in 0.01..=5.0,
+        ra: 0.4 in 0.01..=5.0 from "`surface.ra` of both gears",
         /// Root mean square roughness of both flanks together. [um]
-        rq: 0.5 in 0.01..=5.0,
+        rq: 0.5 in 0.01..=5.0 from "`surface.rq` of both gears",
         /// Temperature of the oil that enters the contact. [degC]
-        temperature: 80.0 in -40.0..=200.0,
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh; a law along the path may raise it",
         /// Kinematic viscosity of that oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0,
+        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of that oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0,
+        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Pressure-viscosity coefficient of that oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0,
+        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
         /// Relative fall of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3,
+        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5,
+        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density after Cragoe",
         /// Lubricant factor of mean mesh friction. [-]
-        x_l: 1.0 in 0.1..=2.0,
+        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
     }
 }
 
@@ -186,6 +187,7 @@ impl PathExtent {
 
 /// The whole path of contact at one operating point. SI.
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct PathAt<'a> {
     /// The places on the path.
     pub nodes: &'a [PathNode],
@@ -226,6 +228,49 @@ pub struct PathAt<'a> {
 }
 
 impl<'a> PathAt<'a> {
+    /// The path of a mesh: its places, their extent and the length of the line of contact of one pair. \[m\]
+    pub fn of(
+        nodes: &'a [PathNode],
+        extent: &'a PathExtent,
+        length: f64,
+        mean: &'a MeanFrictionAt<'a>,
+        notes: Notes<'a>,
+    ) -> Self {
+        PathAt {
+            nodes,
+            extent,
+            speed: mean.speed,
+            line_load: mean.normal_force / mean.part.pair.facewidth,
+            modulus: mean.part.modulus,
+            length,
+            ra: mean.ra,
+            rq: mean.rq,
+            temperature: mean.temperature,
+            nu: mean.nu,
+            eta: mean.eta,
+            alpha: mean.alpha,
+            beta: mean.beta,
+            conductivity: mean.conductivity,
+            x_l: mean.x_l,
+            bodies: None,
+            mean,
+            notes,
+        }
+    }
+
+    /// The same with some quantities changed.
+    #[inline]
+    pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
+        self
+    }
+
+    /// The same for the law of a nested slot, which has notes of its own.
+    #[inline]
+    pub fn nested(&self, slot: &Slot<ToothFriction>) -> Self {
+        self.with(|to| to.notes = self.notes.of(slot.notes))
+    }
+
     /// Hertz pressure of a node with `root_load` one. \[Pa m^0.5\]
     #[inline]
     pub fn unit_pressure(&self) -> f64 {

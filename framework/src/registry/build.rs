@@ -57,6 +57,13 @@ impl Files {
             .insert(path, text.into());
     }
 
+    /// Gives several: names with their text.
+    pub fn put_all(&self, files: &[(&str, &str)]) {
+        for (name, text) in files {
+            self.put(name, text);
+        }
+    }
+
     /// All files read so far, with their text.
     pub fn all(&self) -> Vec<(PathBuf, Arc<str>)> {
         let read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);

@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 const POWER: Term = Term::no_load(0, "power");
 
-/// An auxiliary that takes the same power at any speed.
+/// The same power at any speed.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct ConstantPower {
     /// Power taken from the shaft. [W]
@@ -36,7 +36,6 @@ impl AuxiliaryModel for ConstantPower {
 }
 
 register!(Auxiliary, "constant_power", ConstantPower,
-    meaning: "The same power at any speed.",
     source: "the user's own",
     example: "{ type: constant_power, power: 150 W }",
     evidence: [
@@ -59,10 +58,7 @@ mod tests {
             least_speed: 10.0,
         };
         let watts = |speed: f64| {
-            let at = AuxiliaryAt {
-                speed,
-                ..AuxiliaryAt::usual(&NoPart {}, Notes::MUTED)
-            };
+            let at = AuxiliaryAt::usual(&NoPart {}, Notes::MUTED).with(|to| to.speed = speed);
             law.loss(&at).unwrap().total_watts(speed)
         };
         assert!((watts(200.0) - 150.0).abs() < 1e-9 && (watts(-20.0) - 150.0).abs() < 1e-9);

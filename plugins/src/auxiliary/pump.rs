@@ -15,7 +15,7 @@ use serde::Deserialize;
 const PUMP: Term = Term::no_load(0, "pump");
 const FLOW: Observed = Observed::new(0, "Q", "l/min", "Flow that the pump delivers.");
 
-/// Shaft moment of an oil pump.
+/// Oil pump from pressure, flow or displacement, and efficiency.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Pressure rise. [bar]
@@ -89,7 +89,6 @@ impl AuxiliaryModel for Pump {
 }
 
 register!(Auxiliary, "pump", Params,
-    meaning: "Oil pump from pressure, flow or displacement, and efficiency.",
     source: "P = dp Q/eta; ISO/TR 14179-1:2001",
     example: "{ type: pump, pressure: 5 bar, flow: 8 l/min, efficiency: 0.5 }",
     evidence: [

@@ -13,7 +13,7 @@ const PRESSURE: Term = Term::no_load(0, "pressure");
 const VISCOUS: Term = Term::no_load(1, "viscous");
 const CONSTANT: Term = Term::no_load(2, "constant");
 
-/// Shaft moment of a displacement pump after Wilson.
+/// Displacement pump with friction by pressure, viscosity and a constant, after Wilson.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Wilson {
     /// Pressure rise. [bar]
@@ -47,7 +47,6 @@ impl AuxiliaryModel for Wilson {
 }
 
 register!(Auxiliary, "wilson", Wilson,
-    meaning: "Displacement pump with friction by pressure, viscosity and a constant, after Wilson.",
     source: "Wilson 1946",
     example: "{ type: wilson, pressure: 5 bar, displacement: 8 cm3, c_f: 0.05, c_v: 1e5, t_c: 0.05 Nm }",
     evidence: [
@@ -72,11 +71,10 @@ mod tests {
             c_v: 1e5,
             t_c: 0.05,
         };
-        let at = AuxiliaryAt {
-            speed: 2000.0 * std::f64::consts::PI / 30.0,
-            eta: 0.010,
-            ..AuxiliaryAt::usual(&NoPart {}, Notes::MUTED)
-        };
+        let at = AuxiliaryAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
+            to.speed = 2000.0 * std::f64::consts::PI / 30.0;
+            to.eta = 0.010;
+        });
         let moment = law.loss(&at).unwrap().sum();
         assert!((moment / 0.985117 - 1.0).abs() < 1e-5, "{moment}");
     }

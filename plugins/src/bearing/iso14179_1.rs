@@ -15,7 +15,7 @@ use serde::Deserialize;
 use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack};
 
-/// Rolling bearings after ISO/TR 14179-1.
+/// Palmgren's form with the load-independent factor by the depth of the oil, as in ISO/TR 14179-1.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Least f0, where no rolling element dips; absent, that of oil mist. [-]
@@ -46,7 +46,6 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic> {
 }
 
 register!(Bearing, "iso14179_1", Params,
-    meaning: "Palmgren's form with the load-independent factor by the depth of the oil, as in ISO/TR 14179-1.",
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [
@@ -76,14 +75,13 @@ mod tests {
     }
 
     fn moments(model: &Palmgren, part: &BearingPart, height: f64) -> [f64; 2] {
-        let at = BearingAt {
-            speed: 3000.0 * std::f64::consts::PI / 30.0,
-            nu: 15e-6,
-            radial: 3000.0,
-            axial: 1000.0,
-            oil_height: height,
-            ..BearingAt::usual(part, Notes::MUTED)
-        };
+        let at = BearingAt::usual(part, Notes::MUTED).with(|to| {
+            to.speed = 3000.0 * std::f64::consts::PI / 30.0;
+            to.nu = 15e-6;
+            to.radial = 3000.0;
+            to.axial = 1000.0;
+            to.oil_height = height;
+        });
         let loss = model.loss(&at).unwrap();
         [loss.value(0) * 1e3, loss.value(1) * 1e3]
     }

@@ -17,7 +17,7 @@ use serde::Deserialize;
 use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO, flanged};
 use super::rows::{self, Lack};
 
-/// Rolling bearings after Palmgren, as ISO/TR 14179-2 uses him.
+/// Load-dependent and load-independent moment after Palmgren, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Factor of the load-independent moment; absent, by kind, series and lubrication. [-]
@@ -68,7 +68,6 @@ fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic>
 }
 
 register!(Bearing, "iso14179_2", Iso14179,
-    meaning: "Load-dependent and load-independent moment after Palmgren, as in ISO/TR 14179-2.",
     source: "ISO/TR 14179-2:2001; SKF General Catalogue 1994",
     example: "{ type: iso14179_2 }",
     evidence: [
@@ -111,13 +110,12 @@ mod tests {
     }
 
     fn moments(model: &Palmgren, part: &BearingPart, n: f64, nu: f64, fr: f64, fa: f64) -> [f64; 2] {
-        let at = BearingAt {
-            speed: n * std::f64::consts::PI / 30.0,
-            nu: nu * 1e-6,
-            radial: fr,
-            axial: fa,
-            ..BearingAt::usual(part, Notes::MUTED)
-        };
+        let at = BearingAt::usual(part, Notes::MUTED).with(|to| {
+            to.speed = n * std::f64::consts::PI / 30.0;
+            to.nu = nu * 1e-6;
+            to.radial = fr;
+            to.axial = fa;
+        });
         let loss = model.loss(&at).unwrap();
         [loss.value(0) * 1e3, loss.value(1) * 1e3]
     }

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
 
-/// Rolling bearings after the catalogue of Schaeffler.
+/// Rolling bearings after the catalogue of Schaeffler, in Palmgren's form.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Factor of the load-independent moment; absent, by kind, series and lubrication. [-]
@@ -127,7 +127,6 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic> {
 }
 
 register!(Bearing, "schaeffler", Params,
-    meaning: "Rolling bearings after the catalogue of Schaeffler, in Palmgren's form.",
     source: "Schaeffler (INA, FAG), Wälzlager HR 1; ISO 15312",
     example: "{ type: schaeffler }",
     evidence: [
@@ -157,14 +156,13 @@ mod tests {
     }
 
     fn moments(model: &Palmgren, part: &BearingPart, height: f64) -> [f64; 2] {
-        let at = BearingAt {
-            speed: 3000.0 * std::f64::consts::PI / 30.0,
-            nu: 15e-6,
-            radial: 3000.0,
-            axial: 1000.0,
-            oil_height: height,
-            ..BearingAt::usual(part, Notes::MUTED)
-        };
+        let at = BearingAt::usual(part, Notes::MUTED).with(|to| {
+            to.speed = 3000.0 * std::f64::consts::PI / 30.0;
+            to.nu = 15e-6;
+            to.radial = 3000.0;
+            to.axial = 1000.0;
+            to.oil_height = height;
+        });
         let loss = model.loss(&at).unwrap();
         [loss.value(0) * 1e3, loss.value(1) * 1e3]
     }

@@ -107,7 +107,7 @@ fn two() -> u32 {
     2
 }
 
-/// Frictional moment after the SKF catalogue.
+/// Rolling, sliding, drag and seal moment after the SKF catalogue, for every kind in its tables.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 pub struct Skf {
     /// Edition of the catalogue, in quotes; sets the coefficient of boundary friction and the form of the drag.
@@ -335,7 +335,6 @@ impl BearingModel for Model {
 }
 
 register!(Bearing, "skf", Skf,
-    meaning: "Rolling, sliding, drag and seal moment after the SKF catalogue, for every kind in its tables.",
     source: "SKF Rolling bearings, PUB 10000 (2013) and PUB 17000 (2018)",
     example: "{ type: skf, edition: \"2018\" }",
     evidence: [
@@ -385,14 +384,13 @@ mod tests {
     }
 
     fn at(part: &BearingPart, fr: f64, fa: f64, height: f64) -> BearingAt<'_> {
-        BearingAt {
-            speed: 3000.0 * std::f64::consts::PI / 30.0,
-            nu: 15e-6,
-            radial: fr,
-            axial: fa,
-            oil_height: height * 1e-3,
-            ..BearingAt::usual(part, Notes::MUTED)
-        }
+        BearingAt::usual(part, Notes::MUTED).with(|to| {
+            to.speed = 3000.0 * std::f64::consts::PI / 30.0;
+            to.nu = 15e-6;
+            to.radial = fr;
+            to.axial = fa;
+            to.oil_height = height * 1e-3;
+        })
     }
 
     #[test]
@@ -446,19 +444,13 @@ mod tests {
         let part = part();
         let slow = |edition| {
             let model = Model::new(&Skf { edition, ..params() }, &part).unwrap();
-            let at = BearingAt {
-                speed: 1e-3,
-                ..at(&part, 3000.0, 0.0, 0.0)
-            };
+            let at = at(&part, 3000.0, 0.0, 0.0).with(|to| to.speed = 1e-3);
             model.loss(&at).unwrap().value(1)
         };
         close(slow(Edition::Y2013) / slow(Edition::Y2018), 0.15 / 0.12);
         let model = Model::new(&params(), &part).unwrap();
         let rest = model
-            .loss(&BearingAt {
-                speed: 0.0,
-                ..at(&part, 3000.0, 0.0, 10.0)
-            })
+            .loss(&at(&part, 3000.0, 0.0, 10.0).with(|to| to.speed = 0.0))
             .unwrap();
         assert!(rest.is_sound() && rest.value(0) == 0.0 && rest.value(2) == 0.0);
         assert_eq!(model.loss(&at(&part, 0.0, 0.0, 0.0)).unwrap().sum(), 0.0);
@@ -504,11 +496,10 @@ mod tests {
         let part = part();
         let sliding = |mu_bl, oil| {
             let model = Model::new(&Skf { mu_bl, ..params() }, &part).unwrap();
-            let at = BearingAt {
-                speed: 1e-3,
-                mu_bl: oil,
-                ..at(&part, 3000.0, 0.0, 0.0)
-            };
+            let at = at(&part, 3000.0, 0.0, 0.0).with(|to| {
+                to.speed = 1e-3;
+                to.mu_bl = oil;
+            });
             model.loss(&at).unwrap().value(1)
         };
         let edition = sliding(None, 0.0);
@@ -542,15 +533,14 @@ mod tests {
         };
         let moments = |part: &BearingPart, n: f64, nu: f64, fr: f64, fa: f64, height: f64| {
             let model = Model::new(&Skf::default(), part).unwrap();
-            let at = BearingAt {
-                speed: n * std::f64::consts::PI / 30.0,
-                nu: nu * 1e-6,
-                radial: fr,
-                axial: fa,
-                oil_height: height * 1e-3,
-                mu_ehl: 0.10,
-                ..BearingAt::usual(part, Notes::MUTED)
-            };
+            let at = BearingAt::usual(part, Notes::MUTED).with(|to| {
+                to.speed = n * std::f64::consts::PI / 30.0;
+                to.nu = nu * 1e-6;
+                to.radial = fr;
+                to.axial = fa;
+                to.oil_height = height * 1e-3;
+                to.mu_ehl = 0.10;
+            });
             let loss = model.loss(&at).unwrap();
             [0, 1, 2].map(|i| loss.value(i) * 1e3)
         };
@@ -571,10 +561,7 @@ mod tests {
         let part = part();
         let drag = |beyond, n: f64| {
             let model = Model::new(&Skf { beyond, ..params() }, &part).unwrap();
-            let at = BearingAt {
-                speed: n * std::f64::consts::PI / 30.0,
-                ..at(&part, 1000.0, 0.0, 10.0)
-            };
+            let at = at(&part, 1000.0, 0.0, 10.0).with(|to| to.speed = n * std::f64::consts::PI / 30.0);
             model.loss(&at).unwrap().value(2)
         };
         let edge = FASTEST / 65.0;

@@ -93,7 +93,6 @@ impl BearingModel for Timken {
 }
 
 register!(Bearing, "timken", Params,
-    meaning: "Tapered roller bearings after the Timken catalogue.",
     source: "Timken, Bearing engineering manual",
     example: "{ type: timken, g1: 20, k: 1.6 }",
     part: "{ kind: tapered_roller, series: \"302\", bore: 30 mm, outside: 62 mm, width: 17.25 mm, c0: 44000 N, y: 1.6 }",

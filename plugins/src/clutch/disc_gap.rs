@@ -36,7 +36,7 @@ pub enum Film {
     Full,
 }
 
-/// Open wet multi-disc clutch or brake.
+/// Open wet multi-disc clutch or brake: shear of the oil between the discs.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// What becomes of the film once it is flung off.
@@ -177,7 +177,6 @@ impl ClutchModel for Discs {
 }
 
 register!(Clutch, "disc_gap", Params,
-    meaning: "Open wet multi-disc clutch or brake: shear of the oil between the discs.",
     source: "derived: laminar flow between discs with centrifugal pumping (0.3 w^2 after Hashimoto et al. 1984)",
     example: "{ type: disc_gap, flow: 3 l/min }",
     evidence: [

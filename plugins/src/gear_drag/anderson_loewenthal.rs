@@ -15,7 +15,7 @@ use super::WINDAGE;
 
 const TERM: Term = Term::no_load(0, "windage");
 
-/// Windage of one gear in air-oil mist.
+/// Windage of one gear in air-oil mist after Anderson and Loewenthal.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct AndersonLoewenthal {
     /// Oil mist counts with its viscosity; else air alone.
@@ -46,7 +46,6 @@ impl GearDragModel for AndersonLoewenthal {
 }
 
 register!(GearDrag, "anderson_loewenthal", AndersonLoewenthal,
-    meaning: "Windage of one gear in air-oil mist after Anderson and Loewenthal.",
     source: "Anderson, Loewenthal, NASA TP-1622 (1980)",
     example: "{ type: anderson_loewenthal }",
     evidence: [

@@ -15,7 +15,7 @@ use gearloss_framework::mechanism::gear_drag::Scope;
 
 const IMPULSE: Term = Term::no_load(0, "impulse");
 
-/// Torque of an oil jet that hits a gear.
+/// Torque of an oil jet that hits a gear: its momentum.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Ariura {
     /// Flow that hits the gear. [l/min]
@@ -58,7 +58,6 @@ impl GearDragModel for Ariura {
 }
 
 register!(GearDrag, "ariura", Ariura,
-    meaning: "Torque of an oil jet that hits a gear: its momentum.",
     source: "Ariura, Ueno, Sunamoto 1973; momentum balance",
     example: "{ type: ariura, flow: 2.5 l/min, jet_speed: 0.4 m/s }",
     evidence: [

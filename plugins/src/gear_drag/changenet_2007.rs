@@ -87,7 +87,6 @@ impl GearDragModel for Changenet {
 }
 
 register!(GearDrag, "changenet_2007", Params,
-    meaning: "Churning of one gear by Reynolds number.",
     source: "Changenet, Velex, J. Mech. Des. 129 (2007) 128-133",
     example: "{ type: changenet_2007 }",
     evidence: [

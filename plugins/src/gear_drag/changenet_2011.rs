@@ -123,7 +123,6 @@ impl GearDragModel for Churning {
 }
 
 register!(GearDrag, "changenet_2011", Changenet,
-    meaning: "Churning of one gear by flow regimes.",
     source: "Changenet, Leprince, Ville, Velex, J. Mech. Des. 133 (2011) 121009",
     example: "{ type: changenet_2011 }",
     evidence: [
@@ -184,14 +183,13 @@ mod tests {
     fn c9_wheel_of_96_teeth() {
         let part = wheel();
         let speed = 1500.0 * std::f64::consts::PI / 30.0;
-        let at = GearDragAt {
-            speed,
-            dip: 0.045,
-            nu: 6.4e-6,
-            rho: 842.0,
-            towards_mesh: 0.0,
-            ..GearDragAt::usual(&part, Notes::MUTED)
-        };
+        let at = GearDragAt::usual(&part, Notes::MUTED).with(|to| {
+            to.speed = speed;
+            to.dip = 0.045;
+            to.nu = 6.4e-6;
+            to.rho = 842.0;
+            to.towards_mesh = 0.0;
+        });
         let model = Churning {
             swell: 0.3,
             volume: 1.3e-3,
@@ -200,14 +198,11 @@ mod tests {
         assert!((moment / 0.324885 - 1.0).abs() < 1e-5, "{moment}");
         assert!((moment * speed / 51.0328 - 1.0).abs() < 1e-5);
         let swollen = model
-            .loss(&GearDragAt {
-                towards_mesh: 1.0,
-                ..at
-            })
+            .loss(&at.with(|to| to.towards_mesh = 1.0))
             .unwrap()
             .total_moment(speed);
         assert!((swollen / moment - 1.3).abs() < 1e-12);
-        for still in [GearDragAt { speed: 0.0, ..at }, GearDragAt { dip: 0.0, ..at }] {
+        for still in [at.with(|to| to.speed = 0.0), at.with(|to| to.dip = 0.0)] {
             assert_eq!(model.loss(&still).unwrap().sum(), 0.0);
         }
     }
@@ -219,12 +214,13 @@ mod tests {
             swell: 0.0,
             volume: 1.3e-3,
         };
-        let at = |dip| GearDragAt {
-            speed: 150.0,
-            dip,
-            nu: 6.4e-6,
-            rho: 842.0,
-            ..GearDragAt::usual(&part, Notes::MUTED)
+        let at = |dip| {
+            GearDragAt::usual(&part, Notes::MUTED).with(|to| {
+                to.speed = 150.0;
+                to.dip = dip;
+                to.nu = 6.4e-6;
+                to.rho = 842.0;
+            })
         };
         let covered = model.loss(&at(part.gear.reference_diameter)).unwrap().sum();
         assert_eq!(model.loss(&at(1.0)).unwrap().sum(), covered);

@@ -59,7 +59,6 @@ impl GearDragModel for Dawson {
 }
 
 register!(GearDrag, "dawson", Dawson,
-    meaning: "Windage of one gear after Dawson.",
     source: "Dawson, Proc. IMechE 198A (1984) 51-59",
     example: "{ type: dawson, lambda: 0.6 }",
     evidence: [

@@ -33,7 +33,7 @@ pub enum Form {
     Analytical,
 }
 
-/// Windage of one gear after Diab.
+/// Windage of one gear after Diab, by dimensional analysis or from faces and teeth.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Diab {
     /// Which of the two laws.
@@ -145,7 +145,6 @@ fn prepare(params: Diab, cx: &mut Build<'_>) -> Result<Diab, Diagnostic> {
 }
 
 register!(GearDrag, "diab", Diab,
-    meaning: "Windage of one gear after Diab, by dimensional analysis or from faces and teeth.",
     source: "Diab, Ville, Velex, Changenet, J. Mech. Des. 126 (2004) 903-908",
     example: "{ type: diab, form: analytical }",
     evidence: [

@@ -88,7 +88,6 @@ impl GearDragModel for Dimensional {
 }
 
 register!(GearDrag, "dimensional", Params,
-    meaning: "Churning of one gear with a dimensionless torque of the user.",
     source: "the user's own; the form of Changenet, Boness and others",
     example: "{ type: dimensional, c_m: \"0.1 * fr^-0.6 * h^0.5\" }",
     evidence: [formula(Evidence::User, "the user states it")],

@@ -21,7 +21,7 @@ use super::CHURNING;
 const SIDES: Term = Term::no_load(0, "sides");
 const TEETH: Term = Term::no_load(1, "teeth");
 
-/// Windage and churning of one gear after ISO/TR 14179-1.
+/// Windage and churning of one gear after ISO/TR 14179-1, of AGMA origin.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Arrangement constant. [-]
@@ -68,7 +68,6 @@ impl GearDragModel for Iso14179 {
 }
 
 register!(GearDrag, "iso14179_1", Iso14179,
-    meaning: "Windage and churning of one gear after ISO/TR 14179-1, of AGMA origin.",
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [

@@ -121,7 +121,6 @@ impl GearDragModel for Splash {
 }
 
 register!(GearDrag, "iso14179_2", Iso14179,
-    meaning: "Splash torque of a dipping gear stage after ISO/TR 14179-2.",
     source: "ISO/TR 14179-2:2001",
     example: "{ type: iso14179_2, speed_of: wheel }",
     evidence: [formula(Evidence::Disputed, "form printed, constants recalled; sources differ on the shaft")],
@@ -164,13 +163,12 @@ mod tests {
         // Pitch speed 20 m/s.
         let speed = 20.0 / 0.028;
         let speed_2 = -speed * 31.0 / 96.0;
-        GearDragAt {
-            speed,
-            speed_2,
-            tip_dip: dips[0],
-            tip_dip_2: dips[1],
-            ..GearDragAt::usual(part, Notes::MUTED)
-        }
+        GearDragAt::usual(part, Notes::MUTED).with(|to| {
+            to.speed = speed;
+            to.speed_2 = speed_2;
+            to.tip_dip = dips[0];
+            to.tip_dip_2 = dips[1];
+        })
     }
 
     #[test]
@@ -204,11 +202,10 @@ mod tests {
             first: true,
         };
         assert_eq!(splash.loss(&at(&part, [0.0, 0.0])).unwrap().sum(), 0.0);
-        let rest = GearDragAt {
-            speed: 0.0,
-            speed_2: 0.0,
-            ..at(&part, [0.0, 0.045])
-        };
+        let rest = at(&part, [0.0, 0.045]).with(|to| {
+            to.speed = 0.0;
+            to.speed_2 = 0.0;
+        });
         assert_eq!(splash.loss(&rest).unwrap().sum(), 0.0);
     }
 

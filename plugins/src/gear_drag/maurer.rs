@@ -42,7 +42,6 @@ impl GearDragModel for Maurer {
 }
 
 register!(GearDrag, "maurer", Maurer,
-    meaning: "Ventilation of one gear after Maurer.",
     source: "Maurer 1994",
     example: "{ type: maurer }",
     evidence: [formula(Evidence::OneSource, "one public program and memory agree")],

@@ -22,7 +22,7 @@ const TERM: Term = Term::no_load(0, "churning");
 const MODULE: Limit = Limit::new(0, "m_n", "mm", 3.0, 6.0, "Mauz as quoted");
 const SPEED: Limit = Limit::new(1, "v_t", "m/s", 0.0, 60.0, "Mauz as quoted");
 
-/// Splash torque of one gear after Mauz.
+/// Splash torque of one gear after Mauz, in a reconstructed scale.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Mauz {
     /// Scale, reconstructed. [-]
@@ -90,7 +90,6 @@ impl GearDragModel for Mauz {
 }
 
 register!(GearDrag, "mauz", Mauz,
-    meaning: "Splash torque of one gear after Mauz, in a reconstructed scale.",
     source: "Mauz 1987, as quoted by Shen and Rinderknecht",
     example: "{ type: mauz }",
     evidence: [

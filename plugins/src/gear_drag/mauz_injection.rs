@@ -27,7 +27,7 @@ pub enum Side {
     Outgoing,
 }
 
-/// Torque of oil that is sprayed into a mesh and squeezed out of it.
+/// Torque of oil that is sprayed into a mesh and squeezed out of it, after Mauz.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct MauzInjection {
     /// Flow into the mesh. [l/min]
@@ -81,7 +81,6 @@ impl GearDragModel for MauzInjection {
 }
 
 register!(GearDrag, "mauz_injection", MauzInjection,
-    meaning: "Torque of oil that is sprayed into a mesh and squeezed out of it, after Mauz.",
     source: "Mauz 1987",
     example: "{ type: mauz_injection, flow: 2 l/min }",
     evidence: [

@@ -19,7 +19,7 @@ use super::CHURNING;
 const RIM: Term = Term::no_load(0, "rim");
 const FACES: Term = Term::no_load(1, "faces");
 
-/// Rim and faces of one dipping gear after Seetharaman and Kahraman.
+/// Rim and faces of one dipping gear after Seetharaman and Kahraman; incomplete.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct SeetharamanKahraman {}
 
@@ -71,7 +71,6 @@ impl GearDragModel for SeetharamanKahraman {
 }
 
 register!(GearDrag, "seetharaman_kahraman", SeetharamanKahraman,
-    meaning: "Rim and faces of one dipping gear after Seetharaman and Kahraman; incomplete.",
     source: "Seetharaman, Kahraman, J. Tribol. 131 (2009)",
     example: "{ type: seetharaman_kahraman }",
     evidence: [formula(Evidence::Recalled, "two of four terms recalled; the laminar constant is derived")],

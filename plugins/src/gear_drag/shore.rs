@@ -24,7 +24,7 @@ const H_EFF: Observed = Observed::new(0, "h_eff", "mm", "Depth that remains once
 /// The source rounds gravity. \[m/s2\]
 const G: f64 = 9.8;
 
-/// Churning of one gear in a cylindrical case.
+/// Churning of one gear in a cylindrical case, from an inertia run-down rig to 90 m/s.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Share of the case that oil fills at rest. [-]
@@ -96,7 +96,6 @@ impl GearDragModel for Shore {
 }
 
 register!(GearDrag, "shore", Params,
-    meaning: "Churning of one gear in a cylindrical case, from an inertia run-down rig to 90 m/s.",
     source: "Shore, Kadiric et al., Tribol. Trans., equations 7 and 8",
     example: "{ type: shore, fill: 0.35 }",
     evidence: [

@@ -41,7 +41,6 @@ impl GearDragModel for Townsend {
 }
 
 register!(GearDrag, "townsend", Townsend,
-    meaning: "Windage of a smooth rotor of the gear's size.",
     source: "Townsend (ed.), Dudley's Gear Handbook, 1991",
     example: "{ type: townsend }",
     evidence: [formula(Evidence::Recalled, "below the laws for gears, as a smooth rotor is")],

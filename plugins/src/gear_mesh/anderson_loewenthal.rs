@@ -29,7 +29,7 @@ const F: Observed = Observed::new(
 );
 const FILM: Observed = Observed::new(1, "h", "um", "Central film a quarter of the path from the pitch point.");
 
-/// Mesh loss of spur gears from one point of the path.
+/// Sliding and rolling loss of spur gears from one point of the path.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Least and greatest coefficient of friction; absent, no limits. [-]
@@ -135,7 +135,6 @@ impl GearMeshModel for OnePoint {
 }
 
 register!(GearMesh, "anderson_loewenthal", Params,
-    meaning: "Sliding and rolling loss of spur gears from one point of the path.",
     source: "Anderson, Loewenthal, NASA TP-1622 (1980) and its errata sheet",
     example: "{ type: anderson_loewenthal }",
     evidence: [

@@ -16,7 +16,7 @@ use serde::Deserialize;
 const SLIDING: Term = Term::load(0, "sliding");
 const EFFICIENCY: Observed = Observed::new(0, "eta", "-", "Efficiency of the mesh.");
 
-/// Mesh loss by a known efficiency.
+/// Mesh loss by a known efficiency: a number, or a table over quantities of the mesh.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Efficiency, in place of a table. [-]
@@ -81,7 +81,6 @@ impl GearMeshModel for Efficiency {
 }
 
 register!(GearMesh, "efficiency", Params,
-    meaning: "Mesh loss by a known efficiency: a number, or a table over quantities of the mesh.",
     source: "the user's own",
     example: "{ type: efficiency, value: 0.985 }",
     evidence: [formula(Evidence::User, "the user states it")],
@@ -109,11 +108,10 @@ mod tests {
     #[test]
     fn a_number_and_a_table() {
         let part = fzg_c14(0.4e-6, 0.5e-6);
-        let at = GearMeshAt {
-            torque: 50.0,
-            speed: 100.0,
-            ..GearMeshAt::usual(&part, Notes::MUTED)
-        };
+        let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+            to.torque = 50.0;
+            to.speed = 100.0;
+        });
         let defaults = |mut value: serde_json::Value| {
             value["outside"] = "error".into();
             value["interpolation"] = "linear".into();
@@ -126,7 +124,7 @@ mod tests {
         ))
         .unwrap();
         assert!((table.loss(&at).unwrap().sum() - 0.055 * 5000.0).abs() < 1e-9);
-        assert!(table.loss(&GearMeshAt { torque: 500.0, ..at }).is_err());
+        assert!(table.loss(&at.with(|to| to.torque = 500.0)).is_err());
         assert!(
             build(&serde_json::json!({ "type": "efficiency" }))
                 .err()

@@ -40,7 +40,6 @@ impl GearMeshModel for EvenShare {
 }
 
 register!(GearMesh, "even_share", Params,
-    meaning: "Mesh loss by the tooth loss factor of an evenly spread load and a law of mean friction.",
     source: "derived; equals the geometry factor of ISO/TR 14179-1 for spur gears",
     example: "{ type: even_share, mean_friction: { type: schlenk } }",
     evidence: [formula(Evidence::Derived, "follows from the even share; equals 1/M of ISO/TR 14179-1 for spur gears")],

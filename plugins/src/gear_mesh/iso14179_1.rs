@@ -21,7 +21,7 @@ const K_FACTOR: Limit = Limit::new(1, "K", "N/mm2", 1.4, 14.0, "ISO/TR 14179-1")
 const F_M: Observed = Observed::new(0, "f_m", "-", "Mesh coefficient of friction.");
 const M: Observed = Observed::new(1, "M", "-", "Mesh mechanical advantage.");
 
-/// Mesh loss after ISO/TR 14179-1.
+/// Mesh loss after ISO/TR 14179-1, of AGMA origin.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {}
 
@@ -73,7 +73,6 @@ impl GearMeshModel for Iso14179 {
 }
 
 register!(GearMesh, "iso14179_1", Iso14179,
-    meaning: "Mesh loss after ISO/TR 14179-1, of AGMA origin.",
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [formula(Evidence::Recalled, "coefficients of f_m recalled; the geometry factor is derived")],
@@ -98,12 +97,11 @@ mod tests {
         close(h_t, 0.444122);
         close(advantage(&part.pair), 4.17869);
         let speed = 1500.0 * std::f64::consts::PI / 30.0;
-        let at = GearMeshAt {
-            torque: 200.0,
-            speed,
-            nu: 50e-6,
-            ..GearMeshAt::usual(&part, Notes::MUTED)
-        };
+        let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+            to.torque = 200.0;
+            to.speed = speed;
+            to.nu = 50e-6;
+        });
         // The printed 9549 stands for 30000/pi = 9549.297.
         let watts = Iso14179 {}.loss(&at).unwrap().sum();
         assert!((watts / 119.019 - 1.0).abs() < 4e-5, "{watts}");
@@ -124,12 +122,11 @@ mod tests {
         let part = fzg_c14(0.4e-6, 0.5e-6);
         let swapped = pair_of(Kind::Swapped);
         let watts = |part: &gearloss_framework::mechanism::gear_mesh::MeshPart, torque, speed| {
-            let at = GearMeshAt {
-                torque,
-                speed,
-                nu: 50e-6,
-                ..GearMeshAt::usual(part, Notes::MUTED)
-            };
+            let at = GearMeshAt::usual(part, Notes::MUTED).with(|to| {
+                to.torque = torque;
+                to.speed = speed;
+                to.nu = 50e-6;
+            });
             Iso14179 {}.loss(&at).unwrap().sum()
         };
         close(watts(&swapped, 300.0, 100.0), watts(&part, 200.0, 150.0));

@@ -35,7 +35,7 @@ pub enum LossFactor {
     Uniform,
 }
 
-/// Mesh loss by a loss factor and a mean coefficient of friction.
+/// Loss factor of Ohlendorf and mean friction of Schlenk, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Lubricant factor; absent, that of `oil`, else that of the lubricant. [-]
@@ -122,7 +122,6 @@ impl GearMeshModel for Mean {
 }
 
 register!(GearMesh, "iso14179_2", Iso14179,
-    meaning: "Loss factor of Ohlendorf and mean friction of Schlenk, as in ISO/TR 14179-2.",
     source: "ISO/TR 14179-2:2001; Ohlendorf 1958; Schlenk 1994",
     example: "{ type: iso14179_2 }",
     evidence: [
@@ -154,12 +153,11 @@ mod tests {
     fn b2_fzg_c14_at_200_nm() {
         let part = fzg_c14(0.4e-6, 0.5e-6);
         let speed = 1500.0 * std::f64::consts::PI / 30.0;
-        let at = GearMeshAt {
-            torque: 200.0,
-            speed,
-            eta: 13.28e-3,
-            ..GearMeshAt::usual(&part, Notes::MUTED)
-        };
+        let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+            to.torque = 200.0;
+            to.speed = speed;
+            to.eta = 13.28e-3;
+        });
         let watts = Mean::new(&PLAIN, &part.pair).loss(&at).unwrap().total_watts(speed);
         assert!((watts / 341.024 - 1.0).abs() < 1e-5, "{watts}");
         let line_load = 200.0 / part.pair.base_radius[0] / part.pair.facewidth * 1e-3;
@@ -172,11 +170,10 @@ mod tests {
     fn loss_vanishes_with_torque_and_speed_and_rises_with_torque() {
         let part = fzg_c14(0.4e-6, 0.5e-6);
         let watts = |torque: f64, speed: f64| {
-            let at = GearMeshAt {
-                torque,
-                speed,
-                ..GearMeshAt::usual(&part, Notes::MUTED)
-            };
+            let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+                to.torque = torque;
+                to.speed = speed;
+            });
             Mean::new(&PLAIN, &part.pair).loss(&at).unwrap().total_watts(speed)
         };
         assert_eq!((watts(0.0, 100.0), watts(10.0, 0.0)), (0.0, 0.0));

@@ -47,7 +47,6 @@ impl GearMeshModel for Ohlendorf {
 }
 
 register!(GearMesh, "ohlendorf", Params,
-    meaning: "Mesh loss by the tooth loss factor of Ohlendorf and a law of mean friction.",
     source: "Ohlendorf 1958; Niemann/Winter, Maschinenelemente 2",
     example: "{ type: ohlendorf, mean_friction: { type: schlenk } }",
     evidence: [formula(Evidence::SeveralSources, "four sources and the derivation agree")],

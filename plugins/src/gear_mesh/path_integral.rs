@@ -17,7 +17,7 @@ use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
+use gearloss_framework::mechanism::tooth_friction::ToothFriction;
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use schemars::JsonSchema;
@@ -71,7 +71,7 @@ pub enum RollingSpeed {
     Mean,
 }
 
-/// Mesh loss by integrating local friction along the path of contact.
+/// Local friction integrated along the path of contact.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct PathIntegral {
     /// How pairs in contact at once share the load.
@@ -167,10 +167,10 @@ impl GearMeshModel for Integral {
         let speed = at.speed.abs();
         let mean = MeanFrictionAt::of(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
-        let path = PathAt {
-            bodies: at.bodies(),
-            ..self.path.at(&mean, at.notes.of(self.friction.notes))
-        };
+        let path = self
+            .path
+            .at(&mean, at.notes.of(self.friction.notes))
+            .with(|to| to.bodies = at.bodies());
         let line_load = at.show("F_bn/b", "N/m", path.line_load);
         let (sum, along) = self.path.with_space(|mu| {
             let along = self.friction.along(&path, mu)?;
@@ -209,7 +209,6 @@ impl GearMeshModel for Integral {
 }
 
 register!(GearMesh, "path_integral", PathIntegral,
-    meaning: "Local friction integrated along the path of contact.",
     source: "Niemann/Winter, Maschinenelemente 2; Wimmer 2006; Goksem and Hargreaves 1978; Crook 1963",
     example: "{ type: path_integral, tooth_friction: { type: constant, value: 0.05 }, rolling_friction: goksem_hargreaves }",
     evidence: [
@@ -301,11 +300,10 @@ pub(crate) mod tests {
         let slot = Build::new(&registry, &files)
             .slot_at::<GearMesh>("model", &part, &model)
             .unwrap();
-        let at = GearMeshAt {
-            torque: 100.0,
-            speed: 100.0,
-            ..GearMeshAt::usual(&part, Notes::MUTED)
-        };
+        let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+            to.torque = 100.0;
+            to.speed = 100.0;
+        });
         slot.loss(&at).unwrap().sum() / (0.05 * 1e4)
     }
 
@@ -316,12 +314,11 @@ pub(crate) mod tests {
         let mut build = Build::new(&registry, &files);
         let slot = build.slot_at::<GearMesh>("model", &part, model).unwrap();
         let speed = 1500.0 * std::f64::consts::PI / 30.0;
-        let at = GearMeshAt {
-            torque: 200.0,
-            speed,
-            eta: 13.28e-3,
-            ..GearMeshAt::usual(&part, Notes::MUTED)
-        };
+        let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+            to.torque = 200.0;
+            to.speed = speed;
+            to.eta = 13.28e-3;
+        });
         slot.loss(&at).unwrap().total_watts(speed)
     }
 

@@ -191,10 +191,7 @@ impl Tabulated {
 
     /// The loss of the tabulated model itself, as one term.
     fn itself(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
-        let loss = self.of.loss(&GearMeshAt {
-            notes: at.notes.of(self.of.notes),
-            ..*at
-        })?;
+        let loss = self.of.loss(&at.nested(&self.of))?;
         Ok(Loss::POWERS
             .with(&TOTAL, loss.total_watts(at.speed))
             .heats_first(loss.first_heat()))
@@ -248,7 +245,6 @@ impl GearMeshModel for Tabulated {
 }
 
 register!(GearMesh, "tabulated", Params,
-    meaning: "The loss of another model, computed beforehand and interpolated.",
     source: "derived; splines after de Boor, A Practical Guide to Splines",
     example: "{ type: tabulated, of: { type: path_integral, tooth_friction: { type: xu } } }",
     evidence: [

@@ -44,7 +44,6 @@ impl GearMeshModel for Wimmer {
 }
 
 register!(GearMesh, "wimmer", Params,
-    meaning: "Mesh loss by the local tooth loss factor and a law of mean friction.",
     source: "Wimmer 2006",
     example: "{ type: wimmer, load_sharing: contact_lines, mean_friction: { type: schlenk } }",
     evidence: [

@@ -76,7 +76,6 @@ impl HeatDissipationModel for Constant {
 }
 
 register!(HeatDissipation, "constant", Params,
-    meaning: "A constant heat transfer coefficient over an area.",
     source: "Newton's law; Concli 2015, eq. 11",
     example: "{ type: constant, alpha: 24.7 W/(m2 K), area: 500 cm2 }",
     evidence: [formula(Evidence::User, "the coefficient is the user's; one article measured 24.7")],

@@ -20,7 +20,7 @@ use crate::convection::{Shape, forced, free, mixed};
 
 const EFFICIENCY: Observed = Observed::new(0, "eta_f", "-", "Efficiency of the fins.");
 
-/// A finned part of the housing, beside the area of `housing.outside`.
+/// A finned part of the housing.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Area between the fins. [cm2]
@@ -94,7 +94,6 @@ impl HeatDissipationModel for Ready {
 }
 
 register!(HeatDissipation, "fins", Params,
-    meaning: "A finned part of the housing.",
     source: "straight fins of constant thickness, textbooks",
     example: "{ type: fins, fin_area: 800 cm2, fin_length: 20 mm, fin_thickness: 3 mm, alpha: 20 W/(m2 K) }",
     evidence: [formula(Evidence::SeveralSources, "textbooks agree")],
@@ -116,10 +115,7 @@ mod tests {
             emissivity: 0.9,
             ..HousingPart::default()
         };
-        let at = HeatDissipationAt {
-            surface_temperature: 80.0,
-            ..HeatDissipationAt::usual(&part, Notes::MUTED)
-        };
+        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = Ready {
             params: Params {
                 base_area: 0.01,

@@ -97,7 +97,6 @@ impl HeatDissipationModel for Ready {
 }
 
 register!(HeatDissipation, "iso14179_1", Params,
-    meaning: "Overall heat transfer coefficients by the place of the gearbox.",
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [
@@ -123,10 +122,7 @@ mod tests {
             emissivity: 0.9,
             ..HousingPart::default()
         };
-        let at = HeatDissipationAt {
-            surface_temperature: 80.0,
-            ..HeatDissipationAt::usual(&part, Notes::MUTED)
-        };
+        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = Ready {
             k: 18.0,
             air: None,

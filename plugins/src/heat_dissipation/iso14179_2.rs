@@ -137,7 +137,6 @@ impl HeatDissipationModel for Ready {
 }
 
 register!(HeatDissipation, "iso14179_2", Params,
-    meaning: "Heat of the housing with free or forced convection, radiation, wall and oil inside.",
     source: "ISO/TR 14179-2:2001, after Funck",
     example: "{ type: iso14179_2 }",
     evidence: [
@@ -162,10 +161,7 @@ mod tests {
             emissivity: 0.9,
             ..HousingPart::default()
         };
-        let at = HeatDissipationAt {
-            surface_temperature: 80.0,
-            ..HeatDissipationAt::usual(&part, Notes::MUTED)
-        };
+        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = Ready {
             params: Params {
                 alpha_oil: 200.0,

@@ -73,7 +73,6 @@ impl HeatDissipationModel for OilCooler {
 }
 
 register!(HeatDissipation, "oil_cooler", OilCooler,
-    meaning: "An oil cooler by its effectiveness.",
     source: "effectiveness and number of transfer units, textbooks",
     example: "{ type: oil_cooler, ua: 120 W/K, oil_flow: 8 l/min, coolant_flow: 10 l/min, coolant_temperature: 60 degC }",
     evidence: [
@@ -100,10 +99,7 @@ mod tests {
             emissivity: 0.9,
             ..HousingPart::default()
         };
-        let at = HeatDissipationAt {
-            surface_temperature: 80.0,
-            ..HeatDissipationAt::usual(&part, Notes::MUTED)
-        };
+        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = OilCooler {
             ua: 120.0,
             oil_flow: 8e-3 / 60.0,

@@ -96,7 +96,6 @@ impl HeatDissipationModel for Ready {
 }
 
 register!(HeatDissipation, "textbook", Params,
-    meaning: "Free and forced convection with radiation.",
     source: "Churchill and Chu 1975; flat plate; Stefan-Boltzmann",
     example: "{ type: textbook }",
     evidence: [formula(Evidence::SeveralSources, "textbooks agree; a housing is no plate")],

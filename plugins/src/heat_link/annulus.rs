@@ -146,7 +146,6 @@ impl HeatLinkModel for Annulus {
 }
 
 register!(HeatLink, "annulus", Params,
-    meaning: "Gap between a shaft or rotor that turns and its bore.",
     source: "Becker, Kaye, J. Heat Transfer 84 (1962) 97-104",
     example: "{ type: annulus, radius: 75 mm, gap: 0.8 mm, length: 134 mm, oil_fraction: 0.2 }",
     evidence: [

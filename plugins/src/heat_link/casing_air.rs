@@ -23,7 +23,7 @@ const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1
 const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient with radiation.");
 const AIR: Observed = Observed::new(1, "u", "m/s", "Speed of the air along the casing.");
 
-/// Casing to the air.
+/// Casing to the air: free and forced convection with radiation.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Shape for free convection.
@@ -136,7 +136,6 @@ impl HeatLinkModel for Casing {
 }
 
 register!(HeatLink, "casing_air", Params,
-    meaning: "Casing to the air: free and forced convection with radiation.",
     source: "Churchill and Chu 1975; flat plate; Stefan-Boltzmann",
     example: "{ type: casing_air }",
     evidence: [
@@ -171,12 +170,11 @@ mod tests {
 
     fn link(params: Params, [one, two]: [f64; 2], vehicle_speed: f64) -> f64 {
         let part = HeatLinkPart::default();
-        let at = HeatLinkAt {
-            temperature_1: one,
-            temperature_2: two,
-            vehicle_speed,
-            ..HeatLinkAt::usual(&part, Notes::MUTED)
-        };
+        let at = HeatLinkAt::usual(&part, Notes::MUTED).with(|to| {
+            to.temperature_1 = one;
+            to.temperature_2 = two;
+            to.vehicle_speed = vehicle_speed;
+        });
         built(prepare, params).unwrap().conductance(&at).unwrap()
     }
 

@@ -76,7 +76,6 @@ impl HeatLinkModel for Conduction {
 }
 
 register!(HeatLink, "conduction", Params,
-    meaning: "Conduction along a shaft, through a wall or another body of one cross-section.",
     source: "Fourier's law",
     example: "{ type: conduction, length: 120 mm, diameter: 40 mm }",
     evidence: [

@@ -28,7 +28,7 @@ const ALPHA: Observed = Observed::new(
     "Heat transfer coefficient on the wetted flanks.",
 );
 
-/// Oil that wets the teeth and is flung off.
+/// Oil that wets the teeth and is flung off, from gear to oil.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Number of teeth; absent, that of the gear. [-]
@@ -126,7 +126,6 @@ impl HeatLinkModel for FlingOff {
 }
 
 register!(HeatLink, "fling_off", Params,
-    meaning: "Oil that wets the teeth and is flung off, from gear to oil.",
     source: "DeWinter, Blok, J. Eng. Ind. 96 (1974) 60-70",
     example: "{ type: fling_off }",
     evidence: [

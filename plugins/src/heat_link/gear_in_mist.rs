@@ -21,7 +21,7 @@ use crate::rotating::Body;
 
 const REYNOLDS: Limit = Limit::new(0, "Re_D", "-", 1e3, 1e5, "Becker 1963, toothed face as a cylinder");
 
-/// A gear that turns in oil, air or a mist of both.
+/// A gear that turns in oil, air or a mist of both: its sides and its toothed face.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Tip diameter; absent, that of the gear. [mm]
@@ -88,7 +88,6 @@ impl HeatLinkModel for Gear {
 }
 
 register!(HeatLink, "gear_in_mist", Params,
-    meaning: "A gear that turns in oil, air or a mist of both: its sides and its toothed face.",
     source: "Olver 1991; Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062",
     example: "{ type: gear_in_mist }",
     evidence: [

@@ -24,7 +24,7 @@ use super::STEEL;
 
 const PECLET: Observed = Observed::new(0, "Pe", "-", "Peclet number of the spot in the first body.");
 
-/// Spots of Hertzian contact.
+/// Spots of Hertzian contact, at rest or moving, such as between rolling elements and raceways.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Semi-axis of the spot in the direction of motion; of a circle its radius. [mm]
@@ -121,7 +121,6 @@ impl HeatLinkModel for Spots {
 }
 
 register!(HeatLink, "hertz_spot", Params,
-    meaning: "Spots of Hertzian contact, at rest or moving, such as between rolling elements and raceways.",
     source: "Carslaw, Jaeger, Conduction of heat in solids; Blok 1937; Jaeger 1942",
     example: "{ type: hertz_spot, along: 0.2 mm, across: 1.5 mm, radius: 32 mm, count: 3 }",
     evidence: [

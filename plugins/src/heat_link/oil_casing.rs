@@ -22,7 +22,7 @@ const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1
 const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient from oil to casing.");
 const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number over the height of the casing.");
 
-/// Oil to the casing inside.
+/// Oil to the casing inside: splash of a gear that dips, free convection at rest.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Tip diameter of the gear that dips; absent, that of the gear that the link names. [mm]
@@ -122,7 +122,6 @@ impl HeatLinkModel for Inside {
 }
 
 register!(HeatLink, "oil_casing", Params,
-    meaning: "Oil to the casing inside: splash of a gear that dips, free convection at rest.",
     source: "Changenet, Oviedo-Marlot, Velex, J. Mech. Des. 128 (2006) 618-625; Churchill and Chu 1975",
     example: "{ type: oil_casing }",
     evidence: [

@@ -68,7 +68,6 @@ impl HeatLinkModel for Ring {
 }
 
 register!(HeatLink, "ring", Params,
-    meaning: "Conduction through rings, from inside to outside.",
     source: "Fourier's law in a ring",
     example: "{ type: ring, inner_diameter: 65 mm, outer_diameter: 90 mm, width: 23 mm }",
     evidence: [

@@ -42,7 +42,7 @@ pub struct Jet {
     pub speed: f64,
 }
 
-/// Oil sprayed on a surface.
+/// Oil sprayed on a surface, from the surface to the oil that arrives.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Area that the oil wets. [cm2]
@@ -123,7 +123,6 @@ impl HeatLinkModel for Spray {
 }
 
 register!(HeatLink, "spray", Params,
-    meaning: "Oil sprayed on a surface, from the surface to the oil that arrives.",
     source: "effectiveness of a stream, textbooks; Metzger, Cummings, Ruby 1974",
     example: "{ type: spray, area: 600 cm2, share: 0.5, alpha: 1000 W/(m2 K) }",
     evidence: [
@@ -159,10 +158,7 @@ mod tests {
 
     fn link(params: Params, flow: f64) -> f64 {
         let part = HeatLinkPart::default();
-        let here = HeatLinkAt {
-            oil_flow: flow,
-            ..at(&part, 0.0, OIL)
-        };
+        let here = at(&part, 0.0, OIL).with(|to| to.oil_flow = flow);
         built(prepare, params).unwrap().conductance(&here).unwrap()
     }
 

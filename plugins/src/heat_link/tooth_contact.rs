@@ -133,7 +133,6 @@ impl HeatLinkModel for Teeth {
 }
 
 register!(HeatLink, "tooth_contact", Params,
-    meaning: "Heat from gear to gear through the teeth in contact.",
     source: "Blok 1937; Jaeger 1942",
     example: "{ type: tooth_contact, half_width: 0.13 mm }",
     evidence: [

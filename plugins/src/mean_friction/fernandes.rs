@@ -15,7 +15,7 @@ use serde::Deserialize;
 
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
-/// Mean friction of a mesh after Fernandes.
+/// Mean friction of a mesh after Fernandes, from a dimensionless load and roughness.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Lubricant factor; absent, that of the oil. [-]
@@ -75,7 +75,6 @@ impl MeanFrictionModel for Fernandes {
 }
 
 register!(MeanFriction, "fernandes", Params,
-    meaning: "Mean friction of a mesh after Fernandes, from a dimensionless load and roughness.",
     source: "Fernandes et al., FEUP, Tribol. Int. 2015 and public programs GEARpie",
     example: "{ type: fernandes, x_l: 0.846 }",
     evidence: [

@@ -45,7 +45,7 @@ impl OilType {
     }
 }
 
-/// Mean friction of a mesh after ISO/TR 13989-1.
+/// Mean friction of a mesh after ISO/TR 13989-1, conservative for scuffing.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso13989 {
     /// Lubricant factor X_L0; absent, that of `oil`, else that of the lubricant. [-]
@@ -79,7 +79,6 @@ impl MeanFrictionModel for Iso13989 {
 }
 
 register!(MeanFriction, "iso_13989", Iso13989,
-    meaning: "Mean friction of a mesh after ISO/TR 13989-1, conservative for scuffing.",
     source: "ISO/TR 13989-1:2000; ISO/TS 6336-20",
     example: "{ type: iso_13989, oil: mineral }",
     evidence: [

@@ -40,7 +40,7 @@ pub enum Where {
     PitchPoint,
 }
 
-/// A local law of friction for a whole mesh.
+/// A local law of friction, averaged along the path of contact or taken at the pitch point.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Law of friction between the flanks.
@@ -92,33 +92,30 @@ impl MeanFrictionModel for Local {
                 self.friction.along(&self.path.at(at, notes), mu)?;
                 Ok(self.path.average(mu))
             })?,
-            Where::PitchPoint => self.friction.mu(&ContactAt {
-                part: &NoPart {},
-                sliding: 0.0,
-                sum_speed: at.sum_speed,
-                radius: at.radius,
-                line_load: at.normal_force / at.part.pair.facewidth,
-                pressure: at.pressure,
-                modulus: at.part.modulus,
-                length: at.part.pair.facewidth / at.part.pair.base_helix.cos(),
-                ra: at.ra,
-                rq: at.rq,
-                temperature: at.temperature,
-                nu: at.nu,
-                eta: at.eta,
-                alpha: at.alpha,
-                beta: at.beta,
-                conductivity: at.conductivity,
-                x_l: at.x_l,
-                notes,
-            })?,
+            Where::PitchPoint => self.friction.mu(&ContactAt::usual(&NoPart {}, notes).with(|to| {
+                to.sliding = 0.0;
+                to.sum_speed = at.sum_speed;
+                to.radius = at.radius;
+                to.line_load = at.normal_force / at.part.pair.facewidth;
+                to.pressure = at.pressure;
+                to.modulus = at.part.modulus;
+                to.length = at.part.pair.facewidth / at.part.pair.base_helix.cos();
+                to.ra = at.ra;
+                to.rq = at.rq;
+                to.temperature = at.temperature;
+                to.nu = at.nu;
+                to.eta = at.eta;
+                to.alpha = at.alpha;
+                to.beta = at.beta;
+                to.conductivity = at.conductivity;
+                to.x_l = at.x_l;
+            }))?,
         };
         Ok(at.observe(&MU, mu))
     }
 }
 
 register!(MeanFriction, "local", Params,
-    meaning: "A local law of friction, averaged along the path of contact or taken at the pitch point.",
     source: "definition of the mean: equal loss along the path of contact",
     example: "{ type: local, tooth_friction: { type: xu } }",
     evidence: [

@@ -15,7 +15,7 @@ use serde::Deserialize;
 const LINE_LOAD: Limit = Limit::new(0, "w_Bt", "N/mm", 150.0, 3000.0, "lower clamp of the method");
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
-/// Mean friction of a mesh after Michaelis.
+/// Mean friction of a mesh after Michaelis, as in DIN 3990-4.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Michaelis {
     /// Lubricant factor; absent, that of the oil. [-]
@@ -57,7 +57,6 @@ impl MeanFrictionModel for Michaelis {
 }
 
 register!(MeanFriction, "michaelis", Michaelis,
-    meaning: "Mean friction of a mesh after Michaelis, as in DIN 3990-4.",
     source: "Michaelis 1987; DIN 3990-4:1987",
     example: "{ type: michaelis }",
     evidence: [

@@ -79,7 +79,7 @@ impl OilType {
     }
 }
 
-/// Mean friction of a mesh after Schlenk.
+/// Mean friction of a mesh after Schlenk, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Schlenk {
     /// Lubricant factor; absent, that of `oil`, else that of the lubricant. [-]
@@ -179,7 +179,6 @@ impl MeanFrictionModel for Schlenk {
 }
 
 register!(MeanFriction, "schlenk", Schlenk,
-    meaning: "Mean friction of a mesh after Schlenk, as in ISO/TR 14179-2.",
     source: "Schlenk 1994; ISO/TR 14179-2:2001; Niemann/Winter, Maschinenelemente 2",
     example: "{ type: schlenk, oil: polyalphaolefin }",
     evidence: [
@@ -217,22 +216,21 @@ mod tests {
             clamp_line_load,
             clamp_speed,
         };
-        let at = MeanFrictionAt {
-            line_load: 80e3,
-            pitch_speed: 62.0,
-            sum_speed: 62.0,
-            radius: 9e-3,
-            eta: 20e-3,
-            ra: 0.5e-6,
-            ..MeanFrictionAt::usual(&part, Notes::MUTED)
-        };
+        let at = MeanFrictionAt::usual(&part, Notes::MUTED).with(|to| {
+            to.line_load = 80e3;
+            to.pitch_speed = 62.0;
+            to.sum_speed = 62.0;
+            to.radius = 9e-3;
+            to.eta = 20e-3;
+            to.ra = 0.5e-6;
+        });
         close(law(true, SpeedClamp::SumSpeed).mu(&at).unwrap(), 0.0223151);
         close(law(false, SpeedClamp::None).mu(&at).unwrap(), 0.0188501);
         // With a sum as fast as the pitch line both readings clamp alike.
         close(law(true, SpeedClamp::PitchSpeed).mu(&at).unwrap(), 0.0223151);
         assert!(
             law(true, SpeedClamp::None)
-                .mu(&MeanFrictionAt { sum_speed: 0.0, ..at })
+                .mu(&at.with(|to| to.sum_speed = 0.0))
                 .is_err()
         );
     }

@@ -24,7 +24,7 @@ const CARRIER: Term = Term::no_load(1, "carrier");
 const SHARE: Observed = Observed::new(0, "A_wet/A", "-", "Share of the carrier's faces that the oil covers.");
 const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number of the carrier in oil.");
 
-/// A first estimate from churning of a gear and friction of a disc.
+/// A first estimate of carrier and planets in oil; expect a factor of three either way.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Churning law of the planets: one that is asked for a single gear; `none` where `gear_drag` counts them.
@@ -98,22 +98,20 @@ impl PlanetaryDragModel for Estimate {
         let mut planets = 0.0;
         for (slot, planet) in self.planets.iter().zip(&at.part.planets) {
             let depth = |diameter: f64| orbiting_dip(at.level, 0.5 * diameter, at.part.orbit);
-            let loss = slot.loss(&GearDragAt {
-                part: planet,
-                speed: at.planet_speed,
-                speed_2: at.planet_speed,
-                tip_dip: depth(planet.gear.tip_diameter),
-                dip: depth(planet.gear.reference_diameter),
-                tip_dip_2: 0.0,
-                dip_2: 0.0,
-                towards_mesh: 0.0,
-                towards_mesh_2: 0.0,
-                temperature: at.temperature,
-                nu: at.nu,
-                eta: at.eta,
-                rho: at.rho,
-                notes: at.notes.of(slot.notes),
-            })?;
+            let loss = slot.loss(&GearDragAt::usual(planet, at.notes.of(slot.notes)).with(|to| {
+                to.speed = at.planet_speed;
+                to.speed_2 = at.planet_speed;
+                to.tip_dip = depth(planet.gear.tip_diameter);
+                to.dip = depth(planet.gear.reference_diameter);
+                to.tip_dip_2 = 0.0;
+                to.dip_2 = 0.0;
+                to.towards_mesh = 0.0;
+                to.towards_mesh_2 = 0.0;
+                to.temperature = at.temperature;
+                to.nu = at.nu;
+                to.eta = at.eta;
+                to.rho = at.rho;
+            }))?;
             planets += f64::from(at.part.count) * loss.total_watts(at.planet_speed);
         }
         at.show("P_planets", "W", planets);
@@ -135,7 +133,6 @@ impl PlanetaryDragModel for Estimate {
 }
 
 register!(PlanetaryDrag, "estimate", Params,
-    meaning: "A first estimate of carrier and planets in oil; expect a factor of three either way.",
     source: "put together from single gears and discs",
     example: "{ type: estimate, planet: { type: changenet_2011 } }",
     evidence: [

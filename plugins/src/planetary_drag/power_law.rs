@@ -16,7 +16,7 @@ use serde::Deserialize;
 
 const TERM: Term = Term::no_load(0, "drag");
 
-/// A power law of speed, viscosity and oil volume. `gearloss fit power-law` makes it from a table.
+/// A power law of speed, viscosity and oil volume, fitted to simulations or measurements.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct PowerLaw {
     /// Moment on the reference shaft at the point of reference. [Nm]
@@ -110,7 +110,6 @@ impl PlanetaryDragModel for PowerLaw {
 }
 
 register!(PlanetaryDrag, "power_law", PowerLaw,
-    meaning: "A power law of speed, viscosity and oil volume, fitted to simulations or measurements.",
     source: "the user's own",
     example: "{ type: power_law, moment: 0.05 Nm, speed: 300 rpm, nu: 100 mm2/s, volume: 90 ml, speed_exponent: 0.6, \
               viscosity_exponent: 0.4, volume_exponent: 0.8 }",

@@ -22,7 +22,7 @@ pub enum Material {
     Nbr,
 }
 
-/// Radial lip seals after ISO/TR 14179-1.
+/// Radial lip seals after ISO/TR 14179-1: moment with diameter and material.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Material of the lip.
@@ -50,7 +50,6 @@ impl SealModel for Iso14179 {
 }
 
 register!(Seal, "iso14179_1", Iso14179,
-    meaning: "Radial lip seals after ISO/TR 14179-1: moment with diameter and material.",
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1, material: fkm }",
     evidence: [formula(Evidence::Recalled, "recalled; the law of Linke lies between both materials at 40 mm")],

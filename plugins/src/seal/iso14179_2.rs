@@ -50,7 +50,6 @@ impl SealModel for Iso14179 {
 }
 
 register!(Seal, "iso14179_2", Iso14179,
-    meaning: "Radial lip seals after ISO/TR 14179-2.",
     source: "ISO/TR 14179-2:2001",
     example: "{ type: iso14179_2 }",
     evidence: [formula(Evidence::OneSource, "one printed source, watt level checked against Linke's diagram")],
@@ -68,12 +67,11 @@ mod tests {
             kind: SealKind::RadialLip,
         };
         let speed = 3000.0 * std::f64::consts::PI / 30.0;
-        let at = SealAt {
-            speed,
-            temperature,
-            nu40: nu40 * 1e-6,
-            ..SealAt::usual(&part, Notes::MUTED)
-        };
+        let at = SealAt::usual(&part, Notes::MUTED).with(|to| {
+            to.speed = speed;
+            to.temperature = temperature;
+            to.nu40 = nu40 * 1e-6;
+        });
         Iso14179 {}.loss(&at).map_or(f64::NAN, |loss| loss.total_watts(speed))
     }
 
@@ -88,10 +86,7 @@ mod tests {
     fn the_moment_does_not_depend_on_speed_and_a_seal_without_contact_has_none() {
         let moment = |kind, speed| {
             let part = SealPart { diameter: 0.040, kind };
-            let at = SealAt {
-                speed,
-                ..SealAt::usual(&part, Notes::MUTED)
-            };
+            let at = SealAt::usual(&part, Notes::MUTED).with(|to| to.speed = speed);
             Iso14179 {}.loss(&at).map_or(f64::NAN, |loss| loss.total_moment(speed))
         };
         // The power is linear in speed, so the moment has a finite limit at rest.

@@ -13,7 +13,7 @@ use serde::Deserialize;
 
 const LIP: Term = Term::no_load(0, "lip");
 
-/// Radial lip seals after Linke.
+/// Radial lip seals after Linke: moment with the square of the diameter.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Linke {}
 
@@ -33,7 +33,6 @@ impl SealModel for Linke {
 }
 
 register!(Seal, "linke", Linke,
-    meaning: "Radial lip seals after Linke: moment with the square of the diameter.",
     source: "Linke, Stirnradverzahnung",
     example: "{ type: linke }",
     evidence: [formula(Evidence::SeveralSources, "a public program, a method list and memory agree")],

@@ -43,7 +43,6 @@ impl SealModel for LipLoad {
 }
 
 register!(Seal, "lip_load", LipLoad,
-    meaning: "Radial lip seals from line load and friction of the lip.",
     source: "derived: Coulomb friction of a loaded ring",
     example: "{ type: lip_load, line_load: 100 N/m, mu: 0.3 }",
     evidence: [formula(Evidence::Derived, "load and friction are the user's")],

@@ -17,7 +17,7 @@ use serde::Deserialize;
 
 const LIP: Term = Term::no_load(0, "lip");
 
-/// Radial lip seals after Niemann and Winter.
+/// Radial lip seals with a coefficient of the user, a number or a table.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Coefficient lambda_L, in place of a table. [-]
@@ -82,7 +82,6 @@ impl SealModel for NiemannWinter {
 }
 
 register!(Seal, "niemann_winter", Params,
-    meaning: "Radial lip seals with a coefficient of the user, a number or a table.",
     source: "Niemann/Winter, Maschinenelemente 2, as Concli 2015 quotes it",
     example: "{ type: niemann_winter, lambda_l: 7.69e-3 }",
     evidence: [formula(Evidence::OneSource, "one article; the coefficient is the user's")],

@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 const LIP: Term = Term::no_load(0, "lip");
 
-/// Radial lip seals by a rule of thumb.
+/// Radial lip seals by a rule of thumb of a maker: an upper bracket.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Simrit {}
 
@@ -32,7 +32,6 @@ impl SealModel for Simrit {
 }
 
 register!(Seal, "simrit", Simrit,
-    meaning: "Radial lip seals by a rule of thumb of a maker: an upper bracket.",
     source: "Freudenberg/Simrit",
     example: "{ type: simrit }",
     evidence: [formula(Evidence::Disputed, "recalled, and three to four times other laws")],

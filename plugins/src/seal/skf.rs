@@ -18,7 +18,7 @@ use crate::bearing::skf_seal::{Code, SealRow};
 
 const LIP: Term = Term::no_load(0, "lip");
 
-/// Contact seals of rolling bearings.
+/// Contact seals of rolling bearings after the SKF catalogue.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Seal and bearing.
@@ -56,7 +56,6 @@ impl SealModel for Skf {
 }
 
 register!(Seal, "skf", Params,
-    meaning: "Contact seals of rolling bearings after the SKF catalogue.",
     source: "SKF Rolling bearings, PUB 10000 (2013) and PUB 17000 (2018)",
     example: "{ type: skf, code: rs1_deep_groove, outside: 72 mm }",
     evidence: [

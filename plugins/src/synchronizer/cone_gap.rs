@@ -17,7 +17,7 @@ const SHEAR: Term = Term::no_load(0, "shear");
 const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar gap flow");
 const TAYLOR: Limit = Limit::new(1, "Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
 
-/// Drag of open synchronizers by shear in the cone gap.
+/// Shear of oil in the gap between the cones of an open synchronizer.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct ConeGap {}
 
@@ -74,7 +74,6 @@ impl SynchronizerModel for Film {
 }
 
 register!(Synchronizer, "cone_gap", ConeGap,
-    meaning: "Shear of oil in the gap between the cones of an open synchronizer.",
     source: "derived: laminar Couette flow between cones",
     example: "{ type: cone_gap }",
     evidence: [formula(Evidence::Derived, "shear flow; the filling of the gap is the user's")],
@@ -123,10 +122,7 @@ mod tests {
             );
             let part = part(&json);
             let model = build(&part).unwrap();
-            let at = |speed| SynchronizerAt {
-                speed,
-                ..SynchronizerAt::usual(&part, Notes::MUTED)
-            };
+            let at = |speed| SynchronizerAt::usual(&part, Notes::MUTED).with(|to| to.speed = speed);
             assert_eq!(model.loss(&at(0.0)).unwrap().sum(), 0.0);
             assert_eq!(model.loss(&at(-100.0)).unwrap(), model.loss(&at(100.0)).unwrap());
             model.loss(&at(100.0)).unwrap().sum()

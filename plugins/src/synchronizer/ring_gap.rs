@@ -17,7 +17,7 @@ const SHEAR: Term = Term::no_load(0, "shear");
 const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar gap flow");
 const TAYLOR: Limit = Limit::new(1, "Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
 
-/// Drag of a cylindrical gap.
+/// Shear of oil in a cylindrical gap.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct RingGap {}
 
@@ -62,7 +62,6 @@ impl SynchronizerModel for Film {
 }
 
 register!(Synchronizer, "ring_gap", RingGap,
-    meaning: "Shear of oil in a cylindrical gap.",
     source: "Petroff 1883; derived: laminar Couette flow between cylinders",
     example: "{ type: ring_gap }",
     evidence: [formula(Evidence::Derived, "shear flow; the filling of the gap is the user's")],
@@ -102,10 +101,7 @@ mod tests {
             let json =
                 format!(r#"{{"kind":"ring","cone_diameter":0.06,"cone_width":0.04,"gap":5e-4,"oil_fill":{fill}}}"#);
             let part = part(&json);
-            let at = SynchronizerAt {
-                speed,
-                ..SynchronizerAt::usual(&part, Notes::MUTED)
-            };
+            let at = SynchronizerAt::usual(&part, Notes::MUTED).with(|to| to.speed = speed);
             build(&part).unwrap().loss(&at).unwrap().sum()
         };
         assert_eq!((loss(1.0, 0.0), loss(0.0, 100.0)), (0.0, 0.0));
@@ -121,11 +117,10 @@ mod tests {
         );
         let part = part(&json);
         let speed = 2000.0 * std::f64::consts::PI / 30.0;
-        let at = SynchronizerAt {
-            speed,
-            eta: 0.012,
-            ..SynchronizerAt::usual(&part, Notes::MUTED)
-        };
+        let at = SynchronizerAt::usual(&part, Notes::MUTED).with(|to| {
+            to.speed = speed;
+            to.eta = 0.012;
+        });
         // Two cones, each half filled, are one that is flooded.
         let moment = build(&part).unwrap().loss(&at).unwrap().sum();
         assert!((moment / 0.0554096 - 1.0).abs() < 1e-5, "{moment}");

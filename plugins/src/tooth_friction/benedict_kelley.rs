@@ -64,7 +64,6 @@ impl ToothFrictionModel for BenedictKelley {
 }
 
 register!(ToothFriction, "benedict_kelley", BenedictKelley,
-    meaning: "Friction between flanks after Benedict and Kelley.",
     source: "Benedict, Kelley, ASLE Trans. 4 (1961) 59-70",
     example: "{ type: benedict_kelley }",
     evidence: [
@@ -82,14 +81,13 @@ mod tests {
     use gearloss_framework::mechanism::NoPart;
 
     fn mu(roughness: bool, sliding: f64, line_load: f64) -> f64 {
-        let at = ContactAt {
-            line_load,
-            eta: 20e-3,
-            sliding,
-            sum_speed: 10.0,
-            rq: 0.4e-6,
-            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
-        };
+        let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
+            to.line_load = line_load;
+            to.eta = 20e-3;
+            to.sliding = sliding;
+            to.sum_speed = 10.0;
+            to.rq = 0.4e-6;
+        });
         BenedictKelley {
             roughness,
             greatest: 0.2,

@@ -16,7 +16,7 @@ use super::finite;
 
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
-/// Power law of boundary or fluid friction after Doleschel.
+/// Power law of boundary or fluid friction after Doleschel, with constants of an oil's test.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Doleschel {
     /// Coefficient of friction at the reference. [-]
@@ -53,7 +53,6 @@ impl ToothFrictionModel for Doleschel {
 }
 
 register!(ToothFriction, "doleschel", Doleschel,
-    meaning: "Power law of boundary or fluid friction after Doleschel, with constants of an oil's test.",
     source: "Doleschel 2002; FVA 345",
     example: "{ type: doleschel, mu: 0.02, pressure: 0.5, speed: -0.1, viscosity: -0.05 }",
     evidence: [

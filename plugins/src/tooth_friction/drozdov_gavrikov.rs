@@ -45,7 +45,6 @@ impl ToothFrictionModel for DrozdovGavrikov {
 }
 
 register!(ToothFriction, "drozdov_gavrikov", DrozdovGavrikov,
-    meaning: "Friction between flanks after Drozdov and Gavrikov.",
     source: "Drozdov, Gavrikov, Wear 11 (1968) 291-302",
     example: "{ type: drozdov_gavrikov }",
     evidence: [formula(Evidence::Recalled, "from memory; the magnitude is plausible")],
@@ -60,22 +59,20 @@ mod tests {
 
     #[test]
     fn b8_drozdov_gavrikov() {
-        let at = ContactAt {
-            sliding: 2.0,
-            sum_speed: 10.0,
-            nu: 20e-6,
-            pressure: 1e4 * KGF_CM2,
-            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
-        };
+        let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
+            to.sliding = 2.0;
+            to.sum_speed = 10.0;
+            to.nu = 20e-6;
+            to.pressure = 1e4 * KGF_CM2;
+        });
         assert!((DrozdovGavrikov {}.mu(&at).unwrap() / 0.0418841 - 1.0).abs() < 1e-5);
         // Far beyond the pressures of the tests the formula turns over.
-        let beyond = ContactAt {
-            pressure: 4e9,
-            sum_speed: 200.0,
-            sliding: 0.0,
-            nu: 1e-3,
-            ..at
-        };
+        let beyond = at.with(|to| {
+            to.pressure = 4e9;
+            to.sum_speed = 200.0;
+            to.sliding = 0.0;
+            to.nu = 1e-3;
+        });
         assert!(DrozdovGavrikov {}.mu(&beyond).is_err());
     }
 }

@@ -387,7 +387,6 @@ impl ToothFrictionModel for EhlMixed {
 }
 
 register!(ToothFriction, "ehl_mixed", Params,
-    meaning: "Thermal elastohydrodynamic and mixed friction along the path of contact.",
     source: "Shore, Kadiric: Optimization of electric vehicle drivetrain fluid with a new system-level approach; Olver, Spikes 1998; \
 Johnson, Tevaarwerk 1977",
     example: "{ type: ehl_mixed, tau0: 5 MPa, limiting_slope: 0.055, mu_b: 0.13 }",

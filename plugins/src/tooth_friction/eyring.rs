@@ -20,7 +20,7 @@ use crate::contact::{self, Film};
 const MU: Observed = Observed::new(0, "mu_f", "-", "Coefficient of friction.");
 const THICKNESS: Observed = Observed::new(1, "h", "um", "Film thickness.");
 
-/// Fluid friction of an EHL film.
+/// Fluid friction of an EHL film: Eyring's law with a limit of shear stress.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Eyring {
     /// Slope of the limiting shear stress over pressure. [-]
@@ -72,7 +72,6 @@ impl ToothFrictionModel for Eyring {
 }
 
 register!(ToothFriction, "eyring", Eyring,
-    meaning: "Fluid friction of an EHL film: Eyring's law with a limit of shear stress.",
     source: "Arana et al., Proc. IMechE (2019), equation 13; Roelands 1966",
     example: "{ type: eyring, limiting_slope: 0.035 }",
     evidence: [

@@ -40,39 +40,37 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Mean, Diagnostic> {
 impl ToothFrictionModel for Mean {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         let usual = MeanFrictionAt::usual(&self.part, Notes::MUTED);
-        self.friction.mu(&MeanFrictionAt {
-            line_load: at.line_load * self.part.pair.base_helix.cos(),
-            normal_force: at.line_load * self.part.pair.facewidth,
-            pressure: at.pressure,
-            pitch_speed: 0.5 * at.sum_speed / self.part.pair.working_angle.sin(),
-            speed: 0.5 * at.sum_speed / (self.part.pair.working_angle.sin() * self.part.pair.working_radius[0]),
-            sum_speed: at.sum_speed,
-            radius: at.radius,
-            ra: at.ra,
-            rq: at.rq,
-            temperature: at.temperature,
-            nu: at.nu,
-            eta: at.eta,
-            alpha: at.alpha,
-            beta: at.beta,
-            conductivity: at.conductivity,
-            x_l: at.x_l,
-            notes: at.notes.of(self.friction.notes),
-            ..usual
-        })
+        self.friction.mu(&usual.with(|to| {
+            to.line_load = at.line_load * self.part.pair.base_helix.cos();
+            to.normal_force = at.line_load * self.part.pair.facewidth;
+            to.pressure = at.pressure;
+            to.pitch_speed = 0.5 * at.sum_speed / self.part.pair.working_angle.sin();
+            to.speed = 0.5 * at.sum_speed / (self.part.pair.working_angle.sin() * self.part.pair.working_radius[0]);
+            to.sum_speed = at.sum_speed;
+            to.radius = at.radius;
+            to.ra = at.ra;
+            to.rq = at.rq;
+            to.temperature = at.temperature;
+            to.nu = at.nu;
+            to.eta = at.eta;
+            to.alpha = at.alpha;
+            to.beta = at.beta;
+            to.conductivity = at.conductivity;
+            to.x_l = at.x_l;
+            to.notes = at.notes.of(self.friction.notes);
+        }))
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
-        mu.fill(self.friction.mu(&MeanFrictionAt {
-            notes: path.notes.of(self.friction.notes),
-            ..*path.mean
-        })?);
+        mu.fill(
+            self.friction
+                .mu(&path.mean.with(|to| to.notes = path.notes.of(self.friction.notes)))?,
+        );
         Ok(Along::default())
     }
 }
 
 register!(ToothFriction, "mean", Params,
-    meaning: "A law of mean friction as a constant along the path of contact.",
     source: "definition: one coefficient for the whole mesh",
     example: "{ type: mean, mean_friction: { type: schlenk } }",
     evidence: [formula(Evidence::Derived, "the law itself states its evidence")],

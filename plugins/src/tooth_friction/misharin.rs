@@ -36,7 +36,6 @@ impl ToothFrictionModel for Misharin {
 }
 
 register!(ToothFriction, "misharin", Misharin,
-    meaning: "Friction between flanks after Misharin.",
     source: "Misharin 1958",
     example: "{ type: misharin }",
     evidence: [
@@ -54,14 +53,13 @@ mod tests {
 
     #[test]
     fn b8_misharin() {
-        let at = ContactAt {
-            sliding: 2.0,
-            sum_speed: 10.0,
-            nu: 20e-6,
-            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
-        };
+        let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
+            to.sliding = 2.0;
+            to.sum_speed = 10.0;
+            to.nu = 20e-6;
+        });
         assert!((Misharin { held: true }.mu(&at).unwrap() / 0.0726722 - 1.0).abs() < 1e-5);
-        let still = ContactAt { sliding: 0.0, ..at };
+        let still = at.with(|to| to.sliding = 0.0);
         assert_eq!(Misharin { held: true }.mu(&still).unwrap(), 0.08);
         assert!(Misharin { held: false }.mu(&still).is_err());
     }

@@ -40,7 +40,7 @@ pub enum Weight {
     OlverSpikes,
 }
 
-/// Mixed friction: boundary and fluid friction, weighted by the film.
+/// Boundary and fluid friction, weighted by the film.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// How the share of boundary friction follows from the film.
@@ -136,12 +136,7 @@ const CHUNK: usize = 96;
 impl ToothFrictionModel for Mixed {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         let xi = self.share(at);
-        let nested = |slot: &Slot<ToothFriction>| {
-            slot.mu(&ContactAt {
-                notes: at.notes.of(slot.notes),
-                ..*at
-            })
-        };
+        let nested = |slot: &Slot<ToothFriction>| slot.mu(&at.nested(slot));
         // A law whose weight is nothing is not asked: it may be undefined there, as a film is without speed.
         let boundary = if xi > 0.0 { xi * nested(&self.boundary)? } else { 0.0 };
         let fluid = if xi < 1.0 {
@@ -161,14 +156,7 @@ impl ToothFrictionModel for Mixed {
             let mut fluid = [0.0; CHUNK];
             let fluid = &mut fluid[..nodes.len()];
             let part = |slot: &Slot<ToothFriction>, mu: &mut [f64]| {
-                slot.along(
-                    &PathAt {
-                        nodes,
-                        notes: path.notes.of(slot.notes),
-                        ..*path
-                    },
-                    mu,
-                )
+                slot.along(&path.nested(slot).with(|to| to.nodes = nodes), mu)
             };
             part(&self.boundary, mu)?;
             part(&self.fluid, fluid)?;
@@ -183,7 +171,6 @@ impl ToothFrictionModel for Mixed {
 }
 
 register!(ToothFriction, "mixed", Params,
-    meaning: "Boundary and fluid friction, weighted by the film.",
     source: "Doleschel 2002; Matsumoto, Morikawa 2014; Diab 2006; Olver, Spikes 1998; collected by Arana et al. 2019",
     example: "{ type: mixed, weight: doleschel, boundary: { type: constant, value: 0.1 }, fluid: { type: constant, value: 0.02 } }",
     evidence: [
@@ -233,12 +220,11 @@ mod tests {
             let slot = build
                 .slot_at::<ToothFriction>("model", &Arc::new(NoPart {}), &value)
                 .unwrap();
-            let at = ContactAt {
-                pressure: 1.2e9,
-                sum_speed: 6.0,
-                eta: 15e-3,
-                ..ContactAt::usual(&NoPart {}, Notes::MUTED)
-            };
+            let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
+                to.pressure = 1.2e9;
+                to.sum_speed = 6.0;
+                to.eta = 15e-3;
+            });
             slot.mu(&at).unwrap()
         };
         let fluid = serde_json::json!({ "type": "doleschel", "mu": 0.020, "pressure": 0.5, "speed": -0.1, "viscosity": -0.05, "reference_speed": 8.3 });

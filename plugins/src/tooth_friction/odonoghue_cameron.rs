@@ -34,7 +34,6 @@ impl ToothFrictionModel for ODonoghueCameron {
 }
 
 register!(ToothFriction, "odonoghue_cameron", ODonoghueCameron,
-    meaning: "Friction between flanks after O'Donoghue and Cameron.",
     source: "O'Donoghue, Cameron, ASLE Trans. 9 (1966) 186-194",
     example: "{ type: odonoghue_cameron }",
     evidence: [formula(Evidence::Recalled, "from memory; the magnitude is plausible")],
@@ -49,15 +48,14 @@ mod tests {
 
     #[test]
     fn b8_odonoghue_cameron() {
-        let at = ContactAt {
-            sliding: 78.74 * INCH,
-            sum_speed: 393.7 * INCH,
-            eta: 20e-3,
-            ra: 13e-6 * INCH,
-            radius: 0.4 * INCH,
-            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
-        };
+        let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
+            to.sliding = 78.74 * INCH;
+            to.sum_speed = 393.7 * INCH;
+            to.eta = 20e-3;
+            to.ra = 13e-6 * INCH;
+            to.radius = 0.4 * INCH;
+        });
         assert!((ODonoghueCameron {}.mu(&at).unwrap() / 0.0562212 - 1.0).abs() < 1e-5);
-        assert!(ODonoghueCameron {}.mu(&ContactAt { sliding: 0.0, ..at }).is_err());
+        assert!(ODonoghueCameron {}.mu(&at.with(|to| to.sliding = 0.0)).is_err());
     }
 }

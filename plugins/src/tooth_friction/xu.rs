@@ -145,7 +145,6 @@ impl ToothFrictionModel for Xu {
 }
 
 register!(ToothFriction, "xu", Xu,
-    meaning: "Regression of an EHL friction model for gear contacts.",
     source: "Xu, Kahraman, Anderson, Maddock, J. Mech. Des. 129 (2007) 58-68, doi 10.1115/1.2359478",
     example: "{ type: xu }",
     evidence: [
@@ -168,15 +167,14 @@ mod tests {
     };
 
     fn mu(sr: f64, p: f64, eta: f64, s: f64, v: f64, r: f64) -> f64 {
-        let at = ContactAt {
-            sliding: sr * v,
-            sum_speed: 2.0 * v,
-            radius: r,
-            pressure: p * 1e9,
-            rq: s * 1e-6,
-            eta: eta * 1e-3,
-            ..ContactAt::usual(&NoPart {}, Notes::MUTED)
-        };
+        let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
+            to.sliding = sr * v;
+            to.sum_speed = 2.0 * v;
+            to.radius = r;
+            to.pressure = p * 1e9;
+            to.rq = s * 1e-6;
+            to.eta = eta * 1e-3;
+        });
         LAW.mu(&at).unwrap()
     }
 
@@ -205,26 +203,12 @@ mod tests {
             })
             .collect();
         let part = fzg_c14(0.4e-6, 0.5e-6);
-        let path = PathAt {
-            nodes: &nodes,
-            extent: &PathExtent::of(&nodes),
-            speed: 300.0,
-            line_load: 2e5,
-            modulus: 226e9,
-            length: 0.02,
-            ra: 0.4e-6,
-            rq: 0.5e-6,
-            temperature: 80.0,
-            bodies: None,
-            nu: 10e-6,
-            eta: 8e-3,
-            alpha: 15e-9,
-            beta: 0.03,
-            conductivity: 0.135,
-            x_l: 1.0,
-            mean: &MeanFrictionAt::usual(&part, Notes::MUTED),
-            notes: Notes::MUTED,
-        };
+        let extent = PathExtent::of(&nodes);
+        let mean = MeanFrictionAt::usual(&part, Notes::MUTED);
+        let path = PathAt::of(&nodes, &extent, 0.02, &mean, Notes::MUTED).with(|to| {
+            to.speed = 300.0;
+            to.line_load = 2e5;
+        });
         let mut along = [0.0; 9];
         LAW.along(&path, &mut along).unwrap();
         for (node, mu) in nodes.iter().zip(along) {

@@ -8,7 +8,7 @@ use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::gear_mesh::MeshPart;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
-use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
+use gearloss_framework::mechanism::tooth_friction::ToothFriction;
 use gearloss_framework::registry::{Build, ModelRef, Slot};
 use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
@@ -191,10 +191,7 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
     let friction = Friction::of(&mut build, &format!("{own}.model"), &part, model)?;
     let mean = MeanFrictionAt::of(&at, Notes::MUTED);
     let fine = Path::even(&part.pair, sharing, entry.places as usize);
-    let along = PathAt {
-        bodies: at.bodies(),
-        ..fine.at(&mean, Notes::MUTED)
-    };
+    let along = fine.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
     let loaded = at.speed != 0.0 && at.torque != 0.0;
     let (mu, silent): (Option<Vec<f64>>, String) = match &friction {
         _ if !loaded => (None, "the mesh is idle or rests".to_owned()),

@@ -46,7 +46,7 @@ pub fn write(runner: &Runner<'_>, template: Option<&str>) -> Result<(), Failure>
             .registry()
             .packages()
             .into_iter()
-            .map(str::to_owned)
+            .map(|package| package.to_string())
             .collect(),
         study: runner.study.text.clone(),
     };

@@ -58,24 +58,22 @@ impl Point {
             ..
         } = lubricant.at(self.oil);
         let [temperature_1, temperature_2] = self.bodies.unwrap_or([temperature; 2]);
-        GearMeshAt {
-            part,
-            torque: self.torque,
-            speed: self.speed,
-            first_drives: 1.0,
-            temperature,
-            nu,
-            eta,
-            rho,
-            alpha,
-            beta,
-            conductivity,
-            x_l,
-            bodies_known: f64::from(u8::from(self.bodies.is_some())),
-            temperature_1,
-            temperature_2,
-            notes,
-        }
+        GearMeshAt::usual(part, notes).with(|to| {
+            to.torque = self.torque;
+            to.speed = self.speed;
+            to.first_drives = 1.0;
+            to.temperature = temperature;
+            to.nu = nu;
+            to.eta = eta;
+            to.rho = rho;
+            to.alpha = alpha;
+            to.beta = beta;
+            to.conductivity = conductivity;
+            to.x_l = x_l;
+            to.bodies_known = f64::from(u8::from(self.bodies.is_some()));
+            to.temperature_1 = temperature_1;
+            to.temperature_2 = temperature_2;
+        })
     }
 }
 

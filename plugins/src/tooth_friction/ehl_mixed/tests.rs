@@ -63,25 +63,24 @@ impl Rig {
     /// Asks on nodes at a torque of the first gear in N m, rpm and degC.
     fn ask(&self, nodes: &[PathNode], torque: f64, rpm: f64, oil: f64) -> Asked {
         let state = self.part.oil.as_ref().unwrap().lubricant.at(oil);
-        let at = GearMeshAt {
-            torque,
-            speed: rpm * RPM,
-            temperature: oil,
-            nu: state.nu,
-            eta: state.eta,
-            rho: state.rho,
-            alpha: state.alpha,
-            beta: state.beta,
-            conductivity: state.conductivity,
-            ..GearMeshAt::usual(&self.part, Notes::MUTED)
-        };
+        let at = GearMeshAt::usual(&self.part, Notes::MUTED).with(|to| {
+            to.torque = torque;
+            to.speed = rpm * RPM;
+            to.temperature = oil;
+            to.nu = state.nu;
+            to.eta = state.eta;
+            to.rho = state.rho;
+            to.alpha = state.alpha;
+            to.beta = state.beta;
+            to.conductivity = state.conductivity;
+        });
         let mean = MeanFrictionAt::of(&at, Notes::MUTED);
         let whole = Path::even(&self.part.pair, LoadSharing::Ramp, 3);
-        let path = PathAt {
-            nodes,
-            extent: &PathExtent::of(nodes),
-            ..whole.at(&mean, Notes::MUTED)
-        };
+        let extent = PathExtent::of(nodes);
+        let path = whole.at(&mean, Notes::MUTED).with(|to| {
+            to.nodes = nodes;
+            to.extent = &extent;
+        });
         let mut mu = vec![0.0; nodes.len()];
         let mut places = Vec::new();
         let (tally, _) = self.model.settle(&path, &mut mu, |_, settled| places.push(*settled));

@@ -1,0 +1,64 @@
+//! Two terms over the mean diameter, fitted to measurements of the maker's rig.
+
+use gearloss_framework::prelude::*;
+
+const VISCOUS: Term = Term::no_load(0, "viscous");
+const LOADED: Term = Term::load(1, "loaded");
+const SPEED: Limit = Limit::new(0, "n", "1/min", 200.0, 9000.0, "speeds on the rig");
+
+/// Friction of ball bearings as measured on the rig: one part with oil and speed, one with load.
+#[derive(Debug, Deserialize, JsonSchema)]
+pub struct RigLine {
+    /// Coefficient of the part with oil and speed. [-]
+    #[serde(default = "viscous")]
+    #[schemars(range(min = 0.0, max = 20.0))]
+    pub viscous: f64,
+    /// Coefficient of the part with load. [-]
+    #[schemars(range(min = 0.0, max = 0.01))]
+    pub loaded: f64,
+}
+
+fn viscous() -> f64 {
+    1.4
+}
+
+impl BearingModel for RigLine {
+    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
+        let n = at.check(&SPEED, at.speed.abs().rpm());
+        let d_m = at.show("d_m", "mm", at.part.mean_diameter().mm());
+        let m_0 = at.show(
+            "M_0",
+            "N mm",
+            1e-7 * self.viscous * (at.nu.mm2_s() * n).powf(2.0 / 3.0) * d_m.powi(3),
+        );
+        let m_1 = at.show("M_1", "N mm", self.loaded * at.radial * d_m);
+        Ok(Loss::MOMENTS
+            .with(&VISCOUS, m_0.nmm_in_nm())
+            .with(&LOADED, m_1.nmm_in_nm()))
+    }
+}
+
+register!(Bearing, "rig_line", RigLine,
+    source: "rig report 21, 2024",
+    example: "{ type: rig_line, loaded: 3e-4 }",
+    evidence: [formula(Evidence::OneSource, "40 points on four bearings"), default_of("viscous", Evidence::OneSource, "their mean")],
+    limits: [SPEED], terms: [VISCOUS, LOADED]);
+
+#[cfg(test)]
+mod tests {
+    use gearloss_framework::testing::{assert_close, eval};
+
+    /// d = 40 mm, D = 80 mm: d_m = 60 mm; 32 mm2/s, 1500 rpm, 1 kN; worked by hand.
+    #[test]
+    fn the_moment_of_a_6208() {
+        let input = "
+            model: { type: rig_line, viscous: 2, loaded: 3e-4 }
+            part: { kind: deep_groove_ball, bore: 40 mm, outside: 80 mm }
+            at: { nu: 32 mm2/s, speed: 1500 rpm, radial: 1 kN }
+        ";
+        let answer = eval("bearing/rig_line", input);
+        // (32 * 1500)^(2/3) = 1320.77, times 2e-7 and 60^3; 3e-4 of 1000 N at 60 mm.
+        assert_close(answer.step("M_0").unwrap(), 57.057, 1e-5);
+        assert_close(answer.moment.unwrap(), 0.057057 + 0.018, 1e-5);
+    }
+}

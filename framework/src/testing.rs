@@ -1,0 +1,84 @@
+//! What the tests of a crate of models need: check values, and the conformance suite over everything that is linked.
+//!
+//! ```no_run
+//! use gearloss_framework::testing::{assert_close, eval};
+//!
+//! let loss = eval("bearing/constant", "{ model: { type: constant, value: 0.05 Nm }, at: { speed: 1000 rpm } }");
+//! assert_close(loss.total, 5.236, 1e-4);
+//! ```
+
+use std::path::Path;
+
+use crate::conformance::check_all;
+use crate::eval::{Evaluated, ask};
+use crate::language::Language;
+use crate::registry::Registry;
+
+/// The language of everything that is linked into this test.
+///
+/// # Panics
+/// If what is linked does not fit together.
+#[track_caller]
+pub fn language() -> Language {
+    match Registry::linked().and_then(Language::new) {
+        Ok(language) => language,
+        Err(found) => panic!("{}", lines(&found)),
+    }
+}
+
+/// One model alone, `MECHANISM/MODEL`, at an input as `gearloss eval --input` takes it: `part`, `at` and `model` in YAML, each
+/// optional. Files that a model names lie beside Cargo.toml of the crate under test.
+///
+/// # Panics
+/// With the errors of the input, or with the reason why the model has no value there.
+#[track_caller]
+pub fn eval(model: &str, input: &str) -> Evaluated {
+    match ask(&language(), model, "input", input, Path::new("")) {
+        Ok(evaluated) => evaluated,
+        Err(findings) => panic!("{model}: {}", findings.render()),
+    }
+}
+
+/// Puts every linked model through the conformance suite.
+///
+/// # Panics
+/// With a line for each fault.
+#[track_caller]
+pub fn conformance() {
+    let faults = check_all(&language());
+    assert!(faults.is_empty(), "{}", lines(&faults));
+}
+
+/// Compares a number with the expected one.
+///
+/// # Panics
+/// If it differs by more than `relative` times the expected one.
+#[track_caller]
+pub fn assert_close(got: f64, expected: f64, relative: f64) {
+    assert!(
+        (got - expected).abs() <= relative * expected.abs(),
+        "{got} is not {expected} within {relative:e} of it: off by {:.3e}",
+        got / expected - 1.0
+    );
+}
+
+fn lines<T: std::fmt::Display>(list: &[T]) -> String {
+    list.iter()
+        .fold(String::new(), |text, line| text + &format!("\n  {line}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::assert_close;
+
+    #[test]
+    fn a_close_number_passes() {
+        assert_close(1.0005, 1.0, 1e-3);
+    }
+
+    #[test]
+    #[should_panic(expected = "2 is not 1 within 1e-3 of it")]
+    fn another_does_not() {
+        assert_close(2.0, 1.0, 1e-3);
+    }
+}
