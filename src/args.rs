@@ -109,6 +109,7 @@ pub enum NewWhat {
 
 /// Arguments of `new gearbox`.
 #[derive(Debug, ClapArgs)]
+#[command(override_usage = "gearloss new gearbox [OPTIONS] <LAYOUT>")]
 pub struct NewGearboxArgs {
     /// How the shafts and gears are laid out.
     #[arg(value_enum)]

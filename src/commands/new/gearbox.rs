@@ -81,7 +81,7 @@ fn unnamed() -> Failure {
     let mut mend = "name one: gearloss new gearbox LAYOUT, with".to_owned();
     for layout in Layout::value_variants().iter().filter_map(ValueEnum::to_possible_value) {
         let help = layout.get_help().map(ToString::to_string).unwrap_or_default();
-        mend += &format!("\n      {:<18}{help}", layout.get_name());
+        mend += &format!("\n      {:<19}{help}", layout.get_name());
     }
     Failure::input("no layout is named", mend)
 }

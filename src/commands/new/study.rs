@@ -126,8 +126,9 @@ fn filled(line: &str, words: &[(&str, Option<String>)]) -> String {
 
 /// A text as one YAML value: plain where it can be taken for nothing else.
 fn scalar(text: &str) -> String {
-    const WORDS: [&str; 9] = ["y", "n", "yes", "no", "on", "off", "true", "false", "null"];
-    let begins = text.starts_with(|c: char| c.is_ascii_alphabetic()) || text.starts_with("../") || text.starts_with('/');
+    const WORDS: [&str; 3] = ["true", "false", "null"];
+    let begins =
+        text.starts_with(|c: char| c.is_ascii_alphabetic()) || text.starts_with("../") || text.starts_with('/');
     let plain = begins
         && text.chars().all(|c| c.is_ascii_alphanumeric() || "_-./".contains(c))
         && !WORDS.contains(&text.to_ascii_lowercase().as_str());
