@@ -199,20 +199,20 @@ fn the_study_takes_the_first_state_that_drives_and_names_the_gearbox_from_where_
     let states = "{ first: [S1], second: [S2], neutral: [] }";
     assert!(text.contains(states));
     let text = text
-        .replace(states, "{ idle: [], \"1\": [S1] }")
+        .replace(states, "{ idle: [], crawler: [S1] }")
         .replace("rating:", "#rating:");
     std::fs::write(folder.join("drive.yaml"), text).unwrap();
     std::fs::create_dir(folder.join("first look")).unwrap();
     let study = "first look/study.yaml";
     let told = out(&folder, &["new", "study", "--gearbox", "drive.yaml", "-o", study]);
     assert!(
-        told.contains("gear state `1`") && told.contains("states no `rating`"),
+        told.contains("gear state `crawler`") && told.contains("states no `rating`"),
         "{told}"
     );
     assert!(told.contains("gearloss run \"first look/study.yaml\""), "{told}");
     let written = std::fs::read_to_string(folder.join(study)).unwrap();
     assert!(
-        written.contains("gearboxes: { ours: ../drive.yaml }") && written.contains("gear: \"1\""),
+        written.contains("gearboxes: { ours: ../drive.yaml }") && written.contains("gear: crawler"),
         "{written}"
     );
     assert!(out(&folder, &["check", study]).contains("fine"));
