@@ -219,6 +219,22 @@ fn the_study_takes_the_first_state_that_drives_and_names_the_gearbox_from_where_
 }
 
 #[test]
+fn a_comparison_of_sets_that_the_gearbox_does_not_fit_is_left_out_and_told() {
+    let folder = folder("unfit");
+    out(&folder, &["new", "gearbox", "single-stage"]);
+    let text = std::fs::read_to_string(folder.join("gearbox.yaml")).unwrap();
+    let without: Vec<&str> = text.lines().filter(|line| !line.contains("section:")).collect();
+    std::fs::write(folder.join("gearbox.yaml"), without.join("\n")).unwrap();
+    let told = out(&folder, &["new", "study"]);
+    assert!(
+        told.contains("gearloss check gearbox.yaml --models iso14179_2"),
+        "{told}"
+    );
+    out(&folder, &["run", "study.yaml"]);
+    assert!(folder.join("results/maps.csv").is_file() && !folder.join("results/models.csv").exists());
+}
+
+#[test]
 fn a_study_needs_a_gearbox_that_can_be_driven() {
     let folder = folder("no-gearbox");
     let told = refused(&folder, &["new", "study"]);

@@ -15,6 +15,9 @@ use crate::output::{End, Failure, Out, figures};
 /// The study, with words in capitals for what depends on the gearbox.
 const STUDY: &str = include_str!("study.yaml");
 
+/// The shipped sets that the study compares.
+const SHIPPED: [&str; 2] = ["iso14179_2", "joint"];
+
 /// rad/s per 1/min.
 const RPM: f64 = std::f64::consts::PI / 30.0;
 
@@ -28,7 +31,15 @@ pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
     }
     let gearbox = Gearbox::read(&language, &args.gearbox)?;
     let transmission = gearbox.transmission(&language, &Choice::default())?;
-    let start = Start::of(&transmission)?;
+    let fits = |set: &str| {
+        let choice = Choice {
+            set: Some(set.to_owned()),
+            ..Choice::default()
+        };
+        gearbox.transmission(&language, &choice).is_ok()
+    };
+    let unfit = SHIPPED.into_iter().find(|set| !fits(set));
+    let start = Start::of(&transmission, unfit.is_none())?;
     let file = args.output.as_path();
     let path = seen_from(folder(file), &args.gearbox);
     write(file, &start.study(&path), out)?;
@@ -37,6 +48,12 @@ pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
         "gear state `{}`, the first that drives; torque and speed at `{}`",
         start.gear, start.port
     ))?;
+    if let Some(set) = unfit {
+        out.line(format!(
+            "left out the comparison of shipped sets: `gearloss check {} --models {set}` says what the gearbox lacks for it",
+            word(&args.gearbox)
+        ))?;
+    }
     if start.rating.is_none() {
         out.line("the gearbox states no `rating`: the torques and speeds in the study are stand-ins, replace them")?;
     }
@@ -52,10 +69,12 @@ struct Start {
     mesh: Option<String>,
     /// Torque in Nm and speed in rpm.
     rating: Option<[f64; 2]>,
+    /// Whether the shipped sets fit the gearbox.
+    shipped: bool,
 }
 
 impl Start {
-    fn of(transmission: &Transmission) -> Result<Self, Failure> {
+    fn of(transmission: &Transmission, shipped: bool) -> Result<Self, Failure> {
         let port = transmission.ports()[transmission.reference_port()].name.clone();
         // A state drives if torque and speed at one port are all that a point needs; neutral asks for the speeds of both.
         let drives = |gear: &str| transmission.case(gear, &[port.as_str()], &[port.as_str()]).is_ok();
@@ -73,6 +92,7 @@ impl Start {
                 .map(|(path, _)| path.trim_start_matches("meshes.").to_owned()),
             rating: transmission.rating.as_ref().map(|r| [r.torque, r.speed / RPM]),
             port,
+            shipped,
         })
     }
 
@@ -94,6 +114,7 @@ impl Start {
             ("TORQUES", Some(axes[0].to_owned())),
             ("SPEEDS", Some(axes[1].to_owned())),
             ("GEARBOX", Some(scalar(&gearbox.to_string_lossy().replace('\\', "/")))),
+            ("SHIPPED", self.shipped.then(|| SHIPPED[0].to_owned())),
             ("MESH", self.mesh.as_deref().map(scalar)),
             ("GEAR", Some(scalar(&self.gear))),
             ("PORT", Some(scalar(&self.port))),
@@ -103,7 +124,7 @@ impl Start {
 }
 
 /// A line of the template with its words filled in, each once and from left to right, so that no name of the gearbox is taken for a word
-/// of the template. A line that needs what the gearbox does not have becomes prose.
+/// of the template. A line that needs what the gearbox does not have is left out, and says so.
 fn filled(line: &str, words: &[(&str, Option<String>)]) -> String {
     let mut text = String::new();
     let mut rest = line;
@@ -118,7 +139,7 @@ fn filled(line: &str, words: &[(&str, Option<String>)]) -> String {
         text += &rest[..at];
         match value {
             Some(value) => text += value,
-            None => return "  # (the gearbox has none)".to_owned(),
+            None => return "  # (left out: it does not fit this gearbox)".to_owned(),
         }
         rest = &rest[at + word.len()..];
     }
