@@ -34,6 +34,8 @@ pub enum Command {
     Fit(FitArgs),
     /// Makes a table from the files of another program.
     Import(ImportArgs),
+    /// Writes a commented file to start from.
+    New(NewArgs),
 }
 
 /// Arguments of `fit`.
@@ -86,6 +88,61 @@ pub struct OilArgs {
     /// The oil itself, as below `lubricants` of a gearbox: `"{ viscosity: { kv40: 27.3 mm2/s, kv100: 5.9 mm2/s } }"`.
     #[arg(long, value_name = "YAML")]
     pub oil: Option<String>,
+}
+
+/// Arguments of `new`.
+#[derive(Debug, ClapArgs)]
+pub struct NewArgs {
+    /// What to start.
+    #[command(subcommand)]
+    pub what: NewWhat,
+}
+
+/// What to start.
+#[derive(Debug, Subcommand)]
+pub enum NewWhat {
+    /// A gearbox of a usual layout, which runs as it is: replace its figures by your own.
+    Gearbox(NewGearboxArgs),
+    /// A study of a gearbox: map, comparison of models, stack-up of losses, losses without load.
+    Study(NewStudyArgs),
+}
+
+/// Arguments of `new gearbox`.
+#[derive(Debug, ClapArgs)]
+#[command(override_usage = "gearloss new gearbox [OPTIONS] <LAYOUT>")]
+pub struct NewGearboxArgs {
+    /// How the shafts and gears are laid out.
+    #[arg(value_enum)]
+    pub layout: Option<Layout>,
+    /// File to write; refused where it exists.
+    #[arg(short, long, value_name = "FILE", default_value = "gearbox.yaml")]
+    pub output: PathBuf,
+}
+
+/// How shafts and gears are laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Layout {
+    /// Reducer with one helical stage.
+    SingleStage,
+    /// Reducer with two helical stages on parallel shafts.
+    TwoStage,
+    /// Planetary set: sun in, ring held, carrier out, planets on needle cages.
+    Planetary,
+    /// Two speeds: loose wheels on needle cages, a synchronizer between them, neutral.
+    TwoSpeed,
+    /// Two countershafts that share the power between coaxial shafts.
+    DualCountershaft,
+}
+
+/// Arguments of `new study`.
+#[derive(Debug, ClapArgs)]
+pub struct NewStudyArgs {
+    /// Gearbox that the study is about; its gear states, rating and first mesh are written into the study.
+    #[arg(long, value_name = "FILE", default_value = "gearbox.yaml")]
+    pub gearbox: PathBuf,
+    /// File to write; refused where it exists.
+    #[arg(short, long, value_name = "FILE", default_value = "study.yaml")]
+    pub output: PathBuf,
 }
 
 /// Arguments of `import`.

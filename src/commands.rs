@@ -8,6 +8,7 @@ pub mod import;
 pub mod models;
 mod needs;
 mod network;
+pub mod new;
 mod point;
 pub mod run;
 pub mod schema;

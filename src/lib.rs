@@ -70,5 +70,6 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Schema(args) => commands::schema::run(&args, &mut out),
         Command::Fit(args) => commands::fit::run(&args, &mut out),
         Command::Import(args) => commands::import::run(&args, &mut out),
+        Command::New(args) => commands::new::run(&args, &mut out),
     }
 }

@@ -1,6 +1,6 @@
 //! `schema`: the JSON Schema of a kind of document.
 
-use gearloss_framework::language::Kind;
+use gearloss_framework::language::{Kind, Language};
 
 use super::language;
 use crate::args::{KindArg, SchemaArgs};
@@ -18,10 +18,15 @@ pub fn run(args: &SchemaArgs, out: &mut Out) -> Result<End, Failure> {
         KindArg::Result => return written(RESULT, out),
         KindArg::Point => return written(POINT, out),
     };
-    let schema = language()?.published(kind);
-    let text = serde_json::to_string_pretty(&schema).map_err(|e| Failure::Input(format!("error: {e}\n")))?;
-    out.line(text)?;
+    out.text(&published(&language()?, kind)?)?;
     Ok(End::Fine)
+}
+
+/// The schema of a kind of document, as a file.
+pub fn published(language: &Language, kind: Kind) -> Result<String, Failure> {
+    let schema = language.published(kind);
+    let text = serde_json::to_string_pretty(&schema).map_err(|e| Failure::Input(format!("error: {e}\n")))?;
+    Ok(text + "\n")
 }
 
 fn written(schema: &str, out: &mut Out) -> Result<End, Failure> {

@@ -1,0 +1,103 @@
+//! `new`: commented files to start from.
+
+mod gearbox;
+mod study;
+
+use std::io::ErrorKind;
+use std::path::Path;
+
+use gearloss_framework::language::{Kind, Language};
+
+use super::schema::published;
+use crate::args::{NewArgs, NewWhat};
+use crate::output::{End, Failure, Out};
+
+pub fn run(args: &NewArgs, out: &mut Out) -> Result<End, Failure> {
+    match &args.what {
+        NewWhat::Gearbox(args) => gearbox::run(args, out),
+        NewWhat::Study(args) => study::run(args, out),
+    }
+}
+
+/// Writes a file that does not exist yet, and tells so.
+fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
+    use std::io::Write as _;
+    let told = |what: String, mend: String| Err(Failure::input(what, mend));
+    let folder = folder(file);
+    if !folder.is_dir() {
+        return told(
+            format!(
+                "cannot write {}: there is no folder {}",
+                file.display(),
+                folder.display()
+            ),
+            "make the folder, or name a file in another one with -o".to_owned(),
+        );
+    }
+    if file.is_dir() {
+        return told(
+            format!("cannot write {}: it is a folder", file.display()),
+            "name a file in it with -o".to_owned(),
+        );
+    }
+    let opened = std::fs::OpenOptions::new().write(true).create_new(true).open(file);
+    match opened.and_then(|mut opened| opened.write_all(text.as_bytes())) {
+        Ok(()) => {
+            out.line(format!("wrote {}", file.display()))?;
+            Ok(())
+        }
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => told(
+            format!("{} exists and is not overwritten", file.display()),
+            "name another file, such as -o other.yaml".to_owned(),
+        ),
+        Err(error) => told(
+            format!("cannot write {}: {error}", file.display()),
+            "name another file with -o".to_owned(),
+        ),
+    }
+}
+
+/// Writes the schema that the first line of a file names, for editors. One that is there stays: other files may count on it.
+fn schema_beside(file: &Path, language: &Language, kind: Kind, name: &str, out: &mut Out) -> Result<(), Failure> {
+    let schema = folder(file).join(name);
+    let schema = schema.strip_prefix(".").unwrap_or(&schema);
+    let text = published(language, kind)?;
+    match std::fs::read_to_string(schema) {
+        Err(error) if error.kind() == ErrorKind::NotFound => write(schema, &text, out),
+        Ok(present) if present == text => Ok(()),
+        _ => {
+            out.line(format!(
+                "kept {}, which is not the schema of this version; `gearloss schema` prints that",
+                schema.display()
+            ))?;
+            Ok(())
+        }
+    }
+}
+
+/// The folder of a file; the current one where none is named.
+fn folder(file: &Path) -> &Path {
+    match file.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// A path as one word of a shell.
+fn word(path: &Path) -> String {
+    let text = path.display().to_string();
+    if text.chars().all(|c| c.is_alphanumeric() || "/\\._-:+".contains(c)) {
+        text
+    } else {
+        format!("\"{text}\"")
+    }
+}
+
+/// Prints the commands to type next.
+fn next(commands: &[String], out: &mut Out) -> Result<(), Failure> {
+    out.line("next:")?;
+    for command in commands {
+        out.line(format!("  gearloss {command}"))?;
+    }
+    Ok(())
+}

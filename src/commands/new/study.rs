@@ -1,0 +1,180 @@
+//! `new study`: a study that fits a gearbox.
+
+use std::path::{Path, PathBuf};
+
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Kind;
+use gearloss_framework::resolve::Choice;
+use gearloss_framework::transmission::Transmission;
+
+use super::super::language;
+use super::{folder, next, schema_beside, word, write};
+use crate::args::NewStudyArgs;
+use crate::output::{End, Failure, Out, figures};
+
+/// The study, with words in capitals for what depends on the gearbox.
+const STUDY: &str = include_str!("study.yaml");
+
+/// The shipped sets that the study compares.
+const SHIPPED: [&str; 2] = ["iso14179_2", "joint"];
+
+/// rad/s per 1/min.
+const RPM: f64 = std::f64::consts::PI / 30.0;
+
+pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
+    let language = language()?;
+    if !args.gearbox.is_file() {
+        return Err(Failure::input(
+            format!("there is no gearbox {}", args.gearbox.display()),
+            "start one with `gearloss new gearbox LAYOUT`, or name yours with --gearbox",
+        ));
+    }
+    let gearbox = Gearbox::read(&language, &args.gearbox)?;
+    let transmission = gearbox.transmission(&language, &Choice::default())?;
+    let fits = |set: &str| {
+        let choice = Choice {
+            set: Some(set.to_owned()),
+            ..Choice::default()
+        };
+        gearbox.transmission(&language, &choice).is_ok()
+    };
+    let unfit = SHIPPED.into_iter().find(|set| !fits(set));
+    let start = Start::of(&transmission, unfit.is_none())?;
+    let file = args.output.as_path();
+    let path = seen_from(folder(file), &args.gearbox);
+    write(file, &start.study(&path), out)?;
+    schema_beside(file, &language, Kind::Study, "study.schema.json", out)?;
+    out.line(format!(
+        "gear state `{}`, the first that drives; torque and speed at `{}`",
+        start.gear, start.port
+    ))?;
+    if let Some(set) = unfit {
+        out.line(format!(
+            "left out the comparison of shipped sets: `gearloss check {} --models {set}` says what the gearbox lacks for it",
+            word(&args.gearbox)
+        ))?;
+    }
+    if start.rating.is_none() {
+        out.line("the gearbox states no `rating`: the torques and speeds in the study are stand-ins, replace them")?;
+    }
+    let name = word(file);
+    next(&[format!("check {name}"), format!("run {name}")], out)?;
+    Ok(End::Fine)
+}
+
+/// What a study takes from its gearbox.
+struct Start {
+    gear: String,
+    port: String,
+    mesh: Option<String>,
+    /// Torque in Nm and speed in rpm.
+    rating: Option<[f64; 2]>,
+    /// Whether the shipped sets fit the gearbox.
+    shipped: bool,
+}
+
+impl Start {
+    fn of(transmission: &Transmission, shipped: bool) -> Result<Self, Failure> {
+        let port = transmission.ports()[transmission.reference_port()].name.clone();
+        // A state drives if torque and speed at one port are all that a point needs; neutral asks for the speeds of both.
+        let drives = |gear: &str| transmission.case(gear, &[port.as_str()], &[port.as_str()]).is_ok();
+        let Some(state) = transmission.states().iter().find(|state| drives(&state.name)) else {
+            return Err(Failure::input(
+                format!("no gear state drives with torque and speed given at `{port}` alone"),
+                "write a gear state that joins this port with another",
+            ));
+        };
+        Ok(Self {
+            gear: state.name.clone(),
+            mesh: transmission
+                .meshes()
+                .next()
+                .map(|(path, _)| path.trim_start_matches("meshes.").to_owned()),
+            rating: transmission.rating.as_ref().map(|r| [r.torque, r.speed / RPM]),
+            port,
+            shipped,
+        })
+    }
+
+    /// The text of the study of the gearbox at a path as seen from the study.
+    fn study(&self, gearbox: &Path) -> String {
+        let (axes, half) = match self.rating {
+            Some([torque, speed]) => {
+                let shares = "{ of_rating: [0.1, 0.25, 0.5, 0.75, 1] }";
+                ([shares, shares], [0.5 * torque, 0.5 * speed])
+            }
+            None => (
+                ["[5 Nm, 10 Nm, 20 Nm, 50 Nm]", "[500 rpm, 1000 rpm, 2000 rpm]"],
+                [20.0, 1000.0],
+            ),
+        };
+        let words = [
+            ("HALF_TORQUE", Some(format!("{} Nm", figures(half[0], 4)))),
+            ("HALF_SPEED", Some(format!("{} rpm", figures(half[1], 4)))),
+            ("TORQUES", Some(axes[0].to_owned())),
+            ("SPEEDS", Some(axes[1].to_owned())),
+            ("GEARBOX", Some(scalar(&gearbox.to_string_lossy().replace('\\', "/")))),
+            ("SHIPPED", self.shipped.then(|| SHIPPED[0].to_owned())),
+            ("MESH", self.mesh.as_deref().map(scalar)),
+            ("GEAR", Some(scalar(&self.gear))),
+            ("PORT", Some(scalar(&self.port))),
+        ];
+        STUDY.lines().map(|line| filled(line, &words) + "\n").collect()
+    }
+}
+
+/// A line of the template with its words filled in, each once and from left to right, so that no name of the gearbox is taken for a word
+/// of the template. A line that needs what the gearbox does not have is left out, and says so.
+fn filled(line: &str, words: &[(&str, Option<String>)]) -> String {
+    let mut text = String::new();
+    let mut rest = line;
+    loop {
+        let first = words
+            .iter()
+            .filter_map(|(word, value)| rest.find(word).map(|at| (at, *word, value)))
+            .min_by_key(|(at, word, _)| (*at, usize::MAX - word.len()));
+        let Some((at, word, value)) = first else {
+            return text + rest;
+        };
+        text += &rest[..at];
+        match value {
+            Some(value) => text += value,
+            None => return "  # (left out: it does not fit this gearbox)".to_owned(),
+        }
+        rest = &rest[at + word.len()..];
+    }
+}
+
+/// A text as one YAML value: plain where it can be taken for nothing else.
+fn scalar(text: &str) -> String {
+    const WORDS: [&str; 3] = ["true", "false", "null"];
+    let begins =
+        text.starts_with(|c: char| c.is_ascii_alphabetic()) || text.starts_with("../") || text.starts_with('/');
+    let plain = begins
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || "_-./".contains(c))
+        && !WORDS.contains(&text.to_ascii_lowercase().as_str());
+    if plain {
+        text.to_owned()
+    } else {
+        serde_json::Value::from(text).to_string()
+    }
+}
+
+/// A file as seen from a folder. Both are taken from the current folder; without a common root the file stays as it is.
+fn seen_from(folder: &Path, file: &Path) -> PathBuf {
+    let (Ok(from), Ok(to)) = (folder.canonicalize(), file.canonicalize()) else {
+        return file.to_path_buf();
+    };
+    let common = from
+        .components()
+        .zip(to.components())
+        .take_while(|(a, b)| a == b)
+        .count();
+    if file.is_absolute() || common == 0 {
+        return file.to_path_buf();
+    }
+    let up = from.components().skip(common).map(|_| "..");
+    up.map(PathBuf::from)
+        .chain(to.components().skip(common).map(|c| PathBuf::from(c.as_os_str())))
+        .collect()
+}

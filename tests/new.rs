@@ -1,0 +1,299 @@
+//! Files to start from: they run as they are, and with every option that they show.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use common::language;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::{Kind, Language};
+use gearloss_framework::resolve::Choice;
+
+/// Layout, arguments of the point that the program proposes, least and greatest efficiency in percent of a usual one.
+const LAYOUTS: [(&str, &[&str], [f64; 2]); 5] = [
+    (
+        "single-stage",
+        &["--torque", "90 Nm", "--speed", "1500 rpm"],
+        [98.2, 99.3],
+    ),
+    ("two-stage", &["--torque", "45 Nm", "--speed", "1500 rpm"], [97.0, 98.5]),
+    (
+        "planetary",
+        &["--gear", "reducing", "--torque", "60 Nm", "--speed", "3000 rpm"],
+        [97.0, 99.2],
+    ),
+    (
+        "two-speed",
+        &["--gear", "first", "--torque", "80 Nm", "--speed", "3000 rpm"],
+        [98.2, 99.4],
+    ),
+    (
+        "dual-countershaft",
+        &["--torque", "400 Nm", "--speed", "1500 rpm"],
+        [97.5, 99.0],
+    ),
+];
+
+fn gearloss(folder: &Path, args: &[&str]) -> std::process::Output {
+    Command::cargo_bin("gearloss")
+        .unwrap()
+        .current_dir(folder)
+        .args(args)
+        .output()
+        .unwrap()
+}
+
+fn out(folder: &Path, args: &[&str]) -> String {
+    let output = gearloss(folder, args);
+    let wrong = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && wrong.is_empty(), "{args:?}: {wrong}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(folder: &Path, args: &[&str]) -> String {
+    let output = gearloss(folder, args);
+    assert_eq!(output.status.code(), Some(2), "{args:?}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+/// A new empty folder.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("new").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// Lines that are options: `#` and a key right behind it.
+fn is_option(line: &str) -> bool {
+    line.trim_start()
+        .strip_prefix('#')
+        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()))
+}
+
+/// The text with the options of some lines taken in.
+fn with(text: &str, taken: &BTreeSet<usize>) -> String {
+    text.lines()
+        .enumerate()
+        .map(|(i, line)| {
+            if taken.contains(&i) {
+                line.replacen('#', "", 1) + "\n"
+            } else {
+                line.to_owned() + "\n"
+            }
+        })
+        .collect()
+}
+
+/// Runs of options on neighbouring lines, which belong together, and last all options of the text.
+fn choices(text: &str) -> Vec<BTreeSet<usize>> {
+    let mut runs: Vec<BTreeSet<usize>> = Vec::new();
+    for (i, _) in text.lines().enumerate().filter(|(_, line)| is_option(line)) {
+        match runs.last_mut() {
+            Some(run) if i > 0 && run.contains(&(i - 1)) => {
+                run.insert(i);
+            }
+            _ => runs.push(BTreeSet::from([i])),
+        }
+    }
+    let all = runs.iter().flatten().copied().collect();
+    runs.push(all);
+    runs
+}
+
+fn built(language: &Language, text: &str) {
+    let gearbox = Gearbox::of_text(language, text, "gearbox.yaml", ".").unwrap_or_else(|e| panic!("{}", e.render()));
+    let transmission = gearbox
+        .transmission(language, &Choice::default())
+        .unwrap_or_else(|e| panic!("{}", e.render()));
+    let warnings: Vec<String> = transmission
+        .warnings
+        .iter()
+        .map(|w| gearbox.sources.render(w))
+        .collect();
+    assert!(warnings.is_empty(), "{warnings:?}");
+}
+
+fn efficiency(folder: &Path, point: &[&str], more: &[&str]) -> f64 {
+    let args = [&["solve", "gearbox.yaml", "--format", "json"][..], point, more].concat();
+    let solved: serde_json::Value = serde_json::from_str(&out(folder, &args)).unwrap();
+    assert_eq!(solved["status"], "drive", "{args:?}");
+    100.0 * solved["efficiency"].as_f64().unwrap()
+}
+
+#[test]
+fn every_layout_checks_and_loses_what_such_gearboxes_lose() {
+    for (layout, point, [least, greatest]) in LAYOUTS {
+        let folder = folder(&format!("checks-{layout}"));
+        let told = out(&folder, &["new", "gearbox", layout]);
+        let proposed = told.lines().find(|line| line.contains("gearloss solve")).unwrap();
+        // What is proposed is what is tested.
+        assert_eq!(
+            proposed.replace('"', "").trim(),
+            format!("gearloss solve gearbox.yaml {}", point.join(" "))
+        );
+        let checked = out(&folder, &["check", "gearbox.yaml"]);
+        assert!(
+            checked.starts_with("gearbox.yaml: fine") && !checked.contains("warning"),
+            "{checked}"
+        );
+        for set in [&[][..], &["--models", "iso14179_2"], &["--models", "joint"]] {
+            let found = efficiency(&folder, point, set);
+            assert!(found > least && found < greatest, "{layout} {set:?}: {found}");
+        }
+    }
+}
+
+#[test]
+fn every_option_of_a_gearbox_is_valid_alone_and_with_all_others() {
+    let language = language();
+    for (layout, point, _) in LAYOUTS {
+        let folder = folder(&format!("options-{layout}"));
+        out(&folder, &["new", "gearbox", layout]);
+        let text = std::fs::read_to_string(folder.join("gearbox.yaml")).unwrap();
+        let choices = choices(&text);
+        assert!(choices.len() > 6, "{layout}: {} options", choices.len());
+        for taken in &choices {
+            built(&language, &with(&text, taken));
+        }
+        // With all options the file also has what a balance of temperature needs.
+        std::fs::write(folder.join("gearbox.yaml"), with(&text, choices.last().unwrap())).unwrap();
+        let args = [&["solve", "gearbox.yaml", "--set", "thermal.mode=balance"][..], point].concat();
+        let solved = out(&folder, &args);
+        assert!(solved.contains("converged"), "{layout}: {solved}");
+    }
+}
+
+#[test]
+fn the_study_runs_over_every_layout_with_and_without_its_options() {
+    for (layout, ..) in LAYOUTS {
+        let folder = folder(&format!("study-{layout}"));
+        out(&folder, &["new", "gearbox", layout]);
+        let told = out(&folder, &["new", "study"]);
+        assert!(told.contains("the first that drives"), "{told}");
+        assert_eq!(out(&folder, &["check", "study.yaml"]), "study.yaml: fine\n");
+        out(&folder, &["run", "study.yaml"]);
+        for result in ["maps.csv", "models.csv", "stack.csv", "spin.csv", "report.html"] {
+            assert!(folder.join("results").join(result).is_file(), "{layout}: {result}");
+        }
+        let text = std::fs::read_to_string(folder.join("study.yaml")).unwrap();
+        let choices = choices(&text);
+        assert!(choices.len() > 8, "{} options", choices.len());
+        for taken in &choices {
+            std::fs::write(folder.join("option.yaml"), with(&text, taken)).unwrap();
+            assert_eq!(out(&folder, &["check", "option.yaml"]), "option.yaml: fine\n");
+        }
+        out(&folder, &["run", "option.yaml", "-o", "all"]);
+        assert!(folder.join("all/contact.csv").is_file() && folder.join("all/bands.csv").is_file());
+    }
+}
+
+#[test]
+fn the_study_takes_the_first_state_that_drives_and_names_the_gearbox_from_where_it_stands() {
+    let folder = folder("fits");
+    out(&folder, &["new", "gearbox", "two-speed", "-o", "drive.yaml"]);
+    let text = std::fs::read_to_string(folder.join("drive.yaml")).unwrap();
+    let states = "{ first: [S1], second: [S2], neutral: [] }";
+    assert!(text.contains(states));
+    let text = text
+        .replace(states, "{ idle: [], crawler: [S1] }")
+        .replace("rating:", "#rating:");
+    std::fs::write(folder.join("drive.yaml"), text).unwrap();
+    std::fs::create_dir(folder.join("first look")).unwrap();
+    let study = "first look/study.yaml";
+    let told = out(&folder, &["new", "study", "--gearbox", "drive.yaml", "-o", study]);
+    assert!(
+        told.contains("gear state `crawler`") && told.contains("states no `rating`"),
+        "{told}"
+    );
+    assert!(told.contains("gearloss run \"first look/study.yaml\""), "{told}");
+    let written = std::fs::read_to_string(folder.join(study)).unwrap();
+    assert!(
+        written.contains("gearboxes: { ours: ../drive.yaml }") && written.contains("gear: crawler"),
+        "{written}"
+    );
+    assert!(out(&folder, &["check", study]).contains("fine"));
+}
+
+#[test]
+fn a_comparison_of_sets_that_the_gearbox_does_not_fit_is_left_out_and_told() {
+    let folder = folder("unfit");
+    out(&folder, &["new", "gearbox", "single-stage"]);
+    let text = std::fs::read_to_string(folder.join("gearbox.yaml")).unwrap();
+    let without: Vec<&str> = text.lines().filter(|line| !line.contains("section:")).collect();
+    std::fs::write(folder.join("gearbox.yaml"), without.join("\n")).unwrap();
+    let told = out(&folder, &["new", "study"]);
+    assert!(
+        told.contains("gearloss check gearbox.yaml --models iso14179_2"),
+        "{told}"
+    );
+    out(&folder, &["run", "study.yaml"]);
+    assert!(folder.join("results/maps.csv").is_file() && !folder.join("results/models.csv").exists());
+}
+
+#[test]
+fn a_study_needs_a_gearbox_that_can_be_driven() {
+    let folder = folder("no-gearbox");
+    let told = refused(&folder, &["new", "study"]);
+    assert!(
+        told.contains("there is no gearbox gearbox.yaml") && told.contains("gearloss new gearbox"),
+        "{told}"
+    );
+    out(&folder, &["new", "gearbox", "two-speed"]);
+    let text = std::fs::read_to_string(folder.join("gearbox.yaml")).unwrap();
+    let idle = text.replace("{ first: [S1], second: [S2], neutral: [] }", "{ idle: [] }");
+    std::fs::write(folder.join("gearbox.yaml"), idle).unwrap();
+    assert!(refused(&folder, &["new", "study"]).contains("no gear state drives"));
+    std::fs::write(folder.join("gearbox.yaml"), "gearloss: gearbox/1\n").unwrap();
+    assert!(refused(&folder, &["new", "study"]).contains("gearbox.yaml:1"));
+    assert!(!folder.join("study.yaml").exists());
+}
+
+#[test]
+fn nothing_is_overwritten_and_every_refusal_says_what_to_do() {
+    let folder = folder("refuses");
+    std::fs::write(folder.join("gearbox.yaml"), "mine").unwrap();
+    let told = refused(&folder, &["new", "gearbox", "planetary"]);
+    assert!(
+        told.contains("exists and is not overwritten") && told.contains("-o other.yaml"),
+        "{told}"
+    );
+    assert_eq!(std::fs::read_to_string(folder.join("gearbox.yaml")).unwrap(), "mine");
+    assert!(!folder.join("gearbox.schema.json").exists());
+    let told = refused(&folder, &["new", "gearbox", "planetary", "-o", "nowhere/a.yaml"]);
+    assert!(told.contains("there is no folder nowhere"), "{told}");
+    let told = refused(&folder, &["new", "gearbox", "planetary", "-o", "."]);
+    assert!(told.contains("it is a folder"), "{told}");
+    for wrong in [&["new", "gearbox", "cvt"][..], &["new", "gearbox"]] {
+        let told = refused(&folder, wrong);
+        for (layout, ..) in LAYOUTS {
+            assert!(told.contains(layout), "{told}");
+        }
+    }
+    assert!(refused(&folder, &["new", "gearbox"]).contains("ring held"));
+}
+
+#[test]
+fn the_schema_that_the_first_line_names_is_written_beside_and_kept_where_it_is() {
+    let folder = folder("schema");
+    out(&folder, &["new", "gearbox", "planetary"]);
+    let first = |file: &str| {
+        let text = std::fs::read_to_string(folder.join(file)).unwrap();
+        text.lines().next().unwrap().rsplit_once('=').unwrap().1.to_owned()
+    };
+    let schema = folder.join(first("gearbox.yaml"));
+    let published = serde_json::to_string_pretty(&language().published(Kind::Gearbox)).unwrap() + "\n";
+    assert!(std::fs::read_to_string(&schema).unwrap() == published);
+    assert!(published == out(&folder, &["schema", "gearbox"]));
+    let told = out(&folder, &["new", "gearbox", "two-stage", "-o", "other.yaml"]);
+    assert!(!told.contains("schema"), "{told}");
+    std::fs::write(&schema, "{}").unwrap();
+    let told = out(&folder, &["new", "gearbox", "two-stage", "-o", "third.yaml"]);
+    assert!(told.contains("kept gearbox.schema.json"), "{told}");
+    assert_eq!(std::fs::read_to_string(&schema).unwrap(), "{}");
+    out(&folder, &["new", "study"]);
+    assert!(folder.join(first("study.yaml")).is_file());
+}
