@@ -55,6 +55,18 @@ pub struct Point<'a> {
     pub tolerance: Tolerance,
 }
 
+impl<'a> Point<'a> {
+    /// A point with real flow: speeds in rad/s and torques in Nm, at the ports of the case.
+    pub fn new(speeds: &'a [f64], torques: &'a [f64]) -> Self {
+        Self {
+            speeds,
+            torques,
+            flow: PowerFlow::Real,
+            tolerance: Tolerance::default(),
+        }
+    }
+}
+
 impl Transmission {
     /// Space for evaluating one case; one for each thread.
     pub fn scratch(&self, case: &Case) -> Scratch {

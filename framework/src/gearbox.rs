@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::document::{Diagnostic, Node, Places, Severity, Sources, read_yaml};
 use crate::language::{DRAGS, HEAT, Language};
-use crate::registry::Files;
+use crate::registry::{Files, Registry};
 use crate::resolve::{Came, Choice, Resolved, resolve};
 use crate::transmission::Transmission;
 
@@ -59,9 +59,38 @@ impl Findings {
     }
 }
 
+impl std::fmt::Display for Findings {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.render())
+    }
+}
+
+/// As rendered, because a `main` that returns an error prints it so.
 impl std::fmt::Debug for Findings {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.render())
+    }
+}
+
+impl std::error::Error for Findings {}
+
+/// Findings without a text that they could point into.
+impl From<Vec<Diagnostic>> for Findings {
+    fn from(list: Vec<Diagnostic>) -> Self {
+        Self {
+            list,
+            sources: Sources::default(),
+        }
+    }
+}
+
+impl Language {
+    /// The language of everything that is linked into the program: where reading begins.
+    ///
+    /// # Errors
+    /// Every fault of a linked mechanism, model, catalogue or set.
+    pub fn linked() -> Result<Self, Findings> {
+        Ok(Self::new(Registry::linked()?)?)
     }
 }
 
@@ -70,7 +99,8 @@ impl Gearbox {
     ///
     /// # Errors
     /// Everything that reading and the walk find.
-    pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
+    pub fn read(language: &Language, file: impl AsRef<Path>) -> Result<Self, Findings> {
+        let file = file.as_ref();
         let mut sources = Sources::default();
         let text = match std::fs::read_to_string(file) {
             Ok(text) => text,

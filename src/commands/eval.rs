@@ -2,17 +2,17 @@
 
 use gearloss_framework::document::{Sources, read_yaml};
 use gearloss_framework::gearbox::Findings;
+use gearloss_framework::language::Language;
 use gearloss_framework::loss::Step;
 use gearloss_framework::registry::Files;
 use serde_json::{Map, Value, json};
 
-use super::language;
 use super::models::{no_mechanism, no_model};
 use crate::args::{EvalArgs, Format};
 use crate::output::{End, Failure, Out, significant};
 
 pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     let Some((mechanism, model)) = args.model.split_once('/') else {
         return Err(Failure::input(
             format!("`{}` is no model", args.model),

@@ -5,12 +5,12 @@ use gearloss_framework::language::Language;
 use gearloss_framework::registry::{Entry, MechanismEntry};
 use serde_json::Value;
 
-use super::{language, needs};
+use super::needs;
 use crate::args::ModelsArgs;
 use crate::output::{End, Failure, Out, Table, significant};
 
 pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     if let Some(file) = &args.needs {
         return needs::run(&language, file, args.mechanism.as_deref(), out);
     }

@@ -1,8 +1,8 @@
 //! `schema`: the JSON Schema of a kind of document.
 
 use gearloss_framework::language::Kind;
+use gearloss_framework::language::Language;
 
-use super::language;
 use crate::args::{KindArg, SchemaArgs};
 use crate::output::{End, Failure, Out};
 
@@ -18,7 +18,7 @@ pub fn run(args: &SchemaArgs, out: &mut Out) -> Result<End, Failure> {
         KindArg::Result => return written(RESULT, out),
         KindArg::Point => return written(POINT, out),
     };
-    let schema = language()?.published(kind);
+    let schema = Language::linked()?.published(kind);
     let text = serde_json::to_string_pretty(&schema).map_err(|e| Failure::Input(format!("error: {e}\n")))?;
     out.line(text)?;
     Ok(End::Fine)

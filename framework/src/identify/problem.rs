@@ -441,12 +441,24 @@ fn is_out(parameter: &Identified) -> bool {
 }
 
 /// What is wrong with an identification as it is stated.
+#[derive(Debug)]
 pub enum Faults {
     /// Faults of the study, with paths below the analysis.
     Study(Vec<Diagnostic>),
     /// Faults of the gearbox.
     Gearbox(Findings),
 }
+
+impl std::fmt::Display for Faults {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Gearbox(findings) => findings.fmt(f),
+            Self::Study(list) => list.iter().try_for_each(|found| writeln!(f, "{found}")),
+        }
+    }
+}
+
+impl std::error::Error for Faults {}
 
 impl From<Findings> for Faults {
     fn from(findings: Findings) -> Self {
