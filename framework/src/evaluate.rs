@@ -42,8 +42,8 @@ pub(crate) enum Noting {
     Counted,
 }
 
-/// One operating point of a case.
-#[derive(Debug, Clone, Copy)]
+/// One operating point of a case. What is not said is the default: `Point { speeds: &[..], torques: &[..], ..Point::default() }`.
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Point<'a> {
     /// Speeds at the case's speed ports. \[rad/s\]
     pub speeds: &'a [f64],
@@ -53,18 +53,6 @@ pub struct Point<'a> {
     pub flow: PowerFlow,
     /// How well loads and losses must agree.
     pub tolerance: Tolerance,
-}
-
-impl<'a> Point<'a> {
-    /// A point with real flow: speeds in rad/s and torques in Nm, at the ports of the case.
-    pub fn new(speeds: &'a [f64], torques: &'a [f64]) -> Self {
-        Self {
-            speeds,
-            torques,
-            flow: PowerFlow::Real,
-            tolerance: Tolerance::default(),
-        }
-    }
 }
 
 impl Transmission {

@@ -441,7 +441,6 @@ fn is_out(parameter: &Identified) -> bool {
 }
 
 /// What is wrong with an identification as it is stated.
-#[derive(Debug)]
 pub enum Faults {
     /// Faults of the study, with paths below the analysis.
     Study(Vec<Diagnostic>),
@@ -452,9 +451,16 @@ pub enum Faults {
 impl std::fmt::Display for Faults {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Gearbox(findings) => findings.fmt(f),
+            Self::Gearbox(findings) => f.write_str(&findings.render()),
             Self::Study(list) => list.iter().try_for_each(|found| writeln!(f, "{found}")),
         }
+    }
+}
+
+/// As shown, because a `main` that returns an error prints it so.
+impl std::fmt::Debug for Faults {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        std::fmt::Display::fmt(self, f)
     }
 }
 

@@ -38,12 +38,27 @@ impl Study {
     /// Everything that reading and the walk find.
     pub fn read(language: &Language, file: impl AsRef<Path>) -> Result<Self, Findings> {
         let file = file.as_ref();
-        let mut sources = Sources::default();
         let text = std::fs::read_to_string(file).map_err(|e| {
             let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
             Findings::from(vec![error.mend("check the name of the file")])
         })?;
-        let source = sources.add(file.display().to_string(), text.as_str());
+        let folder = file.parent().unwrap_or(Path::new(""));
+        Self::of_text(language, text, &file.display().to_string(), folder)
+    }
+
+    /// Reads a study from a text, with its gearboxes; `folder` is where the files that it names lie.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn of_text(
+        language: &Language,
+        text: String,
+        name: &str,
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Findings> {
+        let folder = folder.into();
+        let mut sources = Sources::default();
+        let source = sources.add(name, text.as_str());
         let read = read_yaml(source, &text);
         if !read.findings.is_empty() {
             return Err(Findings {
@@ -66,7 +81,6 @@ impl Study {
             .cloned()
             .unwrap_or_default();
         let entry: StudyEntry = serde_json::from_value(walked.value).map_err(bug)?;
-        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
         let mut gearboxes = Vec::new();
         for (name, gearbox) in entry.gearboxes.iter() {
             gearboxes.push((name.to_owned(), Gearbox::read(language, &folder.join(gearbox))?));
