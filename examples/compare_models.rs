@@ -6,6 +6,7 @@
 
 use std::error::Error;
 use std::f64::consts::PI;
+use std::path::Path;
 
 use gearloss::framework::evaluate::Point;
 use gearloss::framework::gearbox::Gearbox;
@@ -23,7 +24,7 @@ const TORQUE: f64 = 10.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let language = Language::linked()?;
-    let gearbox = Gearbox::read(&language, GEARBOX)?;
+    let gearbox = Gearbox::read(&language, Path::new(GEARBOX))?;
     // An override names a path of the resolved description, `*` stands for one key; its value is what one would write there.
     let harris = json!({ "type": "harris" });
     let variants = [

@@ -6,6 +6,7 @@
 #![allow(clippy::print_stdout, reason = "an example shows its numbers")]
 
 use std::error::Error;
+use std::path::Path;
 
 use gearloss::framework::description::Ordered;
 use gearloss::framework::identify::{Identification, Settings};
@@ -28,7 +29,7 @@ const PARAMETERS: [(&str, &str, f64, f64); 8] = [
 fn main() -> Result<(), Box<dyn Error>> {
     let language = Language::linked()?;
     // The study says where the points stand, how accurate the meters are, and which models its set `complete` holds.
-    let study = Study::read(&language, STUDY)?;
+    let study = Study::read(&language, Path::new(STUDY))?;
     let (_, gearbox) = study.gearbox("gearboxes", None)?;
     let (measured, _) = study.measured("measurements", &Data::Named("rig".to_owned()), &[])?;
     let bound = Ordered::default();

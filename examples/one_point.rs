@@ -5,6 +5,7 @@
 
 use std::error::Error;
 use std::f64::consts::PI;
+use std::path::Path;
 
 use gearloss::framework::evaluate::Point;
 use gearloss::framework::gearbox::Gearbox;
@@ -18,7 +19,7 @@ const RPM: f64 = PI / 30.0;
 fn main() -> Result<(), Box<dyn Error>> {
     // What may be written: the sections, models, catalogues and sets of everything that is linked.
     let language = Language::linked()?;
-    let gearbox = Gearbox::read(&language, GEARBOX)?;
+    let gearbox = Gearbox::read(&language, Path::new(GEARBOX))?;
     // A wrong file or set ends here, with the line, the reason and how to mend it.
     let transmission = gearbox.transmission(&language, &Choice::of_set("joint"))?;
     for warning in &transmission.warnings {

@@ -99,8 +99,7 @@ impl Gearbox {
     ///
     /// # Errors
     /// Everything that reading and the walk find.
-    pub fn read(language: &Language, file: impl AsRef<Path>) -> Result<Self, Findings> {
-        let file = file.as_ref();
+    pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
         let mut sources = Sources::default();
         let text = match std::fs::read_to_string(file) {
             Ok(text) => text,

@@ -36,8 +36,7 @@ impl Study {
     ///
     /// # Errors
     /// Everything that reading and the walk find.
-    pub fn read(language: &Language, file: impl AsRef<Path>) -> Result<Self, Findings> {
-        let file = file.as_ref();
+    pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
         let text = std::fs::read_to_string(file).map_err(|e| {
             let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
             Findings::from(vec![error.mend("check the name of the file")])
