@@ -13,36 +13,14 @@ mod point;
 pub mod run;
 pub mod schema;
 pub mod solve;
-mod study_files;
 
-use gearloss_framework::document::{Diagnostic, Sources, read_yaml};
+use gearloss_framework::document::{Sources, read_yaml};
 use gearloss_framework::gearbox::{Findings, Gearbox};
-use gearloss_framework::language::Language;
-use gearloss_framework::registry::Registry;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
 use crate::args::ChoiceArgs;
 use crate::output::{Failure, Out};
-
-/// The language of everything that is linked into this program.
-fn language() -> Result<Language, Failure> {
-    let failed = |list: Vec<Diagnostic>| {
-        Failure::from(Findings {
-            list,
-            sources: Sources::default(),
-        })
-    };
-    Language::new(Registry::linked().map_err(failed)?).map_err(failed)
-}
-
-/// A fault of the arguments, which lie in no file.
-fn alone(fault: Diagnostic) -> Findings {
-    Findings {
-        list: vec![fault],
-        sources: Sources::default(),
-    }
-}
 
 /// Models and overrides from the arguments.
 fn choice(args: &ChoiceArgs) -> Result<Choice, Failure> {

@@ -9,7 +9,7 @@ mod common;
 use common::{RPM, file, language};
 use gearloss_framework::analysis::{Driven, OilTemperature, Ride, drive};
 use gearloss_framework::duty::{
-    CoastDownEntry, CycleEntry, Regeneration, RoadLoad, STANDARD_GRAVITY, ShippedCycleEntry, Vehicle,
+    CoastDownEntry, CycleEntry, MotorMap, Regeneration, RoadLoad, STANDARD_GRAVITY, ShippedCycleEntry, Vehicle,
 };
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
@@ -459,4 +459,46 @@ fn u11c_mean_losses_over_cycles_with_four_oils() {
             within(own.iter().sum(), total, 0.01);
         }
     }
+}
+
+/// The law that the shipped map was made from: copper, iron, friction and windage, inverter.
+fn motor_law(rpm: f64, torque: f64) -> f64 {
+    let w = rpm * RPM;
+    let copper = 0.09 * torque * torque * (1.0 + 0.15 * ((w / 560.0).max(1.0) - 1.0));
+    copper + 0.6 * w + 5e-4 * w * w + 1.5e-7 * w * w * w + 60.0
+}
+
+#[test]
+fn u7m_the_map_of_the_motor_is_its_law() {
+    let cases = [
+        (1000.0, 10.0, 137.4872),
+        (5000.0, 60.0, 856.7692),
+        (7000.0, 13.0, 843.4947),
+        (9000.0, 150.0, 3427.654),
+    ];
+    let synthetic = std::fs::read_to_string(file("examples/electric-drive-unit/motor_map.csv")).unwrap();
+    let map = MotorMap::read(synthetic.as_bytes()).unwrap();
+    for (rpm, torque, loss) in cases {
+        assert!((motor_law(rpm, torque) - loss).abs() < 1e-6 * loss, "{rpm} {torque}");
+        // Between nodes straight lines lie above the convex law, by less than 0.3 % here.
+        let read = map.loss(rpm * RPM, torque, 80.0);
+        assert!(!read.outside);
+        assert!(
+            read.loss > loss - 0.01 && read.loss < 1.003 * loss,
+            "{rpm} {torque}: {read:?}"
+        );
+    }
+    // The rows are the law to their two decimals.
+    let mut rows = 0;
+    for line in synthetic.lines().filter(|l| !l.starts_with(['#', 's'])) {
+        let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        assert!((motor_law(row[0], row[1]) - row[2]).abs() < 0.006, "{line}");
+        let read = map.loss(row[0] * RPM, row[1], 80.0);
+        assert!(
+            (read.loss - row[2]).abs() < 1e-9 * row[2] && !read.outside,
+            "{line}: {read:?}"
+        );
+        rows += 1;
+    }
+    assert_eq!(rows, 271);
 }

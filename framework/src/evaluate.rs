@@ -42,8 +42,8 @@ pub(crate) enum Noting {
     Counted,
 }
 
-/// One operating point of a case.
-#[derive(Debug, Clone, Copy)]
+/// One operating point of a case. What is not said is the default: `Point { speeds: &[..], torques: &[..], ..Point::default() }`.
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Point<'a> {
     /// Speeds at the case's speed ports. \[rad/s\]
     pub speeds: &'a [f64],

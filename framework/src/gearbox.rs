@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::document::{Diagnostic, Node, Places, Severity, Sources, read_yaml};
 use crate::language::{DRAGS, HEAT, Language};
-use crate::registry::Files;
+use crate::registry::{Files, Registry};
 use crate::resolve::{Came, Choice, Resolved, resolve};
 use crate::transmission::Transmission;
 
@@ -59,9 +59,44 @@ impl Findings {
     }
 }
 
+impl std::fmt::Display for Findings {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.render())
+    }
+}
+
+/// As rendered, because a `main` that returns an error prints it so.
 impl std::fmt::Debug for Findings {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.render())
+    }
+}
+
+impl std::error::Error for Findings {}
+
+/// Findings without a text that they could point into.
+impl From<Vec<Diagnostic>> for Findings {
+    fn from(list: Vec<Diagnostic>) -> Self {
+        Self {
+            list,
+            sources: Sources::default(),
+        }
+    }
+}
+
+impl From<Diagnostic> for Findings {
+    fn from(one: Diagnostic) -> Self {
+        Self::from(vec![one])
+    }
+}
+
+impl Language {
+    /// The language of everything that is linked into the program: where reading begins.
+    ///
+    /// # Errors
+    /// Every fault of a linked mechanism, model, catalogue or set.
+    pub fn linked() -> Result<Self, Findings> {
+        Ok(Self::new(Registry::linked()?)?)
     }
 }
 

@@ -6,6 +6,7 @@ mod compare;
 mod component;
 mod cycle;
 mod data;
+mod files;
 mod identify;
 mod map;
 mod operating_points;
@@ -28,6 +29,7 @@ pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
 pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
 pub use data::Data;
+pub use files::Study;
 pub use identify::{
     IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
 };

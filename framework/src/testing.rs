@@ -12,7 +12,6 @@ use std::path::Path;
 use crate::conformance::check_all;
 use crate::eval::{Evaluated, ask};
 use crate::language::Language;
-use crate::registry::Registry;
 
 /// The language of everything that is linked into this test.
 ///
@@ -20,9 +19,9 @@ use crate::registry::Registry;
 /// If what is linked does not fit together.
 #[track_caller]
 pub fn language() -> Language {
-    match Registry::linked().and_then(Language::new) {
+    match Language::linked() {
         Ok(language) => language,
-        Err(found) => panic!("{}", lines(&found)),
+        Err(found) => panic!("{found}"),
     }
 }
 
@@ -35,7 +34,7 @@ pub fn language() -> Language {
 pub fn eval(model: &str, input: &str) -> Evaluated {
     match ask(&language(), model, "input", input, Path::new("")) {
         Ok(evaluated) => evaluated,
-        Err(findings) => panic!("{model}: {}", findings.render()),
+        Err(findings) => panic!("{model}: {findings}"),
     }
 }
 

@@ -6,14 +6,14 @@ use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::resolve::Choice;
+use gearloss_framework::study::Study;
 
-use super::study_files::Study;
-use super::{choice, language};
+use super::choice;
 use crate::args::CheckArgs;
 use crate::output::{End, Failure, Out};
 
 pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     let choice = choice(&args.choice)?;
     let deny = match &args.deny {
         Some(name) => Some(grade(name)?),

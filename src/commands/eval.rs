@@ -3,16 +3,17 @@
 use std::path::Path;
 
 use gearloss_framework::eval;
+use gearloss_framework::gearbox::Findings;
+use gearloss_framework::language::Language;
 use gearloss_framework::loss::Step;
 use serde_json::json;
 
-use super::{alone, language};
 use crate::args::{EvalArgs, Format};
 use crate::output::{End, Failure, Out, significant};
 
 pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
-    let (mechanism, entry) = eval::named(&language, &args.model).map_err(alone)?;
+    let language = Language::linked()?;
+    let (mechanism, entry) = eval::named(&language, &args.model).map_err(Findings::from)?;
     let (text, folder) = match &args.input {
         Some(file) => (
             std::fs::read_to_string(file).map_err(|e| {

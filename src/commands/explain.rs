@@ -2,20 +2,21 @@
 
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
 use gearloss_framework::loss::{Step, Trace};
 use gearloss_framework::resolve::{Came, Resolved, lookup};
 use gearloss_framework::transmission::{PartInfo, Transmission};
 use serde_json::Value;
 
+use super::choice;
 use super::point::prepare;
 use super::solve::{RPM, heading, of_warmth};
 use super::warn;
-use super::{choice, language};
 use crate::args::ExplainArgs;
 use crate::output::{End, Failure, Out, significant};
 
 pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     let gearbox = Gearbox::read(&language, &args.gearbox)?;
     let resolved = gearbox.resolve(&language, &choice(&args.choice)?)?;
     let transmission = gearbox.build(&language, &resolved)?;

@@ -1,27 +1,31 @@
 //! `models`: what is linked into this program.
 
+use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::{Entry, MechanismEntry};
 use serde_json::Value;
 
-use super::{alone, language, needs};
+use super::needs;
 use crate::args::ModelsArgs;
 use crate::output::{End, Failure, Out, Table, significant};
 
 pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     if let Some(file) = &args.needs {
         return needs::run(&language, file, args.mechanism.as_deref(), out);
     }
     match (&args.mechanism, &args.model) {
         (None, _) => all(&language, out)?,
         (Some(mechanism), None) => {
-            let mechanism = language.registry().mechanism_named(mechanism).map_err(alone)?;
+            let mechanism = language.registry().mechanism_named(mechanism).map_err(Findings::from)?;
             one_mechanism(&language, mechanism, out)?;
         }
         (Some(mechanism), Some(model)) => {
-            let mechanism = language.registry().mechanism_named(mechanism).map_err(alone)?;
-            let model = language.registry().model_named(mechanism.key, model).map_err(alone)?;
+            let mechanism = language.registry().mechanism_named(mechanism).map_err(Findings::from)?;
+            let model = language
+                .registry()
+                .model_named(mechanism.key, model)
+                .map_err(Findings::from)?;
             one_model(&language, model, out)?;
         }
     }

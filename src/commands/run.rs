@@ -39,13 +39,11 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::study::{Analysis, Grid, SpeedAxis, TorqueAxis};
+use gearloss_framework::study::{Analysis, Grid, SpeedAxis, Study, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 
-use super::language;
-use super::study_files::Study;
 use crate::args::RunArgs;
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
@@ -194,7 +192,7 @@ impl Runner<'_> {
 }
 
 pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     let study = Study::read(&language, &args.study)?;
     study.check(&language)?;
     let folder = args.output.clone().unwrap_or_else(|| study.folder.join("results"));

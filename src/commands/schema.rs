@@ -2,7 +2,6 @@
 
 use gearloss_framework::language::{Kind, Language};
 
-use super::language;
 use crate::args::{KindArg, SchemaArgs};
 use crate::output::{End, Failure, Out};
 
@@ -18,7 +17,7 @@ pub fn run(args: &SchemaArgs, out: &mut Out) -> Result<End, Failure> {
         KindArg::Result => return written(RESULT, out),
         KindArg::Point => return written(POINT, out),
     };
-    out.text(&published(&language()?, kind)?)?;
+    out.text(&published(&Language::linked()?, kind)?)?;
     Ok(End::Fine)
 }
 

@@ -4,6 +4,7 @@ use gearloss_framework::analysis::Found;
 use gearloss_framework::analysis::{Note, SUMS, evidence, notes, sum_of};
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::thermal::{Equilibrium, Outcome, Step, Unbalanced};
 use gearloss_framework::transmission::Transmission;
@@ -13,7 +14,7 @@ use super::check::grade;
 use super::network::{json_of_network, of_network};
 use super::point::{Prepared, prepare};
 use super::run::tidy;
-use super::{choice, language, warn};
+use super::{choice, warn};
 use crate::args::{Format, SolveArgs};
 use crate::output::{End, Failure, Out, Table, number, significant};
 
@@ -21,7 +22,7 @@ use crate::output::{End, Failure, Out, Table, number, significant};
 pub const RPM: f64 = 30.0 / std::f64::consts::PI;
 
 pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     let gearbox = Gearbox::read(&language, &args.gearbox)?;
     let resolved = gearbox.resolve(&language, &choice(&args.choice)?)?;
     let transmission = gearbox.build(&language, &resolved)?;

@@ -70,10 +70,10 @@ pub struct Outcome {
 
 impl Handle {
     fn study(study: &Path, analysis: &str, set: &str) -> Result<Self, String> {
-        let kept = Kept(Box::into_raw(Box::new(Prepared::read(study, analysis)?)));
+        let kept = Kept(Box::into_raw(Box::new(Prepared::read(study, analysis).map_err(|e| e.to_string())?)));
         // SAFETY: a box that was just leaked, and that `Kept` frees once the problem is gone.
         let prepared: &'static Prepared = unsafe { &*kept.0 };
-        let identification = prepared.identification(set)?;
+        let identification = prepared.identification(set).map_err(|e| e.to_string())?;
         let options = Settings::default().options(identification.accuracy());
         let parameters = identification.problem().parameters().to_vec();
         let rows = identification.observations().len();

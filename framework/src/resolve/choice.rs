@@ -18,6 +18,23 @@ pub struct Choice {
     pub overrides: Vec<(String, Value)>,
 }
 
+impl Choice {
+    /// A set of models by its name.
+    pub fn of_set(name: impl Into<String>) -> Self {
+        Self {
+            set: Some(name.into()),
+            ..Self::default()
+        }
+    }
+
+    /// The same with a further override: a path or a pattern, and the value as one writes it, `"1.5 l"` or a bare number in
+    /// the documented unit.
+    pub fn with(mut self, path: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.overrides.push((path.into(), value.into()));
+        self
+    }
+}
+
 /// A set of models with everything that it extends.
 #[derive(Debug, Clone, Default)]
 pub struct ModelSet {

@@ -97,6 +97,23 @@ pub struct IdentifiedEntry {
     pub over: Option<OverEntry>,
 }
 
+impl IdentifiedEntry {
+    /// A parameter between two values as one writes them, counted as it is; the search begins at the value of the gearbox or the
+    /// rig.
+    pub fn between(path: impl Into<String>, from: impl Into<Value>, to: impl Into<Value>) -> Self {
+        Self {
+            path: path.into(),
+            tie: Tie::default(),
+            start: None,
+            from: Some(from.into()),
+            to: Some(to.into()),
+            scale: ScaleEntry::default(),
+            prior: None,
+            over: None,
+        }
+    }
+}
+
 /// How a parameter is counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -5,16 +5,16 @@ use std::path::Path;
 use gearloss_framework::description::LubricantEntry;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
 use gearloss_framework::lubricant::Lubricant;
 use gearloss_framework::resolve::Choice;
 
 use crate::args::OilArgs;
-use crate::commands::language;
 use crate::output::Failure;
 
 /// The oil of the arguments.
 pub fn oil(args: &OilArgs) -> Result<Lubricant, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     let gearbox = match (&args.gearbox, &args.oil) {
         (Some(file), _) => Gearbox::read(&language, file)?,
         (None, text) => {

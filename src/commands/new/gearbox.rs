@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use gearloss_framework::language::Kind;
+use gearloss_framework::language::{Kind, Language};
 
-use super::super::language;
 use super::{next, schema_beside, word, write};
 use crate::args::{Layout, NewGearboxArgs};
 use crate::output::{End, Failure, Out};
@@ -51,7 +50,7 @@ pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
     let start = Start::of(layout);
     let file = args.output.as_path();
     write(file, start.text, out)?;
-    schema_beside(file, &language()?, Kind::Gearbox, "gearbox.schema.json", out)?;
+    schema_beside(file, &Language::linked()?, Kind::Gearbox, "gearbox.schema.json", out)?;
     let name = word(file);
     next(
         &[

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::Kind;
+use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
-use super::super::language;
 use super::{folder, next, schema_beside, word, write};
 use crate::args::NewStudyArgs;
 use crate::output::{End, Failure, Out, figures};
@@ -22,7 +21,7 @@ const SHIPPED: [&str; 2] = ["iso14179_2", "joint"];
 const RPM: f64 = std::f64::consts::PI / 30.0;
 
 pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = language()?;
+    let language = Language::linked()?;
     if !args.gearbox.is_file() {
         return Err(Failure::input(
             format!("there is no gearbox {}", args.gearbox.display()),

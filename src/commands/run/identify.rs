@@ -45,7 +45,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     let mut outcomes: Vec<Outcome<'_>> = Vec::new();
     let mut moved: Vec<String> = Vec::new();
     for b in &built {
-        let rows = runner.rows(&measured, &entry.bind, entry.gear.as_deref(), false);
+        let rows = runner.study.rows(&measured, &entry.bind, entry.gear.as_deref(), false);
         let choice = runner.study.choice(b.set());
         let made = Identification::new(
             runner.language,

@@ -57,7 +57,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &RmsSurfaceEntry, out: &mut O
         out.line(format!("{name}: {file}: {note}"))?;
     }
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
-    let rows = runner.rows(&measured, &entry.bind, entry.gear.as_deref(), false);
+    let rows = runner.study.rows(&measured, &entry.bind, entry.gear.as_deref(), false);
     let mut sets = Vec::new();
     for built in runner.built(gearbox, &entry.against)? {
         let axes = axes(runner, &path, entry, &measured, &built)?;

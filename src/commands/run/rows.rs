@@ -2,7 +2,6 @@
 
 use gearloss_framework::analysis::{Note, OnRig, PointResult, Rows, notes};
 use gearloss_framework::description::Ordered;
-use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::measured::{Measured, MeasuredEntry, PortSpeeds};
 use gearloss_framework::study::Data;
@@ -35,47 +34,15 @@ impl Runner<'_> {
     /// Reads a file of points; `path` is the analysis' key that names it.
     pub(super) fn read(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Failure> {
         let entry = self.data(path, data)?;
-        let wrong = |message: String, mend: String| -> Failure {
-            let error = Diagnostic::error(path, format!("{}: {message}", entry.file)).mend(mend);
-            self.study.findings(vec![error]).into()
-        };
         if let Some(about) = &entry.about {
             self.report.borrow_mut().verdict(&format!("{}: {about}", entry.file));
         }
-        let bytes = std::fs::read(self.study.folder.join(&entry.file)).map_err(|e| {
-            wrong(
-                format!("cannot read: {e}"),
-                "file names are relative to the study".to_owned(),
-            )
-        })?;
+        let (measured, bytes) = self.study.measured(path, data, bind)?;
         let known = (entry.file.clone(), hash(&bytes));
         if !self.read.borrow().contains(&known) {
             self.read.borrow_mut().push(known);
         }
-        entry
-            .read(&bytes, bind)
-            .map_err(|fault| wrong(fault.message, fault.mend))
-    }
-
-    /// The rows of a file under the study's conditions.
-    pub(super) fn rows<'s>(
-        &'s self,
-        measured: &'s Measured,
-        bind: &'s Ordered<String>,
-        gear: Option<&'s str>,
-        terms: bool,
-    ) -> Rows<'s> {
-        let conditions = &self.study.entry.conditions;
-        Rows {
-            measured,
-            bind: bind.iter().map(|(_, path)| path.as_str()).collect(),
-            gear,
-            torque_at: &conditions.torque_at,
-            speed_at: &conditions.speed_at,
-            oil: conditions.oil_temperature,
-            flow: conditions.power_flow,
-            terms,
-        }
+        Ok(measured)
     }
 
     /// Solves every row under each set, with the torques that the rig leaves for the transmission.
@@ -88,7 +55,7 @@ impl Runner<'_> {
         measured: &Measured,
         terms: bool,
     ) -> Result<Vec<Solved<'s>>, Failure> {
-        let rows = self.rows(measured, bind, gear, terms);
+        let rows = self.study.rows(measured, bind, gear, terms);
         let own = |set: Option<&'s String>| -> Result<Solved<'s>, Failure> {
             let (gearbox, choice) = match set {
                 Some(name) => self.study.reference("analyses", name, gearbox)?,

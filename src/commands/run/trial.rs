@@ -11,10 +11,10 @@ use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
-use super::super::study_files::Study;
 use super::{Built, Runner};
 use crate::interrupt;
 use crate::output::{Failure, Out};
+use gearloss_framework::study::Study;
 
 /// Stated ranges that were left: path and quantity.
 pub type Left = BTreeSet<(String, &'static str)>;

@@ -2,52 +2,9 @@
 use super::*;
 use std::f64::consts::PI;
 
-const SYNTHETIC: &str = include_str!("../../../../examples/electric-drive-unit/motor_map.csv");
-
-/// The law that the shipped map was made from: copper, iron, friction and windage, inverter.
-fn law(rpm: f64, torque: f64) -> f64 {
-    let w = rpm * PI / 30.0;
-    let copper = 0.09 * torque * torque * (1.0 + 0.15 * ((w / 560.0).max(1.0) - 1.0));
-    copper + 0.6 * w + 5e-4 * w * w + 1.5e-7 * w * w * w + 60.0
-}
-
 fn messages(text: &str) -> Vec<String> {
     let found = MotorMap::read(text.as_bytes()).unwrap_err();
     found.into_iter().map(|f| f.message).collect()
-}
-
-#[test]
-fn u7m_the_synthetic_map() {
-    let cases = [
-        (1000.0, 10.0, 137.4872),
-        (5000.0, 60.0, 856.7692),
-        (7000.0, 13.0, 843.4947),
-        (9000.0, 150.0, 3427.654),
-    ];
-    let map = MotorMap::read(SYNTHETIC.as_bytes()).unwrap();
-    for (rpm, torque, loss) in cases {
-        assert!((law(rpm, torque) - loss).abs() < 1e-6 * loss, "{rpm} {torque}");
-        // Between nodes straight lines lie above the convex law, by less than 0.3 % here.
-        let read = map.loss(rpm * PI / 30.0, torque, 80.0);
-        assert!(!read.outside);
-        assert!(
-            read.loss > loss - 0.01 && read.loss < 1.003 * loss,
-            "{rpm} {torque}: {read:?}"
-        );
-    }
-    // The rows are the law to their two decimals.
-    let mut rows = 0;
-    for line in SYNTHETIC.lines().filter(|l| !l.starts_with(['#', 's'])) {
-        let row: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
-        assert!((law(row[0], row[1]) - row[2]).abs() < 0.006, "{line}");
-        let read = map.loss(row[0] * PI / 30.0, row[1], 80.0);
-        assert!(
-            (read.loss - row[2]).abs() < 1e-9 * row[2] && !read.outside,
-            "{line}: {read:?}"
-        );
-        rows += 1;
-    }
-    assert_eq!(rows, 271);
 }
 
 #[test]

@@ -2,24 +2,30 @@
 
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::{Field, OilTemperature, Points};
-use gearloss_framework::attach::dangling;
-use gearloss_framework::description::Ordered;
-use gearloss_framework::document::{Diagnostic, Places, Sources, read_yaml};
-use gearloss_framework::gearbox::{Findings, Gearbox};
-use gearloss_framework::language::Language;
-use gearloss_framework::measured::MeasuredEntry;
-use gearloss_framework::resolve::{Choice, expand_set, sets_of};
-use gearloss_framework::study::{Data, StudyEntry, Uses};
-use gearloss_framework::transmission::Transmission;
 use serde_json::{Map, Value};
+
+use super::{Data, Grid, StudyEntry, Uses};
+use crate::analysis::{Field, OilTemperature, Points, Rows};
+use crate::attach::dangling;
+use crate::description::Ordered;
+use crate::document::{Diagnostic, Places, Sources, read_yaml};
+use crate::gearbox::{Findings, Gearbox};
+use crate::language::Language;
+use crate::measured::{Measured, MeasuredEntry};
+use crate::resolve::{Choice, expand_set, sets_of};
+use crate::transmission::Transmission;
 
 /// A study as read, with its gearboxes.
 pub struct Study {
+    /// What is written.
     pub entry: StudyEntry,
+    /// Its sets of models.
     pub sets: Map<String, Value>,
+    /// Its gearboxes by name.
     pub gearboxes: Vec<(String, Gearbox)>,
+    /// Its text.
     pub text: String,
+    /// Where the files that it names lie.
     pub folder: PathBuf,
     places: Places,
     sources: Sources,
@@ -27,16 +33,31 @@ pub struct Study {
 
 impl Study {
     /// Reads a study and its gearboxes.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
-        let mut sources = Sources::default();
-        let text = std::fs::read_to_string(file).map_err(|e| Findings {
-            list: vec![
-                Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
-                    .mend("check the name of the file"),
-            ],
-            sources: Sources::default(),
+        let text = std::fs::read_to_string(file).map_err(|e| {
+            let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
+            Findings::from(vec![error.mend("check the name of the file")])
         })?;
-        let source = sources.add(file.display().to_string(), text.as_str());
+        let folder = file.parent().unwrap_or(Path::new(""));
+        Self::of_text(language, text, &file.display().to_string(), folder)
+    }
+
+    /// Reads a study from a text, with its gearboxes; `folder` is where the files that it names lie.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn of_text(
+        language: &Language,
+        text: String,
+        name: &str,
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Findings> {
+        let folder = folder.into();
+        let mut sources = Sources::default();
+        let source = sources.add(name, text.as_str());
         let read = read_yaml(source, &text);
         if !read.findings.is_empty() {
             return Err(Findings {
@@ -51,10 +72,7 @@ impl Study {
                 sources,
             });
         }
-        let bug = |e: serde_json::Error| Findings {
-            list: vec![Diagnostic::error("", e.to_string())],
-            sources: Sources::default(),
-        };
+        let bug = |e: serde_json::Error| Findings::from(vec![Diagnostic::error("", e.to_string())]);
         let sets = walked
             .value
             .get("model_sets")
@@ -62,7 +80,6 @@ impl Study {
             .cloned()
             .unwrap_or_default();
         let entry: StudyEntry = serde_json::from_value(walked.value).map_err(bug)?;
-        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
         let mut gearboxes = Vec::new();
         for (name, gearbox) in entry.gearboxes.iter() {
             gearboxes.push((name.to_owned(), Gearbox::read(language, &folder.join(gearbox))?));
@@ -87,6 +104,9 @@ impl Study {
     }
 
     /// A gearbox by name; the first where none is named.
+    ///
+    /// # Errors
+    /// If there is none.
     pub fn gearbox(&self, path: &str, name: Option<&String>) -> Result<&(String, Gearbox), Findings> {
         let names: Vec<&str> = self.gearboxes.iter().map(|(n, _)| n.as_str()).collect();
         match name {
@@ -105,6 +125,9 @@ impl Study {
     }
 
     /// A set that an analysis names: `SET` of the given gearbox, or `PRODUCT/SET`; the set `own` stands for none.
+    ///
+    /// # Errors
+    /// If there is no such product.
     pub fn reference<'a>(
         &'a self,
         path: &str,
@@ -147,7 +170,31 @@ impl Study {
         }
     }
 
+    /// The rows of a file under the conditions; `bind` are the paths of columns that change the gearbox.
+    pub fn rows<'s>(
+        &'s self,
+        measured: &'s Measured,
+        bind: &'s Ordered<String>,
+        gear: Option<&'s str>,
+        terms: bool,
+    ) -> Rows<'s> {
+        let conditions = &self.entry.conditions;
+        Rows {
+            measured,
+            bind: bind.iter().map(|(_, path)| path.as_str()).collect(),
+            gear,
+            torque_at: &conditions.torque_at,
+            speed_at: &conditions.speed_at,
+            oil: conditions.oil_temperature,
+            flow: conditions.power_flow,
+            terms,
+        }
+    }
+
     /// Checks every name that the analyses use, and builds every gearbox under every set.
+    ///
+    /// # Errors
+    /// Everything that is wrong.
     pub fn check(&self, language: &Language) -> Result<(), Findings> {
         let mut found = Vec::new();
         let grids: Vec<&str> = self.entry.grids.ids().collect();
@@ -164,7 +211,7 @@ impl Study {
                 vehicle,
             } = analysis.uses();
             for (key, name) in data {
-                if let Err(error) = self.measured(&format!("{path}.{key}"), name) {
+                if let Err(error) = self.named(&format!("{path}.{key}"), name) {
                     found.push(error);
                 }
             }
@@ -231,21 +278,48 @@ impl Study {
     }
 
     /// The entry of data: that of the measurements of the study, or the analysis' own.
+    ///
+    /// # Errors
+    /// If nothing has the name.
     pub fn measurement<'a>(&'a self, path: &str, data: &'a Data) -> Result<&'a MeasuredEntry, Findings> {
         match data {
             Data::Own(entry) => Ok(entry),
-            Data::Named(name) => self.measured(path, name).map_err(|error| self.findings(vec![error])),
+            Data::Named(name) => self.named(path, name).map_err(|error| self.findings(vec![error])),
         }
     }
 
-    fn measured(&self, path: &str, name: &str) -> Result<&MeasuredEntry, Diagnostic> {
+    /// Reads measured points with the bytes that they stand in; `path` is the key that names them, `bind` are columns that change
+    /// the gearbox.
+    ///
+    /// # Errors
+    /// If nothing has the name, the file cannot be read, or what is wrong in it, with line and column.
+    pub fn measured(&self, path: &str, data: &Data, bind: &[&str]) -> Result<(Measured, Vec<u8>), Findings> {
+        let entry = self.measurement(path, data)?;
+        let wrong = |message: String, mend: String| {
+            self.findings(vec![
+                Diagnostic::error(path, format!("{}: {message}", entry.file)).mend(mend),
+            ])
+        };
+        let bytes = std::fs::read(self.folder.join(&entry.file)).map_err(|e| {
+            let mend = "file names are relative to the study".to_owned();
+            wrong(format!("cannot read: {e}"), mend)
+        })?;
+        let measured = entry.read(&bytes, bind);
+        let measured = measured.map_err(|fault| wrong(fault.message, fault.mend))?;
+        Ok((measured, bytes))
+    }
+
+    fn named(&self, path: &str, name: &str) -> Result<&MeasuredEntry, Diagnostic> {
         let all = &self.entry.measurements;
         let names: Vec<&str> = all.ids().collect();
         all.get(name).ok_or_else(|| dangling(path, "measurement", name, &names))
     }
 
     /// The grid of a name.
-    pub fn grid<'a>(&'a self, path: &str, name: &str) -> Result<&'a gearloss_framework::study::Grid, Findings> {
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn grid<'a>(&'a self, path: &str, name: &str) -> Result<&'a Grid, Findings> {
         let grids: &Ordered<_> = &self.entry.grids;
         let names: Vec<&str> = grids.ids().collect();
         grids
