@@ -6,6 +6,7 @@ mod common;
 
 use std::fmt::Write as _;
 
+use gearloss_framework::document::records_by_type;
 use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::registry::{Entry, Files, MechanismEntry};
 use serde_json::{Map, Value};
@@ -96,12 +97,9 @@ fn choices(schema: &Value, field: &Value) -> String {
 
 fn parameters(out: &mut String, language: &Language, entry: &Entry) {
     let schema = language.published(Kind::Gearbox);
-    let union = &schema["definitions"][format!("{}_model", entry.mechanism)]["oneOf"];
-    let own = union
-        .as_array()
+    let own = records_by_type(&schema["definitions"][format!("{}_model", entry.mechanism)])
         .into_iter()
-        .flatten()
-        .find(|v| v["properties"]["type"]["const"] == entry.name);
+        .find_map(|(name, record)| (name == entry.name).then_some(record));
     let fields: Vec<(&String, &Value)> = own
         .and_then(|v| v["properties"].as_object())
         .into_iter()

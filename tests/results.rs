@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-use gearloss_framework::document::read_yaml;
+use gearloss_framework::document::{read_yaml, records_by_type};
 use jsonschema::Validator;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
@@ -160,10 +160,9 @@ fn every_solved_point_follows_the_schema() {
 #[test]
 fn every_analysis_of_the_study_schema_occurs() {
     let study = schema("study");
-    let branches = study["definitions"]["Analysis"]["oneOf"].as_array().unwrap();
-    let known: BTreeSet<&str> = branches
-        .iter()
-        .map(|b| b["properties"]["type"]["const"].as_str().unwrap())
+    let known: BTreeSet<&str> = records_by_type(&study["definitions"]["Analysis"])
+        .into_iter()
+        .map(|(name, _)| name)
         .collect();
     let seen: BTreeSet<&str> = WRITTEN.iter().map(|w| w.analysis.as_str()).collect();
     assert_eq!(known, seen);

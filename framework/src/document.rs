@@ -1,5 +1,6 @@
 //! Documents: YAML text to nodes with places, one collecting walk along a compiled schema, values in SI.
 
+mod by_type;
 mod diagnostic;
 mod node;
 mod places;
@@ -10,6 +11,7 @@ mod unit;
 mod walk;
 mod yaml;
 
+pub use by_type::records_by_type;
 pub use diagnostic::{Diagnostic, Severity, Sources, did_you_mean};
 pub use node::{Content, Key, Node, Span};
 pub use places::{Place, Places};

@@ -1,5 +1,6 @@
 //! `models`: what is linked into this program.
 
+use gearloss_framework::document::records_by_type;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::{Entry, MechanismEntry};
@@ -99,12 +100,9 @@ fn one_model(language: &Language, entry: &Entry, out: &mut Out) -> Result<(), Fa
     out.line(format!("registered at {}", entry.origin))?;
     out.line(format!("example: {}", entry.example))?;
     let schema = language.published(gearloss_framework::language::Kind::Gearbox);
-    let union = &schema["definitions"][format!("{}_model", entry.mechanism)]["oneOf"];
-    let own = union
-        .as_array()
+    let own = records_by_type(&schema["definitions"][format!("{}_model", entry.mechanism)])
         .into_iter()
-        .flatten()
-        .find(|v| v["properties"]["type"]["const"] == entry.name);
+        .find_map(|(name, record)| (name == entry.name).then_some(record));
     let fields = own.and_then(|v| v["properties"].as_object());
     let mut parameters = Table::new(&["parameter", "default", "range", "what it is"]);
     for (name, field) in fields.into_iter().flatten().filter(|(name, _)| *name != "type") {

@@ -22,7 +22,7 @@ pub struct Baffled {
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Baffled, Diagnostic> {
     let reading = Reading {
-        outside: Outside::Hold,
+        outside: Outside::Clamp,
         ..Reading::default()
     };
     Ok(Baffled {

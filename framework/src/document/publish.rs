@@ -1,16 +1,22 @@
 //! From generated schemas to the published one: quantities may carry units, records are closed, defaults are in the
-//! documented unit.
+//! documented unit, and editors are told what to say where something is wrong.
 
 use serde_json::{Map, Value, json};
 
+use super::by_type::choose_by_type;
 use super::unit::{Dimension, Unit};
 
 /// Pattern of ids. Words that many YAML readers turn into booleans are no ids.
 pub(super) const ID: &str = "^(?!([yY]|[nN]|[yY]es|YES|[nN]o|NO|[oO]n|ON|[oO]ff|OFF|[tT]rue|TRUE|[fF]alse|FALSE|[nN]ull|NULL)$)[A-Za-z][A-Za-z0-9_]*$";
 
+/// What editors say of a key that is no id.
+const NO_ID: &str = "An id starts with a letter and goes on in letters, digits and `_`. Words such as `on`, `no` and `y` are booleans to \
+                     many YAML readers.";
+
 /// Publishes a composed schema.
 pub fn publish(mut schema: Value) -> Value {
     visit(&mut schema, None);
+    choose_by_type(&mut schema);
     schema
 }
 
@@ -95,10 +101,30 @@ fn drop_null(object: &mut Map<String, Value>) {
 fn quantity(object: &mut Map<String, Value>, unit: Option<&'static Unit>) {
     let Some(unit) = unit else { return };
     object.insert("x-unit".to_owned(), json!(unit.symbol));
-    if unit.dimension != Dimension::None && object.get("type").and_then(Value::as_str) == Some("number") {
+    if object.get("type").and_then(Value::as_str) != Some("number") {
+        return;
+    }
+    let message = if unit.dimension == Dimension::None {
+        "Expected a plain number, without unit and quotes.".to_owned()
+    } else {
         object.insert("type".to_owned(), json!(["number", "string"]));
         object.insert("pattern".to_owned(), json!(unit.pattern()));
-    }
+        let name = unit.dimension.name();
+        let article = if name.starts_with(['a', 'e', 'i', 'o']) {
+            "an"
+        } else {
+            "a"
+        };
+        let symbols: Vec<&str> = Unit::symbols(unit.dimension).collect();
+        format!(
+            "Expected {article} {name} with its unit, such as `20 {}`, or a bare number in {}. Units: {}.",
+            unit.symbol,
+            unit.symbol,
+            symbols.join(", ")
+        )
+    };
+    // Not of JSON Schema; the language servers of YAML and JSON show it for a wrong type and a text that does not match.
+    object.insert("errorMessage".to_owned(), json!(message));
 }
 
 fn record(object: &mut Map<String, Value>) {
@@ -111,7 +137,10 @@ fn record(object: &mut Map<String, Value>) {
             visit(inner, None);
             let anything = matches!(inner, Value::Bool(true)) || inner.as_object().is_some_and(Map::is_empty);
             if !anything {
-                object.insert("propertyNames".to_owned(), json!({ "pattern": ID }));
+                object.insert(
+                    "propertyNames".to_owned(),
+                    json!({ "pattern": ID, "title": "id", "patternErrorMessage": NO_ID }),
+                );
             }
         }
     }

@@ -5,6 +5,7 @@ use std::fmt;
 
 use serde_json::{Map, Value};
 
+use super::by_type::records_by_type;
 use super::unit::Unit;
 
 /// The shape of a value.
@@ -197,6 +198,10 @@ impl Compiler {
                 None => self.refuse(place, format!("a reference to `{name}`")),
             };
         }
+        let records = records_by_type(schema);
+        if !records.is_empty() {
+            return self.tagged(object, records, place);
+        }
         if let Some(all) = object.get("allOf").and_then(Value::as_array) {
             return match all.as_slice() {
                 [only] if !object.contains_key("type") => self.shape(only, place),
@@ -204,7 +209,7 @@ impl Compiler {
             };
         }
         if let Some(one_of) = object.get("oneOf").and_then(Value::as_array) {
-            return self.one_of(object, one_of, place);
+            return self.one_of(one_of, place);
         }
         if let Some(any_of) = object.get("anyOf").and_then(Value::as_array) {
             let shapes = any_of.iter().map(|s| self.shape(s, place)).collect();
@@ -271,7 +276,9 @@ impl Compiler {
             Some(Value::Object(inner)) if inner.is_empty() => return Shape::Paths,
             Some(inner) => return Shape::Ids(Box::new(self.shape(inner, &join(place, "*")))),
         }
-        let required = words(object.get("required"));
+        // What only a document that extends no other must have.
+        let otherwise = object.get("else").and_then(|schema| schema.get("required"));
+        let required = [words(object.get("required")), words(otherwise)].concat();
         let fields = object
             .get("properties")
             .and_then(Value::as_object)
@@ -294,15 +301,32 @@ impl Compiler {
         Shape::Record(fields)
     }
 
-    fn one_of(&mut self, object: &Map<String, Value>, variants: &[Value], place: &str) -> Shape {
-        let mut tagged = Vec::new();
+    fn tagged(&mut self, object: &Map<String, Value>, records: Vec<(&str, &Value)>, place: &str) -> Shape {
+        let variants = records
+            .into_iter()
+            .map(|(name, record)| (name.to_owned(), self.shape(record, &join(place, name))))
+            .collect();
+        let mut short = Vec::new();
+        for other in object.get("oneOf").and_then(Value::as_array).into_iter().flatten() {
+            match other.get("const").and_then(Value::as_str) {
+                Some(word) => short.push(word.to_owned()),
+                None if other.get("allOf").is_some() => {}
+                None => return self.refuse(place, "a mixture of kinds"),
+            }
+        }
+        let mechanism = object.get("x-mechanism").and_then(Value::as_str);
+        Shape::Tagged {
+            what: mechanism.map_or_else(|| "analysis".to_owned(), |key| format!("{key} model")),
+            variants,
+            short,
+        }
+    }
+
+    fn one_of(&mut self, variants: &[Value], place: &str) -> Shape {
         let mut short = Vec::new();
         let mut other = Vec::new();
         for variant in variants {
-            let tag = variant.pointer("/properties/type/const").and_then(Value::as_str);
-            if let Some(name) = tag {
-                tagged.push((name.to_owned(), self.shape(variant, &join(place, name))));
-            } else if let Some(word) = variant.get("const").and_then(Value::as_str) {
+            if let Some(word) = variant.get("const").and_then(Value::as_str) {
                 short.push(word.to_owned());
             } else if let Some(list) = variant.get("enum") {
                 short.extend(words(Some(list)));
@@ -310,18 +334,9 @@ impl Compiler {
                 other.push(self.shape(variant, place));
             }
         }
-        match (tagged.is_empty(), other.is_empty()) {
-            (true, true) => Shape::Text(short),
-            (false, true) => {
-                let mechanism = object.get("x-mechanism").and_then(Value::as_str);
-                let what = mechanism.map_or_else(|| "analysis".to_owned(), |key| format!("{key} model"));
-                Shape::Tagged {
-                    what,
-                    variants: tagged,
-                    short,
-                }
-            }
-            (true, false) if short.is_empty() => Shape::Either(other),
+        match (short.is_empty(), other.is_empty()) {
+            (_, true) => Shape::Text(short),
+            (true, false) => Shape::Either(other),
             _ => self.refuse(place, "a mixture of kinds"),
         }
     }

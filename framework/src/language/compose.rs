@@ -31,7 +31,15 @@ pub(super) fn gearbox(registry: &Registry) -> Value {
         ),
     );
     properties.insert("model_sets".to_owned(), sets(registry));
-    finish(registry, generator, root)
+    let mut schema = finish(registry, generator, root);
+    // What a gearbox leaves out may stand in the one that it extends.
+    if let Some(object) = schema.as_object_mut()
+        && let Some(required) = object.shift_remove("required")
+    {
+        object.insert("if".to_owned(), json!({ "required": ["extends"] }));
+        object.insert("else".to_owned(), json!({ "required": required }));
+    }
+    schema
 }
 
 /// The schema of a study.
@@ -50,7 +58,7 @@ pub(super) fn eval(registry: &Registry) -> Value {
         .iter()
         .map(|m| eval_record(m, &mut generator))
         .collect();
-    let root = json!({ "title": "eval", "description": "Input of `gearloss eval`, by mechanism.", "oneOf": variants });
+    let root = json!({ "title": "eval", "description": "Input of `gearloss eval`, by mechanism.", "anyOf": variants });
     finish(registry, generator, root)
 }
 
@@ -208,7 +216,11 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
             object.insert("required".to_owned(), Value::Array(required));
             variants.push(schema);
         }
-        variants.push(json!({ "const": "none", "description": "No loss." }));
+        variants.push(json!({
+            "const": "none",
+            "description": "No loss.",
+            "errorMessage": "Expected a model, `{ type: NAME }` with its parameters, or `none`.",
+        }));
         definitions.insert(
             format!("{}_model", mechanism.key),
             json!({ "description": mechanism.meaning, "oneOf": variants, "x-mechanism": mechanism.key }),

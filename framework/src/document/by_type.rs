@@ -1,0 +1,72 @@
+//! Records of which a `type` says what keys they have: models, analyses.
+//!
+//! schemars writes them as one record among several, `oneOf`. An editor cannot tell there which of them was meant: it complains
+//! about the keys of another one, and leaves out of completion those that want more than their type. Published is a record with
+//! the types to choose from, and for each of them a condition: if the type is this, then these are the keys.
+
+use serde_json::{Map, Value, json};
+
+/// Turns every choice among records with a `type` into conditions, here and below.
+pub(super) fn choose_by_type(schema: &mut Value) {
+    match schema {
+        Value::Object(object) => {
+            object.values_mut().for_each(choose_by_type);
+            conditions(object);
+        }
+        Value::Array(list) => list.iter_mut().for_each(choose_by_type),
+        _ => {}
+    }
+}
+
+fn type_of(record: &Value) -> Option<&str> {
+    record.pointer("/properties/type/const")?.as_str()
+}
+
+fn conditions(object: &mut Map<String, Value>) {
+    let Some(variants) = object.get("oneOf").and_then(Value::as_array) else {
+        return;
+    };
+    let (records, others): (Vec<Value>, Vec<Value>) = variants.iter().cloned().partition(|v| type_of(v).is_some());
+    if records.is_empty() {
+        return;
+    }
+    let mut types = Vec::new();
+    let mut branches = Vec::new();
+    for record in records {
+        let name = type_of(&record).unwrap_or_default();
+        let meaning = record.get("description").cloned().unwrap_or_default();
+        types.push(json!({ "const": name, "description": meaning }));
+        branches.push(json!({
+            "if": { "properties": { "type": { "const": name } }, "required": ["type"] },
+            "then": record,
+        }));
+    }
+    let choice = json!({
+        "type": "object",
+        "properties": { "type": { "description": "Which one; the other keys hang on it.", "oneOf": types } },
+        "required": ["type"],
+        "allOf": branches,
+    });
+    if others.is_empty() {
+        object.shift_remove("oneOf");
+        object.extend(choice.as_object().cloned().unwrap_or_default());
+    } else {
+        // The record comes first: it is what an editor compares with where nothing fits.
+        let either: Vec<Value> = std::iter::once(choice).chain(others).collect();
+        object.insert("oneOf".to_owned(), Value::Array(either));
+    }
+}
+
+/// The records by `type` of a published schema that is a choice among them, or of which one alternative is.
+pub fn records_by_type(schema: &Value) -> Vec<(&str, &Value)> {
+    let alternatives = schema.get("oneOf").and_then(Value::as_array).into_iter().flatten();
+    std::iter::once(schema)
+        .chain(alternatives)
+        .filter_map(|choice| choice.get("allOf")?.as_array())
+        .flatten()
+        .filter_map(|branch| {
+            let record = branch.get("then")?;
+            Some((type_of(record)?, record))
+        })
+        .collect()
+}

@@ -1,0 +1,74 @@
+//! What the test needs of the outside: the language server of the YAML extension, kept in the folder of the build.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus};
+use std::time::{Duration, Instant};
+
+/// The longest that npm may take.
+const PATIENCE: Duration = Duration::from_mins(2);
+
+/// Program of the server, for node; installed at the first time and when its version has changed.
+///
+/// # Errors
+/// Why there is none: no node, no npm, no network.
+pub fn server() -> Result<PathBuf, String> {
+    for tool in ["node", "npm"] {
+        let found = Command::new(tool).arg("--version").output();
+        if !found.is_ok_and(|output| output.status.success()) {
+            return Err(format!("no {tool}; on Debian `apt-get install nodejs npm` brings it"));
+        }
+    }
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/editor");
+    let folder = target().join("editor");
+    let program = folder.join("node_modules/yaml-language-server/bin/yaml-language-server");
+    let read = |path: PathBuf| std::fs::read_to_string(path).unwrap_or_default();
+    // The last to be written, so that it tells what is installed in full.
+    let installed = folder.join("installed.json");
+    let wanted = read(own.join("package-lock.json"));
+    if program.is_file() && read(installed.clone()) == wanted {
+        return Ok(program);
+    }
+    std::fs::create_dir_all(&folder).unwrap();
+    for name in ["package.json", "package-lock.json"] {
+        std::fs::copy(own.join(name), folder.join(name)).unwrap();
+    }
+    let log = folder.join("npm.log");
+    let mut npm = Command::new("npm");
+    npm.args(["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--prefer-offline"])
+        .args(["--fetch-retries=1", "--fetch-timeout=20000", "--prefix"])
+        .arg(&folder)
+        .stdout(File::create(&log).unwrap())
+        .stderr(File::options().append(true).open(&log).unwrap());
+    let ended = within(PATIENCE, npm)?;
+    if !ended.success() {
+        return Err(format!("npm could not install the language server:\n{}", read(log)));
+    }
+    std::fs::write(installed, wanted).unwrap();
+    Ok(program)
+}
+
+/// Runs a command to its end, at most for a given time.
+///
+/// # Errors
+/// If it takes longer.
+pub fn within(limit: Duration, mut command: Command) -> Result<ExitStatus, String> {
+    let mut child = command.spawn().map_err(|e| format!("{command:?}: {e}"))?;
+    let end = Instant::now() + limit;
+    loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            return Ok(status);
+        }
+        if Instant::now() > end {
+            let _ = child.kill();
+            let _ = child.wait();
+            return Err(format!("{command:?} took longer than {limit:?}"));
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+/// The folder of the build.
+pub fn target() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap().to_owned()
+}
