@@ -50,6 +50,7 @@ pub trait Attach: sealed::Sealed + 'static {
 
 /// The oil at one place at one point, SI; temperature in degC.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Oil {
     /// Temperature. \[degC\]
     pub temperature: f64,

@@ -92,8 +92,15 @@ pub trait Component: Mechanism<Answer = Loss> {
 #[derive(Debug, Clone, Copy, Default, serde::Deserialize, serde::Serialize, JsonSchema)]
 pub struct NoPart {}
 
-/// What a mechanism's models answer.
-pub trait Answer: Copy + Send + Sync {
+mod sealed {
+    /// Nothing outside of the framework implements what this bounds.
+    pub trait Sealed {}
+    impl Sealed for crate::loss::Loss {}
+    impl Sealed for f64 {}
+}
+
+/// What a mechanism's models answer: a [`Loss`] or a coefficient; the framework has no use for another.
+pub trait Answer: sealed::Sealed + Copy + Send + Sync {
     /// The named values of the answer at a relative speed: for a loss, the power of each term. \[W or the answer's unit\]
     fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)>;
     /// True when the answer is finite and not negative.
@@ -292,7 +299,7 @@ macro_rules! context {
 }
 
 /// Shop units at the point of use: an empirical formula shows its units where it is written.
-pub trait ShopUnits {
+pub trait ShopUnits: sealed::Sealed {
     /// rad/s to revolutions per minute.
     fn rpm(self) -> f64;
     /// m to mm.

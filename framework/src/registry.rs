@@ -15,6 +15,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
+pub(crate) use placed::sealed::Sealed;
 pub use placed::{Common, Placed, Section};
 pub use recipe::NetworkRecipe;
 pub use slot::{ModelRef, NamedSlots, Slot};

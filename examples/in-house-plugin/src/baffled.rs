@@ -60,8 +60,8 @@ mod tests {
     #[test]
     fn the_factor_applies_to_the_free_drag() {
         for (speed, factor) in [(1500, 0.8), (-750, 0.9)] {
-            let at = format!("{{ at: {{ speed: {speed} rpm }} }}");
-            let free = eval("gear_drag/dawson", &at);
+            let at = format!("at: {{ speed: {speed} rpm }}");
+            let free = eval("gear_drag/dawson", &format!("{{ model: {{ type: dawson }}, {at} }}"));
             assert_close(eval("gear_drag/baffled", &at).total, factor * free.total, 1e-12);
         }
     }

@@ -4,6 +4,9 @@
 //! Nothing else names this crate: linking it (`use in_house_plugin as _;`) puts its models and its section into schema, `models`,
 //! `check`, `solve`, `explain`, `run`, the report and the conformance suite.
 
+// The built-in models: slots may hold them, and tests compare with them.
+use gearloss as _;
+
 pub mod baffled;
 pub mod parking_lock;
 pub mod pawl;

@@ -29,7 +29,7 @@ impl ParkingLockModel for Pawl {
 }
 
 register!(ParkingLock, "pawl", Pawl,
-    source: "rig report 17 of nobody",
+    source: "rig report 17, 2023",
     example: "{ type: pawl, force: 0.8 N }",
     evidence: [formula(Evidence::Assumed, "invented"), default_of("force", Evidence::Assumed, "invented")],
     limits: [SPEED], terms: [RATTLE]);

@@ -1,92 +1,163 @@
-//! The mechanism and the models of this crate are full citizens.
+//! The mechanism and the models of this crate are full citizens of the program.
 #![allow(clippy::unwrap_used)]
 
-use assert_cmd::Command;
-use gearloss_framework::conformance::check_all;
-use gearloss_framework::language::Language;
-use gearloss_framework::registry::Registry;
-use in_house_plugin as _;
+mod common;
 
-fn out(args: &[&str]) -> String {
-    let output = Command::cargo_bin("in-house-plugin")
-        .unwrap()
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(args)
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{args:?}: {}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    String::from_utf8(output.stdout).unwrap()
-}
+use common::{Run, program};
 
-const POINT: [&str; 4] = ["--speed", "3000 rpm", "--torque", "20 Nm"];
-
+/// Everything that is linked, the models of this crate among it.
 #[test]
 fn all_models_conform() {
-    // The built-in models are linked through the program's library.
-    let _: fn() -> std::process::ExitCode = gearloss::main;
-    let language = Language::new(Registry::linked().unwrap()).unwrap_or_else(|f| panic!("{f:#?}"));
-    assert!(language.registry().model("parking_lock", "pawl").is_some());
-    let faults = check_all(&language);
-    assert!(faults.is_empty(), "{faults:#?}");
-}
-
-#[test]
-fn the_schema_has_the_section_and_the_models() {
-    let schema = out(&["schema", "gearbox"]);
-    assert!(schema.contains("\"parking_locks\"") && schema.contains("\"pawl\"") && schema.contains("\"measured\""));
+    use in_house_plugin as _;
+    let language = gearloss_framework::testing::language();
+    let own = [
+        ("bearing", "rig_line"),
+        ("gear_drag", "baffled"),
+        ("parking_lock", "pawl"),
+        ("bearing", "skf"),
+    ];
+    for (mechanism, model) in own {
+        assert!(
+            language.registry().model(mechanism, model).is_some(),
+            "{mechanism}/{model} is not linked"
+        );
+    }
+    gearloss_framework::testing::conformance();
 }
 
 #[test]
 fn models_lists_them_with_their_crate() {
-    let list = out(&["models"]);
-    let line = list.lines().find(|l| l.contains("pawl")).unwrap();
-    assert!(line.contains("in_house_plugin"), "{line}");
-    assert!(out(&["models", "parking_lock", "pawl"]).contains("force"));
+    let list = program(&["models"]).fine();
+    for model in ["rig_line", "baffled", "pawl"] {
+        let line = list.lines().find(|l| l.contains(model)).unwrap();
+        assert!(line.contains("in-house-plugin"), "{line}");
+    }
+    assert!(
+        list.contains("crate in-house-plugin 0.1.0") && list.contains("crate gearloss-plugins"),
+        "{list}"
+    );
+    let one = program(&["models", "parking_lock", "pawl"]).fine();
+    assert!(
+        one.contains("Mean force of the pawl on the wheel. [N]") && one.contains("src/pawl.rs"),
+        "{one}"
+    );
 }
+
+/// Ids, descriptions, units, ranges and defaults: what an editor offers and checks.
+#[test]
+fn the_schema_has_the_section_and_the_models() {
+    let schema = program(&["schema", "gearbox"]).json();
+    let locks = &schema["properties"]["parking_locks"];
+    assert_eq!(locks["description"], "Drag of an open parking lock.");
+    let wheel = &locks["additionalProperties"]["properties"]["wheel"];
+    assert_eq!(wheel["description"], "Outside diameter of the wheel. [mm]");
+    let text = schema["definitions"]["bearing_model"].to_string();
+    assert!(
+        text.contains("Friction of ball bearings as measured on the rig"),
+        "{text}"
+    );
+    let text = schema["definitions"]["parking_lock_model"].to_string();
+    for stated in [
+        "Mean force of the pawl on the wheel. [N]",
+        "\"default\":0.5",
+        "\"maximum\":100.0",
+    ] {
+        assert!(text.contains(stated), "{stated}: {text}");
+    }
+}
+
+const POINT: [&str; 5] = ["gearbox.yaml", "--speed", "3000 rpm", "--torque", "20 Nm"];
 
 #[test]
 fn check_solve_and_explain_know_them() {
-    assert!(out(&["check", "gearbox.yaml"]).contains("fine"));
-    let solved = out(&[&["solve", "gearbox.yaml"][..], &POINT].concat());
-    // 0.5 N at 45 mm on the wheel at 1500 rpm.
-    let expected = 0.5 * 0.045 * 1500.0 * std::f64::consts::PI / 30.0;
     assert!(
-        solved.contains("parking_locks.lock") && solved.contains(&format!("{expected:.4}")),
-        "{solved}"
+        program(&["check", "gearbox.yaml", "study.yaml"])
+            .fine()
+            .contains("fine")
     );
-    let explained = out(&[&["explain", "gearbox.yaml", "lock"][..], &POINT].concat());
+    let solved = program(&[&["solve"][..], &POINT, &["--format", "json"]].concat()).json();
+    let part = |path: &str| {
+        let parts = solved["parts"].as_array().unwrap();
+        parts
+            .iter()
+            .find(|p| p["part"] == path)
+            .unwrap_or_else(|| panic!("{path}"))
+            .clone()
+    };
+    // 0.5 N at 45 mm on the wheel at 3000/3.5 rpm.
+    let expected = 0.5 * 0.045 * 3000.0 / 3.5 * std::f64::consts::PI / 30.0;
+    assert!((part("parking_locks.lock")["loss_w"].as_f64().unwrap() - expected).abs() < 1e-9);
+    assert_eq!(part("bearings.P1")["model"], "rig_line");
+    assert_eq!(part("gears.wheel.drag.churning")["model"], "baffled");
+    // Where a result comes from: every crate that took part, with its version.
+    let crates = solved["packages"].as_array().unwrap();
+    assert!(
+        crates
+            .iter()
+            .any(|p| p["name"] == "in-house-plugin" && p["version"] == "0.1.0")
+    );
+    let explained = program(&[&["explain"][..], &POINT[..1], &["lock"], &POINT[1..]].concat()).fine();
     assert!(
         explained.contains("rig report 17") && explained.contains("M = 0.0225 Nm"),
         "{explained}"
     );
-    let formula = [
-        &[
-            "solve",
-            "gearbox.yaml",
-            "--set",
-            "parking_locks.lock.model={ type: formula, formula: \"1e-5 * abs(speed)\" }",
-        ][..],
-        &POINT,
-    ];
-    assert!(out(&formula.concat()).contains("formula"));
+}
+
+/// `formula` serves the mechanism of this crate without a line of it.
+#[test]
+fn a_formula_takes_the_place_of_a_model() {
+    let formula = "parking_locks.lock.model={ type: formula, formula: \"1e-5 * abs(speed)\" }";
+    let solved = program(&[&["solve"][..], &POINT, &["--set", formula, "--format", "json"]].concat()).json();
+    let lock = solved["parts"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|p| p["part"] == "parking_locks.lock")
+        .unwrap();
+    assert!((lock["moment_of_one_nm"].as_f64().unwrap() - 1e-5 * 3000.0 / 3.5).abs() < 1e-12);
 }
 
 #[test]
 fn a_fault_in_the_section_is_found_like_any_other() {
-    let wrong = Command::cargo_bin("in-house-plugin")
-        .unwrap()
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(["check", "gearbox.yaml", "--set", "parking_locks.lock.wheel=90 Nm"])
-        .output()
-        .unwrap();
-    assert_eq!(wrong.status.code(), Some(2));
+    let told = program(&["check", "gearbox.yaml", "--set", "parking_locks.lock.wheel=90 Nm"]).refused();
+    assert!(told.contains("torque, not a length"), "{told}");
+    let told = program(&[
+        "check",
+        "gearbox.yaml",
+        "--set",
+        "bearings.P1.model={ type: rig_lien, loaded: 1e-4 }",
+    ])
+    .refused();
+    assert!(told.contains("write `rig_line`"), "{told}");
+}
+
+/// A parameter of this crate is found from measured points, by its path; 4.2e-4 was hidden in them.
+#[test]
+fn the_study_runs_and_identifies_a_parameter() {
+    let folder = common::folder("study");
+    let text = program(&["run", "study.yaml", "--force", "-o", folder.to_str().unwrap()]).fine();
+    let line = text
+        .lines()
+        .find(|l| l.starts_with("loaded  "))
+        .unwrap_or_else(|| panic!("{text}"));
+    let numbers: Vec<f64> = line.split_whitespace().filter_map(|w| w.parse().ok()).collect();
+    let [stated, fitted, least, greatest, ..] = numbers[..] else {
+        panic!("{line}")
+    };
     assert!(
-        String::from_utf8(wrong.stderr)
-            .unwrap()
-            .contains("torque, not a length")
+        (stated - 3e-4).abs() < 1e-12 && (fitted / 4.2e-4 - 1.0).abs() < 0.01,
+        "{line}"
     );
+    assert!(
+        least < 4.2e-4 && 4.2e-4 < greatest && line.contains("well determined"),
+        "{line}"
+    );
+    let report = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(report.contains("parking_locks.lock") && report.contains("in-house-plugin 0.1.0"));
+}
+
+impl Run {
+    fn json(self) -> serde_json::Value {
+        serde_json::from_str(&self.fine()).unwrap()
+    }
 }

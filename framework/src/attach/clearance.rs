@@ -26,6 +26,7 @@ pub type ClearanceSeat = [Option<u16>; 2];
 
 /// The state in a clearance.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct ClearanceSite<'a> {
     /// Speed of the first member relative to the second, signed; zero when closed. \[rad/s\]
     pub speed: f64,

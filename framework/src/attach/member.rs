@@ -23,6 +23,7 @@ pub struct MemberPlace {
 
 /// The state where a component sits on a member.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct MemberSite<'a> {
     /// Speed of the member, signed. \[rad/s\]
     pub speed: f64,

@@ -120,6 +120,7 @@ pub struct SupportSeat {
 
 /// The state in a support.
 #[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct SupportSite<'a> {
     /// Speed of the inner member relative to the outer one, signed. \[rad/s\]
     pub speed: f64,

@@ -36,6 +36,9 @@ pub struct Covers {
 
 /// Drag of one gear or of one pair, by the model's scope. A model answers with moments about the speed of the gear, or of
 /// the first gear of a pair, or with powers.
+///
+/// It may look at [`GearDragAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
+/// asked, and at the part in it.
 pub trait GearDragModel: Send + Sync {
     /// The causes that the model counts; absent where the name of its slot says it.
     fn covers(&self) -> Option<Covers>;

@@ -17,6 +17,9 @@ use crate::mechanism::{Mechanism, Quantity};
 pub enum GearMesh {}
 
 /// Loss of one pair of gears in mesh. A model answers with powers in the frame of the carrier.
+///
+/// It may look at [`GearMeshAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
+/// asked, and at the part in it.
 pub trait GearMeshModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined>;

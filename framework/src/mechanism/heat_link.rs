@@ -16,6 +16,9 @@ use crate::mechanism::{Mechanism, Quantity};
 pub enum HeatLink {}
 
 /// One link between two nodes of a thermal network.
+///
+/// It may look at [`HeatLinkAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
+/// asked, and at the part in it.
 pub trait HeatLinkModel: Send + Sync {
     /// Heat flow from the one end to the other over their difference of temperature, not negative. Pure; must not allocate.
     /// \[W/K\]

@@ -13,6 +13,9 @@ use crate::mechanism::{Mechanism, Quantity};
 pub enum MeanFriction {}
 
 /// Mean coefficient of friction of a mesh.
+///
+/// It may look at [`MeanFrictionAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
+/// asked, and at the part in it.
 pub trait MeanFrictionModel: Send + Sync {
     /// Coefficient of friction. \[-\] Pure; must not allocate. Called with torque and speed above zero.
     fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined>;

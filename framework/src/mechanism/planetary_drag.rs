@@ -17,6 +17,9 @@ pub enum PlanetaryDrag {}
 
 /// Load-independent loss of a carrier with its planets. A model answers with moments about the speed of the set's
 /// reference shaft, or with powers; the loss is felt by that shaft.
+///
+/// It may look at [`PlanetaryDragAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
+/// asked, and at the part in it.
 pub trait PlanetaryDragModel: Send + Sync {
     /// What the model counts of the gears on the planets, so that nothing is counted twice.
     fn covers(&self) -> Covers;

@@ -15,6 +15,9 @@ pub enum ToothFriction {}
 
 /// Coefficient of friction between flanks. A model answers for one contact; one that marches along the path, or shares
 /// work between its nodes, answers for the whole path.
+///
+/// It may look at [`ContactAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
+/// asked, and at the part in it.
 pub trait ToothFrictionModel: Send + Sync {
     /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined>;

@@ -41,8 +41,13 @@ fn whole() -> f64 {
     1.0
 }
 
-/// A component in its seat with its model.
-pub trait Placed: Send + Sync {
+/// Keeps [`Placed`] within the framework.
+pub(crate) mod sealed {
+    pub trait Sealed {}
+}
+
+/// A component in its seat with its model. The framework alone puts them there.
+pub trait Placed: sealed::Sealed + Send + Sync {
     /// Loss of one copy, with the notes of its model.
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined>;
     /// What the model sees at a state, one copy.
@@ -65,6 +70,8 @@ struct PlacedAs<C: Component> {
     spot: Spot,
     model: Slot<C>,
 }
+
+impl<C: Component> sealed::Sealed for PlacedAs<C> {}
 
 impl<C: Component> Placed for PlacedAs<C> {
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {

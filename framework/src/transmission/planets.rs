@@ -13,7 +13,7 @@ use crate::evaluate::{Reading, readings};
 use crate::loss::{Loss, NoteBase, Notes, Undefined};
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
-use crate::registry::{Build, Common, ModelRef, Placed, Slot};
+use crate::registry::{Build, Common, ModelRef, Placed, Sealed, Slot};
 
 /// How unequally the planets of a set share its load.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,6 +106,8 @@ impl PlacedDrag {
         }
     }
 }
+
+impl Sealed for PlacedDrag {}
 
 impl Placed for PlacedDrag {
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
