@@ -109,26 +109,42 @@ pub fn run(args: &NewPluginArgs, out: &mut Out) -> Result<End, Failure> {
     Ok(End::Fine)
 }
 
-/// Refuses what cannot name a crate, or what would warn at every build.
+/// Refuses what cannot name a crate, or what Rust would warn of at every build.
 fn usable(name: &str) -> Result<(), Failure> {
-    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
-    if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(fits) {
-        let close = name.to_ascii_lowercase().replace(|c| !fits(c), "-");
-        let close = close.trim_matches(|c: char| !c.is_ascii_lowercase() && !c.is_ascii_digit());
-        let close = close.trim_start_matches(|c: char| !c.is_ascii_lowercase());
-        let close = if usable(close).is_ok() { close } else { "acme-losses" };
+    if !is_written_well(name) {
+        let close = name.to_ascii_lowercase().replace(|c| !may_stand_in_a_name(c), "-");
+        let close = close
+            .trim_start_matches(|c: char| !c.is_ascii_lowercase())
+            .trim_end_matches(['-', '_']);
+        let close = if is_written_well(close) && !is_taken(close) {
+            close
+        } else {
+            "acme-losses"
+        };
         return Err(Failure::input(
-            format!("`{name}` cannot name a crate: such names have small letters, digits, `-` and `_`, a letter first"),
+            format!("`{name}` cannot name a crate: names have small letters, digits, `-` and `_`, with a letter first"),
             format!("write a name such as `{close}`"),
         ));
     }
-    if name.starts_with("gearloss") || TAKEN.contains(&name.replace('-', "_").as_str()) {
+    if is_taken(name) {
         return Err(Failure::input(
             format!("`{name}` cannot name a crate of yours: the name is taken"),
             format!("put the name of your house in front, such as `acme-{name}`"),
         ));
     }
     Ok(())
+}
+
+fn may_stand_in_a_name(c: char) -> bool {
+    c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_'
+}
+
+fn is_written_well(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(may_stand_in_a_name)
+}
+
+fn is_taken(name: &str) -> bool {
+    name.starts_with("gearloss") || TAKEN.contains(&name.replace('-', "_").as_str())
 }
 
 fn holds_a_checkout(path: &Path) -> Result<(), Failure> {
@@ -265,6 +281,7 @@ fn filled(template: &str, name: &str, source: &Source) -> Result<String, Failure
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::{Path, Source, path_from};
 
