@@ -19,74 +19,10 @@ const FILES: [(&str, &str); 8] = [
 ];
 
 /// Names that Rust or Cargo keep for themselves, those of the crate's dependencies, and those that Windows takes for devices.
-const TAKEN: [&str; 66] = [
-    "abstract",
-    "alloc",
-    "as",
-    "async",
-    "aux",
-    "await",
-    "become",
-    "box",
-    "break",
-    "build",
-    "con",
-    "const",
-    "continue",
-    "core",
-    "crate",
-    "deps",
-    "do",
-    "dyn",
-    "else",
-    "enum",
-    "examples",
-    "extern",
-    "false",
-    "final",
-    "fn",
-    "for",
-    "gen",
-    "if",
-    "impl",
-    "in",
-    "incremental",
-    "let",
-    "loop",
-    "macro",
-    "match",
-    "mod",
-    "move",
-    "mut",
-    "nul",
-    "override",
-    "priv",
-    "prn",
-    "proc_macro",
-    "pub",
-    "ref",
-    "return",
-    "schemars",
-    "self",
-    "serde",
-    "static",
-    "std",
-    "struct",
-    "super",
-    "test",
-    "trait",
-    "true",
-    "try",
-    "type",
-    "typeof",
-    "unsafe",
-    "unsized",
-    "use",
-    "virtual",
-    "where",
-    "while",
-    "yield",
-];
+const TAKEN: &str = "abstract alloc as async aux await become box break build con const continue core crate deps do dyn \
+    else enum examples extern false final fn for gen if impl in incremental let loop macro match mod \
+    move mut nul override priv prn proc_macro pub ref return schemars self serde static std struct super \
+    test trait true try type typeof unsafe unsized use virtual where while yield";
 
 pub fn run(args: &NewPluginArgs, out: &mut Out) -> Result<End, Failure> {
     usable(&args.name)?;
@@ -144,7 +80,7 @@ fn is_written_well(name: &str) -> bool {
 }
 
 fn is_taken(name: &str) -> bool {
-    name.starts_with("gearloss") || TAKEN.contains(&name.replace('-', "_").as_str())
+    name.starts_with("gearloss") || TAKEN.split(' ').any(|taken| taken == name.replace('-', "_"))
 }
 
 fn holds_a_checkout(path: &Path) -> Result<(), Failure> {
