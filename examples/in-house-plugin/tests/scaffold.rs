@@ -87,7 +87,7 @@ fn a_new_crate_compiles_and_leaves_one_check_value_to_its_author() {
     let last = cargo(&home, &tests);
     assert!(last.status.success(), "{}", said(&last));
 
-    assert_eq!(program(&home, &["check", "gearbox.yaml"]), "gearbox.yaml: fine\n");
+    assert!(program(&home, &["check", "gearbox.yaml"]).starts_with("gearbox.yaml: fine"));
     let list = program(&home, &["models"]);
     let line = list.lines().find(|line| line.contains("my_bearing")).unwrap();
     assert!(line.contains("acme_losses"), "{line}");
