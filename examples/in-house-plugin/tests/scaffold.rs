@@ -90,7 +90,7 @@ fn a_new_crate_compiles_and_leaves_one_check_value_to_its_author() {
     assert!(program(&home, &["check", "gearbox.yaml"]).starts_with("gearbox.yaml: fine"));
     let list = program(&home, &["models"]);
     let line = list.lines().find(|line| line.contains("my_bearing")).unwrap();
-    assert!(line.contains("acme_losses"), "{line}");
+    assert!(line.contains("acme-losses"), "{line}");
     let point = ["--torque", "20 Nm", "--speed", "1500 rpm"];
     let explained = program(&home, &[&["explain", "gearbox.yaml", "P1"][..], &point].concat());
     assert!(
