@@ -105,6 +105,8 @@ pub enum NewWhat {
     Gearbox(NewGearboxArgs),
     /// A study of a gearbox: map, comparison of models, stack-up of losses, losses without load.
     Study(NewStudyArgs),
+    /// A crate with a loss model of your own: it compiles as it is and has a test for you to finish.
+    Plugin(NewPluginArgs),
 }
 
 /// Arguments of `new gearbox`.
@@ -143,6 +145,20 @@ pub struct NewStudyArgs {
     /// File to write; refused where it exists.
     #[arg(short, long, value_name = "FILE", default_value = "study.yaml")]
     pub output: PathBuf,
+}
+
+/// Arguments of `new plugin`.
+#[derive(Debug, ClapArgs)]
+pub struct NewPluginArgs {
+    /// Name of the crate, such as `acme-losses`.
+    pub name: String,
+    /// Folder to write; absent, the name. Refused where it holds anything but `.git`.
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Checkout of gearloss that the crate is built on; absent, the one that this program was built from while it is there,
+    /// else this version in the registry of crates.
+    #[arg(long, value_name = "PATH")]
+    pub gearloss: Option<PathBuf>,
 }
 
 /// Arguments of `import`.

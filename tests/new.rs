@@ -297,3 +297,143 @@ fn the_schema_that_the_first_line_names_is_written_beside_and_kept_where_it_is()
     out(&folder, &["new", "study"]);
     assert!(folder.join(first("study.yaml")).is_file());
 }
+
+/// The lines of a new crate's Cargo.toml that begin with `name =`.
+fn dependency(home: &Path, name: &str) -> String {
+    let manifest = std::fs::read_to_string(home.join("Cargo.toml")).unwrap();
+    let line = manifest.lines().find(|line| line.starts_with(&format!("{name} = ")));
+    line.unwrap().to_owned()
+}
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+#[test]
+fn a_crate_for_models_is_written_whole() {
+    let folder = folder("plugin");
+    let told = out(&folder, &["new", "plugin", "acme-losses"]);
+    let home = folder.join("acme-losses");
+    for file in [
+        "Cargo.toml",
+        "README.md",
+        ".gitignore",
+        "gearbox.yaml",
+        "src/lib.rs",
+        "src/main.rs",
+        "src/my_bearing.rs",
+        "tests/conformance.rs",
+    ] {
+        let text = std::fs::read_to_string(home.join(file)).unwrap();
+        assert!(!text.contains('@'), "{file}: {text}");
+        assert!(told.contains(file), "{told}");
+    }
+    let text = |file: &str| std::fs::read_to_string(home.join(file)).unwrap();
+    assert!(text("Cargo.toml").contains("name = \"acme-losses\""));
+    assert!(text("src/main.rs").contains("use acme_losses as _;"));
+    assert!(text("tests/conformance.rs").contains("use acme_losses as _;"));
+    assert!(
+        told.contains("cd acme-losses") && told.contains("cargo test") && told.contains("cargo run -- explain"),
+        "{told}"
+    );
+    // Without --gearloss: the checkout that the program was built from, which is told.
+    let root = env!("CARGO_MANIFEST_DIR");
+    assert!(
+        told.contains(&format!("{root}, which this program was built from")),
+        "{told}"
+    );
+    let line = dependency(&home, "gearloss-framework");
+    assert!(
+        line.contains(&format!("{root}/framework")) && line.contains(VERSION),
+        "{line}"
+    );
+}
+
+#[test]
+fn a_new_crate_takes_gearloss_from_the_checkout_that_is_named() {
+    let folder = folder("plugin-checkout");
+    let root = env!("CARGO_MANIFEST_DIR");
+    out(&folder, &["new", "plugin", "absolute", "--gearloss", root]);
+    assert_eq!(
+        dependency(&folder.join("absolute"), "gearloss"),
+        format!("gearloss = {{ path = \"{root}\", version = \"{VERSION}\" }}")
+    );
+    let checkout = folder.join("gear loss");
+    std::fs::create_dir_all(checkout.join("framework")).unwrap();
+    std::fs::create_dir_all(folder.join("ours/losses")).unwrap();
+    std::fs::write(checkout.join("Cargo.toml"), "").unwrap();
+    let named = ["--gearloss", "gear loss"];
+    let told = refused(&folder, &[&["new", "plugin", "mine"][..], &named].concat());
+    assert!(
+        told.contains("there is no framework/Cargo.toml") && !folder.join("mine").exists(),
+        "{told}"
+    );
+    std::fs::write(checkout.join("framework/Cargo.toml"), "").unwrap();
+    // Named from the folder of the command, written from the folder of the crate.
+    for (home, way) in [("mine", "../gear loss"), ("ours/losses", "../../gear loss")] {
+        let told = out(&folder, &[&["new", "plugin", "mine", "-o", home][..], &named].concat());
+        assert!(told.contains(way), "{told}");
+        let home = folder.join(home);
+        assert_eq!(
+            dependency(&home, "gearloss-framework"),
+            format!("gearloss-framework = {{ path = \"{way}/framework\", version = \"{VERSION}\" }}")
+        );
+        assert!(home.join(way).join("framework/Cargo.toml").is_file());
+    }
+}
+
+#[test]
+fn a_new_crate_names_the_versions_of_the_workspace() {
+    let folder = folder("plugin-versions");
+    out(&folder, &["new", "plugin", "mine"]);
+    let workspace = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml")).unwrap();
+    let written = std::fs::read_to_string(folder.join("mine/Cargo.toml")).unwrap();
+    for key in ["schemars = ", "serde = ", "edition = ", "rust-version = "] {
+        let line = workspace.lines().find(|line| line.starts_with(key)).unwrap();
+        assert!(written.lines().any(|own| own == line), "{line} in {written}");
+    }
+}
+
+#[test]
+fn what_cannot_name_a_crate_is_refused_with_what_to_write() {
+    let folder = folder("plugin-names");
+    for (name, mend) in [
+        ("AcmeLosses", "such as `acmelosses`"),
+        ("7acme", "such as `acme`"),
+        ("acme losses", "such as `acme-losses`"),
+        ("../acme", "such as `acme`"),
+        ("Lager_Größe", "such as `lager_gr--e`"),
+        ("42", "such as `acme-losses`"),
+        ("", "such as `acme-losses`"),
+        ("Test", "such as `acme-losses`"),
+        ("gearloss", "such as `acme-gearloss`"),
+        ("gearloss-acme", "such as `acme-gearloss-acme`"),
+        ("fn", "such as `acme-fn`"),
+        ("test", "such as `acme-test`"),
+        ("core", "such as `acme-core`"),
+        ("proc-macro", "such as `acme-proc-macro`"),
+        ("serde", "such as `acme-serde`"),
+    ] {
+        let told = refused(&folder, &["new", "plugin", name]);
+        assert!(
+            told.contains("cannot name a crate") && told.contains(mend),
+            "{name}: {told}"
+        );
+    }
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+#[test]
+fn a_crate_is_written_into_a_new_or_an_empty_folder_only() {
+    let folder = folder("plugin-folders");
+    std::fs::create_dir_all(folder.join("cloned/.git")).unwrap();
+    let told = out(&folder.join("cloned"), &["new", "plugin", "mine", "-o", "."]);
+    assert!(!told.contains("  cd "), "{told}");
+    let manifest = folder.join("cloned/Cargo.toml");
+    std::fs::write(&manifest, "mine").unwrap();
+    let told = refused(&folder, &["new", "plugin", "mine", "-o", "cloned"]);
+    assert!(told.contains("not empty") && told.contains("-o DIR"), "{told}");
+    assert_eq!(std::fs::read_to_string(&manifest).unwrap(), "mine");
+    std::fs::write(folder.join("file"), "").unwrap();
+    assert!(refused(&folder, &["new", "plugin", "file"]).contains("it is a file"));
+    let told = refused(&folder, &["new", "plugin", "mine", "-o", "nowhere/mine"]);
+    assert!(told.contains("there is no folder nowhere"), "{told}");
+}

@@ -1,6 +1,7 @@
 //! `new`: commented files to start from.
 
 mod gearbox;
+mod plugin;
 mod study;
 
 use std::io::ErrorKind;
@@ -16,6 +17,7 @@ pub fn run(args: &NewArgs, out: &mut Out) -> Result<End, Failure> {
     match &args.what {
         NewWhat::Gearbox(args) => gearbox::run(args, out),
         NewWhat::Study(args) => study::run(args, out),
+        NewWhat::Plugin(args) => plugin::run(args, out),
     }
 }
 

@@ -1,0 +1,247 @@
+//! `new plugin`: a crate with a loss model of one's own.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::{folder, word, write};
+use crate::args::NewPluginArgs;
+use crate::output::{End, Failure, Out};
+
+/// Files of the crate with their templates. The ending `.in` keeps cargo and rustfmt from taking them for code of this crate.
+const FILES: [(&str, &str); 8] = [
+    ("Cargo.toml", include_str!("plugin/Cargo.toml.in")),
+    ("README.md", include_str!("plugin/README.md.in")),
+    (".gitignore", include_str!("plugin/gitignore.in")),
+    ("gearbox.yaml", include_str!("plugin/gearbox.yaml.in")),
+    ("src/lib.rs", include_str!("plugin/lib.rs.in")),
+    ("src/main.rs", include_str!("plugin/main.rs.in")),
+    ("src/my_bearing.rs", include_str!("plugin/my_bearing.rs.in")),
+    ("tests/conformance.rs", include_str!("plugin/conformance.rs.in")),
+];
+
+/// Names that Rust or Cargo keep for themselves, those of the crate's dependencies, and those that Windows takes for devices.
+const TAKEN: &str = "abstract alloc as async aux await become box break build con const continue core crate deps do dyn \
+    else enum examples extern false final fn for gen if impl in incremental let loop macro match mod \
+    move mut nul override priv prn proc_macro pub ref return schemars self serde static std struct super \
+    test trait true try type typeof unsafe unsized use virtual where while yield";
+
+pub fn run(args: &NewPluginArgs, out: &mut Out) -> Result<End, Failure> {
+    usable(&args.name)?;
+    if let Some(path) = &args.gearloss {
+        holds_a_checkout(path)?;
+    }
+    let home = args.output.clone().unwrap_or_else(|| PathBuf::from(&args.name));
+    make(&home)?;
+    let source = Source::of(args.gearloss.as_deref(), &home)?;
+    for (file, template) in FILES {
+        write(&home.join(file), &filled(template, &args.name, &source)?, out)?;
+    }
+    out.line(source.told())?;
+    out.line("next:")?;
+    if home != Path::new(".") {
+        out.line(format!("  cd {}", word(&home)))?;
+    }
+    out.line("  cargo test --no-fail-fast")?;
+    out.line("  cargo run -- explain gearbox.yaml P1 --torque \"20 Nm\" --speed \"1500 rpm\"")?;
+    Ok(End::Fine)
+}
+
+/// Refuses what cannot name a crate, or what Rust would warn of at every build.
+fn usable(name: &str) -> Result<(), Failure> {
+    if !is_written_well(name) {
+        let close = name.to_ascii_lowercase().replace(|c| !may_stand_in_a_name(c), "-");
+        let close = close
+            .trim_start_matches(|c: char| !c.is_ascii_lowercase())
+            .trim_end_matches(['-', '_']);
+        let close = if is_written_well(close) && !is_taken(close) {
+            close
+        } else {
+            "acme-losses"
+        };
+        return Err(Failure::input(
+            format!("`{name}` cannot name a crate: names have small letters, digits, `-` and `_`, with a letter first"),
+            format!("write a name such as `{close}`"),
+        ));
+    }
+    if is_taken(name) {
+        return Err(Failure::input(
+            format!("`{name}` cannot name a crate of yours: the name is taken"),
+            format!("put the name of your house in front, such as `acme-{name}`"),
+        ));
+    }
+    Ok(())
+}
+
+fn may_stand_in_a_name(c: char) -> bool {
+    c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_'
+}
+
+fn is_written_well(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(may_stand_in_a_name)
+}
+
+fn is_taken(name: &str) -> bool {
+    name.starts_with("gearloss") || TAKEN.split(' ').any(|taken| taken == name.replace('-', "_"))
+}
+
+fn holds_a_checkout(path: &Path) -> Result<(), Failure> {
+    if is_checkout(path) {
+        return Ok(());
+    }
+    Err(Failure::input(
+        format!(
+            "{} holds no gearloss: there is no framework/Cargo.toml in it",
+            path.display()
+        ),
+        "name the folder of a checkout, which has README.md and framework in it, with --gearloss PATH",
+    ))
+}
+
+fn is_checkout(path: &Path) -> bool {
+    path.join("Cargo.toml").is_file() && path.join("framework/Cargo.toml").is_file()
+}
+
+/// Makes the folders of the crate. One that is there serves where it is empty, but for what git keeps in it.
+fn make(home: &Path) -> Result<(), Failure> {
+    let cannot = |why: String, mend: &str| {
+        Err(Failure::input(
+            format!("cannot write to {}: {why}", home.display()),
+            mend,
+        ))
+    };
+    let other = "name another folder with -o DIR";
+    if home.is_dir() {
+        let mut entries = std::fs::read_dir(home)?;
+        if entries.any(|entry| entry.is_ok_and(|entry| entry.file_name() != ".git")) {
+            return cannot("the folder is not empty, and nothing is overwritten".to_owned(), other);
+        }
+    } else if home.exists() {
+        return cannot("it is a file".to_owned(), other);
+    } else if !folder(home).is_dir() {
+        let why = format!("there is no folder {}", folder(home).display());
+        return cannot(why, "make that folder, or name another one with -o DIR");
+    }
+    for part in ["src", "tests"] {
+        if let Err(error) = std::fs::create_dir_all(home.join(part)) {
+            return cannot(error.to_string(), other);
+        }
+    }
+    Ok(())
+}
+
+/// Where the crate takes gearloss from.
+enum Source {
+    /// A checkout that was named, as Cargo.toml finds it.
+    Named(PathBuf),
+    /// The checkout that this program was built from.
+    Own(PathBuf),
+    /// The registry of crates.
+    Registry,
+}
+
+impl Source {
+    fn of(named: Option<&Path>, home: &Path) -> Result<Self, Failure> {
+        let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+        Ok(match named {
+            // Without links, as `..` leads elsewhere behind one.
+            Some(path) if path.is_relative() => {
+                Self::Named(path_from(&std::fs::canonicalize(home)?, &std::fs::canonicalize(path)?))
+            }
+            Some(path) => Self::Named(path.to_path_buf()),
+            None if is_checkout(own) => Self::Own(own.to_path_buf()),
+            None => Self::Registry,
+        })
+    }
+
+    /// The values of the lines `gearloss` and `gearloss-framework` of Cargo.toml.
+    fn dependencies(&self) -> Result<[String; 2], Failure> {
+        let version = env!("CARGO_PKG_VERSION");
+        let (Self::Named(path) | Self::Own(path)) = self else {
+            return Ok([format!("\"{version}\""), format!("\"{version}\"")]);
+        };
+        let line = |path: &Path| match path.to_str() {
+            // A string of JSON is one of TOML too.
+            Some(text) => Ok(format!(
+                "{{ path = {}, version = \"{version}\" }}",
+                serde_json::Value::from(text)
+            )),
+            None => Err(Failure::input(
+                format!("Cargo.toml cannot name {}: the path is not in Unicode", path.display()),
+                "rename the folder",
+            )),
+        };
+        Ok([line(path)?, line(&path.join("framework"))?])
+    }
+
+    fn told(&self) -> String {
+        match self {
+            Self::Named(path) => format!("it takes gearloss from {}", path.display()),
+            Self::Own(path) => format!(
+                "it takes gearloss from {}, which this program was built from; --gearloss PATH names another checkout",
+                path.display()
+            ),
+            Self::Registry => format!(
+                "it takes gearloss {} from the registry of crates; --gearloss PATH names a checkout instead",
+                env!("CARGO_PKG_VERSION")
+            ),
+        }
+    }
+}
+
+/// The way from a folder to another, both without links; with nothing in common, as on two drives, the other one itself.
+fn path_from(folder: &Path, to: &Path) -> PathBuf {
+    let common = folder
+        .components()
+        .zip(to.components())
+        .take_while(|(a, b)| a == b)
+        .count();
+    if common == 0 {
+        return to.to_path_buf();
+    }
+    let up = folder.components().skip(common).map(|_| Component::ParentDir);
+    let way: PathBuf = up.chain(to.components().skip(common)).collect();
+    if way.as_os_str().is_empty() {
+        PathBuf::from(".")
+    } else {
+        way
+    }
+}
+
+fn filled(template: &str, name: &str, source: &Source) -> Result<String, Failure> {
+    let [gearloss, framework] = source.dependencies()?;
+    Ok(template
+        .replace("@NAME@", name)
+        .replace("@CRATE@", &name.replace('-', "_"))
+        .replace("@RUST@", env!("CARGO_PKG_RUST_VERSION"))
+        .replace("@GEARLOSS@", &gearloss)
+        .replace("@FRAMEWORK@", &framework))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::{Path, Source, path_from};
+
+    #[test]
+    fn without_a_checkout_the_lines_are_plain_versions() {
+        let version = format!("\"{}\"", env!("CARGO_PKG_VERSION"));
+        assert_eq!(Source::Registry.dependencies().unwrap(), [version.clone(), version]);
+        assert!(Source::Registry.told().contains("--gearloss PATH"));
+    }
+
+    #[test]
+    fn a_path_is_written_as_it_is_seen_from_the_new_crate() {
+        for (home, to, way) in [
+            ("/a/b", "/a/gl", "../gl"),
+            ("/a/b/c", "/a", "../.."),
+            ("/a", "/a/gl", "gl"),
+            ("/a", "/a", "."),
+            ("/ab", "/a", "../a"),
+        ] {
+            assert_eq!(
+                path_from(Path::new(home), Path::new(to)),
+                Path::new(way),
+                "{home} to {to}"
+            );
+        }
+    }
+}
