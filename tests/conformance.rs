@@ -7,7 +7,7 @@ use gearloss_framework::conformance::check_all;
 use gearloss_framework::language::Language;
 use gearloss_framework::mechanism::Mechanism;
 use gearloss_framework::mechanism::seal::Seal;
-use gearloss_framework::registry::{Entry, MechanismEntry, Package, Registry, inventory};
+use gearloss_framework::registry::{Catalogue, Entry, MechanismEntry, Package, Registry, ShippedSet, inventory};
 
 #[test]
 fn all_models_conform() {
@@ -62,6 +62,28 @@ fn two_models_of_one_name_name_both_places() {
     assert!(
         text.contains("my-models 2.1.0, src/seal.rs") && text.contains("plugins/src/seal/iso14179_2.rs"),
         "{text}"
+    );
+}
+
+#[test]
+fn two_sets_of_one_name_and_two_rows_of_one_designation_are_told() {
+    let (mechanisms, models) = linked();
+    let set = *inventory::iter::<ShippedSet>().next().unwrap();
+    let found = Registry::of(mechanisms.clone(), models.clone(), [], [set, set])
+        .err()
+        .unwrap();
+    assert!(
+        found[0].message.contains("two registrations of the set of models"),
+        "{found:?}"
+    );
+    let bearings = *inventory::iter::<Catalogue>()
+        .find(|c| c.section == "bearings")
+        .unwrap();
+    let registry = Registry::of(mechanisms, models, [bearings, bearings], []).unwrap();
+    let found = Language::new(registry).err().unwrap();
+    assert!(
+        found[0].message.contains("two catalogues of bearings have a row"),
+        "{found:?}"
     );
 }
 

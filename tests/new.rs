@@ -209,7 +209,7 @@ fn the_study_takes_the_first_state_that_drives_and_names_the_gearbox_from_where_
         told.contains("gear state `crawler`") && told.contains("states no `rating`"),
         "{told}"
     );
-    assert!(told.contains("gearloss run \"first look/study.yaml\""), "{told}");
+    assert!(told.contains("gearloss run 'first look/study.yaml'"), "{told}");
     let written = std::fs::read_to_string(folder.join(study)).unwrap();
     assert!(
         written.contains("gearboxes: { ours: ../drive.yaml }") && written.contains("gear: crawler"),

@@ -15,6 +15,7 @@ use crate::registry::{Build, Entry, Files, MechanismEntry, Registry, from_resolv
 
 /// What a model answered.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Evaluated {
     /// The named values of the answer; watts for a loss.
     pub values: Vec<(&'static str, f64)>,
@@ -109,8 +110,11 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         }
     }
     let files = Files::beside(folder.to_path_buf());
-    if model.is_none() {
-        files.put_all(entry.files);
+    // Those of the example serve where the folder has none of their name.
+    for (name, text) in entry.files {
+        if !folder.join(name).is_file() {
+            files.put(name, text);
+        }
     }
     let model = model.unwrap_or(example);
     (mechanism.eval)(language.registry(), &files, &model, &part, &at).map_err(|error| found(vec![error]))

@@ -69,7 +69,17 @@ impl Language {
         for section in registry.sections().map(|(_, s)| s.name).chain([LUBRICANTS]) {
             for catalogue in registry.catalogues(section) {
                 match CatalogueTable::from_csv(catalogue.csv) {
-                    Ok(table) => catalogues.entry(section).or_default().extend(table),
+                    Ok(table) => {
+                        let known = catalogues.entry(section).or_default();
+                        if let Some(twice) = table.0.keys().find(|designation| known.0.contains_key(*designation)) {
+                            found.push(
+                                Diagnostic::error("", format!("two catalogues of {section} have a row `{twice}`"))
+                                    .note(format!("the later one is registered at {}", catalogue.origin))
+                                    .mend("leave it out of one, or state the values in the gearbox's own catalogue"),
+                            );
+                        }
+                        known.extend(table);
+                    }
                     Err(reason) => found.push(
                         Diagnostic::error("", format!("catalogue of {section}: {reason}"))
                             .note(format!("registered at {}", catalogue.origin)),

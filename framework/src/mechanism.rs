@@ -157,9 +157,9 @@ pub struct Quantity<M: Mechanism> {
     pub doc: &'static str,
     /// Usual value in the documented unit.
     pub usual: f64,
-    /// Least value for which the framework calls a model, in the documented unit.
+    /// Least value at which models are tested, in the documented unit. The framework does not clip.
     pub least: f64,
-    /// Greatest value for which the framework calls a model, in the documented unit.
+    /// Greatest value at which models are tested, in the documented unit. The framework does not clip.
     pub greatest: f64,
     /// Where the framework takes the value from.
     pub from: &'static str,
@@ -197,8 +197,9 @@ pub struct QuantityDoc {
 }
 
 /// Declares the context of a mechanism: each quantity once, with its meaning and unit in the doc comment, its usual value,
-/// the range in which the framework calls, and where the value comes from. The fields are SI; the three numbers are in the
-/// documented unit.
+/// the range in which models are tested, and where the value comes from. The fields are SI; the three numbers are in the
+/// documented unit. A description may lead out of the range, and the framework does not clip: a model answers there too, or
+/// says that it is undefined.
 ///
 /// The same list feeds rustdoc, `models`, the schema and input of `eval`, the variables of `formula`, the axes of `table`
 /// and the grid of the conformance suite.
@@ -219,7 +220,7 @@ macro_rules! context {
             $(
                 $(#[doc = $doc])+
                 #[doc = ""]
-                #[doc = concat!("SI here; in that unit usually ", stringify!($usual), ", asked from ", stringify!($least), " to ",
+                #[doc = concat!("SI here; in that unit usually ", stringify!($usual), ", tested from ", stringify!($least), " to ",
                     stringify!($greatest), ". From ", $from, ".")]
                 pub $name: f64,
             )+
@@ -243,13 +244,14 @@ macro_rules! context {
             /// The context at its usual point.
             pub fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {
                 // Models ask others at contexts of their own in every point, so units are looked up once.
-                static USUAL: ::std::sync::OnceLock<::std::vec::Vec<f64>> = ::std::sync::OnceLock::new();
-                let usual = USUAL.get_or_init(|| Self::QUANTITIES.iter().map(|q| q.unit().to_si(q.usual)).collect());
-                let mut at = Self { part, $($name: 0.0,)+ notes };
-                for (q, usual) in Self::QUANTITIES.iter().zip(usual) {
-                    (q.set)(&mut at, *usual);
-                }
-                at
+                static USUAL: ::std::sync::OnceLock<[f64; <$At<'static>>::QUANTITIES.len()]> = ::std::sync::OnceLock::new();
+                let [$($name),+] = *USUAL.get_or_init(|| {
+                    ::std::array::from_fn(|i| {
+                        let q = &Self::QUANTITIES[i];
+                        q.unit().to_si(q.usual)
+                    })
+                });
+                Self { part, $($name,)+ notes }
             }
 
             /// The same with some quantities changed.

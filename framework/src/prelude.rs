@@ -5,25 +5,29 @@
 pub use schemars::JsonSchema;
 pub use serde::Deserialize;
 
-pub use crate::attach::{Clearance, ClearanceSite, MemberSite, OnMember, Support, SupportSite};
+pub use crate::attach::{Clearance, ClearanceSite, MemberSite, Oil, OnMember, Support, SupportSite};
 pub use crate::document::Diagnostic;
 pub use crate::generic::{Lookup, Scalar};
 pub use crate::loss::{Limit, Loss, Notes, Observed, Term, Undefined};
 pub use crate::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
-pub use crate::mechanism::bearing::{Bearing, BearingAt, BearingModel, BearingPart};
-pub use crate::mechanism::clutch::{Clutch, ClutchAt, ClutchModel};
-pub use crate::mechanism::gear_drag::{Covers, DragPart, GearDrag, GearDragAt, GearDragModel, Scope};
-pub use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
-pub use crate::mechanism::heat_dissipation::{HeatDissipation, HeatDissipationAt, HeatDissipationModel};
-pub use crate::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
+pub use crate::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel, BearingPart, Lubrication};
+pub use crate::mechanism::clutch::{Clutch, ClutchAt, ClutchModel, ClutchPart};
+pub use crate::mechanism::gear_drag::{Covers, DragPart, GearBody, GearDrag, GearDragAt, GearDragModel, Scope};
+pub use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel, MeshPart};
+pub use crate::mechanism::heat_dissipation::{
+    HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart, WarmSide,
+};
+pub use crate::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel, HeatLinkPart};
 pub use crate::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
-pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel};
-pub use crate::mechanism::seal::{Seal, SealAt, SealModel};
-pub use crate::mechanism::synchronizer::{Synchronizer, SynchronizerAt, SynchronizerModel};
-pub use crate::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel, PlanetaryPart};
+pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealModel, SealPart};
+pub use crate::mechanism::synchronizer::{CouplingKind, CouplingPart, Synchronizer, SynchronizerAt, SynchronizerModel};
+pub use crate::mechanism::tooth_friction::{
+    Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionModel,
+};
 pub use crate::mechanism::{Component, Mechanism, NoPart, Quantity, ShopUnits};
 pub use crate::registry::{
-    Build, Catalogue, Evidence, ModelRef, NamedSlots, ShippedSet, Slot, default_of, formula, inventory,
+    Build, Catalogue, Evidence, ModelRef, NamedSlots, ShippedCycle, ShippedSet, Slot, default_of, formula, inventory,
 };
 pub use crate::table::{Interpolation, Outside, Reading};
 pub use crate::{context, origin, register, register_component, register_mechanism};

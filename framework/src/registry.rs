@@ -348,7 +348,8 @@ impl Registry {
     /// The same with recipes for thermal networks.
     pub fn with_recipes(mut self, recipes: impl IntoIterator<Item = NetworkRecipe>) -> Self {
         self.recipes.extend(recipes);
-        self.recipes.sort_by_key(|r| (r.origin.file, r.origin.line));
+        self.recipes
+            .sort_by_key(|r| (r.origin.package, r.origin.file, r.origin.line));
         self
     }
 
@@ -358,7 +359,8 @@ impl Registry {
     /// If two cycles have one name; each error names modules and lines.
     pub fn with_cycles(mut self, cycles: impl IntoIterator<Item = ShippedCycle>) -> Result<Self, Vec<Diagnostic>> {
         self.cycles.extend(cycles);
-        self.cycles.sort_by_key(|c| (c.name, c.origin.file, c.origin.line));
+        self.cycles
+            .sort_by_key(|c| (c.name, c.origin.package, c.origin.file, c.origin.line));
         let found: Vec<_> = self
             .cycles
             .windows(2)
@@ -379,7 +381,7 @@ impl Registry {
         sets: impl IntoIterator<Item = ShippedSet>,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut mechanisms: Vec<_> = mechanisms.into_iter().collect();
-        mechanisms.sort_by_key(|m| (m.key, m.origin.file, m.origin.line));
+        mechanisms.sort_by_key(|m| (m.key, m.origin.package, m.origin.file, m.origin.line));
         let mut models: Vec<Entry> = models.into_iter().collect();
         let mut found = Vec::new();
         if models.is_empty() {
@@ -390,7 +392,7 @@ impl Registry {
         for mechanism in &mechanisms {
             models.extend((mechanism.generics)());
         }
-        models.sort_by_key(|m| (m.mechanism, m.name, m.origin.file, m.origin.line));
+        models.sort_by_key(|m| (m.mechanism, m.name, m.origin.package, m.origin.file, m.origin.line));
         for pair in mechanisms.windows(2) {
             if pair[0].key == pair[1].key {
                 found.push(twice("mechanism", pair[0].key, pair[0].origin, pair[1].origin));
@@ -418,9 +420,14 @@ impl Registry {
             }
         }
         let mut sets: Vec<_> = sets.into_iter().collect();
-        sets.sort_by_key(|s| s.name);
+        sets.sort_by_key(|s| (s.name, s.origin.package, s.origin.file, s.origin.line));
+        for pair in sets.windows(2) {
+            if pair[0].name == pair[1].name {
+                found.push(twice("set of models", pair[0].name, pair[0].origin, pair[1].origin));
+            }
+        }
         let mut catalogues: Vec<_> = catalogues.into_iter().collect();
-        catalogues.sort_by_key(|c| (c.section, c.origin.file, c.origin.line));
+        catalogues.sort_by_key(|c| (c.section, c.origin.package, c.origin.file, c.origin.line));
         if found.is_empty() {
             Ok(Self {
                 mechanisms,
@@ -512,10 +519,17 @@ impl Registry {
         recipe::only(&self.recipes)
     }
 
-    /// Crates that registered mechanisms or models, in the order of their names.
+    /// Crates that registered something, in the order of their names.
     pub fn packages(&self) -> Vec<Package> {
-        let models = self.models.iter().map(|m| m.origin.package);
-        let mut packages: Vec<_> = models.chain(self.mechanisms.iter().map(|m| m.origin.package)).collect();
+        let models = self.models.iter().map(|m| m.origin);
+        let mut packages: Vec<Package> = models
+            .chain(self.mechanisms.iter().map(|m| m.origin))
+            .chain(self.catalogues.iter().map(|c| c.origin))
+            .chain(self.sets.iter().map(|s| s.origin))
+            .chain(self.cycles.iter().map(|c| c.origin))
+            .chain(self.recipes.iter().map(|r| r.origin))
+            .map(|origin| origin.package)
+            .collect();
         packages.sort_unstable();
         packages.dedup();
         packages
@@ -563,8 +577,7 @@ macro_rules! register_component {
 }
 
 /// Registers a model: mechanism, name in documents, parameters, then its head. What the model is stands in the doc comment of
-/// its parameters. Without `prepare` the parameters are the
-/// model; with it, `prepare(parameters, &mut Build)` makes the model.
+/// its parameters. Without `prepare` the parameters are the model; with it, `prepare(parameters, &mut Build)` makes the model.
 #[macro_export]
 macro_rules! register {
     ($M:ty, $name:literal, $Params:ty,

@@ -8,21 +8,22 @@
 //! ```
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use crate::conformance::check_all;
 use crate::eval::{Evaluated, ask};
 use crate::language::Language;
 
-/// The language of everything that is linked into this test.
+/// The language of everything that is linked into this test, composed once.
 ///
 /// # Panics
 /// If what is linked does not fit together.
-#[track_caller]
-pub fn language() -> Language {
-    match Language::linked() {
+pub fn language() -> &'static Language {
+    static LANGUAGE: OnceLock<Language> = OnceLock::new();
+    LANGUAGE.get_or_init(|| match Language::linked() {
         Ok(language) => language,
         Err(found) => panic!("{found}"),
-    }
+    })
 }
 
 /// One model alone, `MECHANISM/MODEL`, at an input as `gearloss eval --input` takes it: `part`, `at` and `model` in YAML, each
@@ -32,7 +33,7 @@ pub fn language() -> Language {
 /// With the errors of the input, or with the reason why the model has no value there.
 #[track_caller]
 pub fn eval(model: &str, input: &str) -> Evaluated {
-    match ask(&language(), model, "input", input, Path::new("")) {
+    match ask(language(), model, "input", input, Path::new("")) {
         Ok(evaluated) => evaluated,
         Err(findings) => panic!("{model}: {findings}"),
     }
@@ -44,7 +45,7 @@ pub fn eval(model: &str, input: &str) -> Evaluated {
 /// With a line for each fault.
 #[track_caller]
 pub fn conformance() {
-    let faults = check_all(&language());
+    let faults = check_all(language());
     assert!(faults.is_empty(), "{}", lines(&faults));
 }
 

@@ -32,6 +32,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
         let value = json!({
             "format": "gearloss-eval/1",
             "gearloss": env!("CARGO_PKG_VERSION"),
+            "packages": language.registry().packages(),
             "mechanism": mechanism.key,
             "model": entry.name,
             "answer": mechanism.answer,

@@ -67,6 +67,10 @@ fn schema_beside(file: &Path, language: &Language, kind: Kind, name: &str, out: 
     match std::fs::read_to_string(schema) {
         Err(error) if error.kind() == ErrorKind::NotFound => write(schema, &text, out),
         Ok(present) if present == text => Ok(()),
+        Err(error) if error.kind() != ErrorKind::InvalidData => Err(Failure::input(
+            format!("cannot read {}: {error}", schema.display()),
+            "give the file another folder with -o",
+        )),
         _ => {
             out.line(format!(
                 "kept {}, which is not the schema of this version; `gearloss schema` prints that",
@@ -91,7 +95,12 @@ fn word(path: &Path) -> String {
     if text.chars().all(|c| c.is_alphanumeric() || "/\\._-:+".contains(c)) {
         text
     } else {
-        format!("\"{text}\"")
+        // Windows knows double quotes only; elsewhere they would let a shell look inside.
+        if cfg!(windows) {
+            format!("\"{text}\"")
+        } else {
+            format!("'{}'", text.replace('\'', r"'\''"))
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// The longest that npm may take.
@@ -13,6 +14,12 @@ const PATIENCE: Duration = Duration::from_mins(2);
 /// # Errors
 /// Why there is none: no node, no npm, no network.
 pub fn server() -> Result<PathBuf, String> {
+    // Tests run side by side, and npm empties the folder first.
+    static SERVER: OnceLock<Result<PathBuf, String>> = OnceLock::new();
+    SERVER.get_or_init(installed).clone()
+}
+
+fn installed() -> Result<PathBuf, String> {
     for tool in ["node", "npm"] {
         let found = Command::new(tool).arg("--version").output();
         if !found.is_ok_and(|output| output.status.success()) {
@@ -24,9 +31,9 @@ pub fn server() -> Result<PathBuf, String> {
     let program = folder.join("node_modules/yaml-language-server/bin/yaml-language-server");
     let read = |path: PathBuf| std::fs::read_to_string(path).unwrap_or_default();
     // The last to be written, so that it tells what is installed in full.
-    let installed = folder.join("installed.json");
+    let record = folder.join("installed.json");
     let wanted = read(own.join("package-lock.json"));
-    if program.is_file() && read(installed.clone()) == wanted {
+    if program.is_file() && read(record.clone()) == wanted {
         return Ok(program);
     }
     std::fs::create_dir_all(&folder).unwrap();
@@ -44,7 +51,7 @@ pub fn server() -> Result<PathBuf, String> {
     if !ended.success() {
         return Err(format!("npm could not install the language server:\n{}", read(log)));
     }
-    std::fs::write(installed, wanted).unwrap();
+    std::fs::write(record, wanted).unwrap();
     Ok(program)
 }
 

@@ -131,6 +131,14 @@ fn a_fault_in_the_section_is_found_like_any_other() {
     assert!(told.contains("write `rig_line`"), "{told}");
 }
 
+/// What is asked for a pair of gears has no place inside of what is asked for one.
+#[test]
+fn a_law_of_a_mesh_is_no_law_of_a_gear() {
+    let nested = "gears.wheel.drag.churning.free={ type: mauz_injection, flow: 1 l/min }";
+    let told = program(&["check", "gearbox.yaml", "--set", nested]).refused();
+    assert!(told.contains("asked for meshes"), "{told}");
+}
+
 /// A parameter of this crate is found from measured points, by its path; 4.2e-4 was hidden in them.
 #[test]
 fn the_study_runs_and_identifies_a_parameter() {

@@ -15,7 +15,7 @@ pub enum Auxiliary {}
 /// Moment that an auxiliary takes from its shaft. A model answers with a moment.
 ///
 /// It may look at [`AuxiliaryAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait AuxiliaryModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined>;

@@ -18,7 +18,7 @@ pub enum Bearing {}
 /// Friction of one rolling bearing. A model answers with moments about the bearing's axis.
 ///
 /// It may look at [`BearingAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait BearingModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate. What hangs on speed and oil alone may go into
     /// [`BearingAt::once`], which spares it in all passes of a point but the first.

@@ -38,7 +38,7 @@ pub struct Covers {
 /// the first gear of a pair, or with powers.
 ///
 /// It may look at [`GearDragAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait GearDragModel: Send + Sync {
     /// The causes that the model counts; absent where the name of its slot says it.
     fn covers(&self) -> Option<Covers>;
@@ -114,19 +114,19 @@ context! {
         /// Speed of the second gear, signed. [rpm]
         speed_2: -500.0 in -30000.0..=30000.0 from "kinematics",
         /// Depth of the tip circle in the oil. [mm]
-        tip_dip: 20.0 in 0.0..=5000.0 from "the oil level and the place of the shaft",
+        tip_dip: 20.0 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the place of its shaft",
         /// Depth of the reference circle in the oil. [mm]
-        dip: 18.0 in 0.0..=5000.0 from "the oil level and the place of the shaft",
+        dip: 18.0 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the place of its shaft",
         /// Depth of the second gear's tip circle in the oil. [mm]
-        tip_dip_2: 0.0 in 0.0..=5000.0 from "the oil level and the place of its shaft",
+        tip_dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the place of its shaft",
         /// Depth of the second gear's reference circle in the oil. [mm]
-        dip_2: 0.0 in 0.0..=5000.0 from "the oil level and the place of its shaft",
+        dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the place of its shaft",
         /// One where the gear's lowest point moves towards a mate, zero where it moves away from all of them. [-]
         towards_mesh: 0.0 in 0.0..=1.0 from "sense of rotation and the places of the mates",
         /// The same for the second gear. [-]
         towards_mesh_2: 0.0 in 0.0..=1.0 from "sense of rotation and the places of its mates",
         /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil that the gears dip into: given, balanced or a node of the network",
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the gear or mesh: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]

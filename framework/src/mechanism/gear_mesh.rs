@@ -19,7 +19,7 @@ pub enum GearMesh {}
 /// Loss of one pair of gears in mesh. A model answers with powers in the frame of the carrier.
 ///
 /// It may look at [`GearMeshAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait GearMeshModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined>;
@@ -193,13 +193,13 @@ context! {
     /// All that a mesh model may look at: one mesh, in the frame of its carrier.
     pub struct GearMeshAt of GearMesh {
         /// Torque of one mesh on the first gear, magnitude. [Nm]
-        torque: 50.0 in 0.0..=5000.0 from "the flow of torque, losses before the mesh included",
+        torque: 50.0 in 0.0..=5000.0 from "the flow of torque, less the losses before the mesh unless it is ideal; of the most loaded planet, by `load_sharing`",
         /// Speed of the first gear relative to the carrier, signed. [rpm]
         speed: 3000.0 in -30000.0..=30000.0 from "kinematics",
         /// One where the first gear drives, zero where the second does. [-]
         first_drives: 1.0 in 0.0..=1.0 from "the sense of the power in the flow",
         /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network",
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]

@@ -26,7 +26,7 @@ pub enum WarmSide {
 /// One way on which heat leaves: a conductance between a warm side and a sink.
 ///
 /// It may look at [`HeatDissipationAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait HeatDissipationModel: Send + Sync {
     /// Where the way begins.
     fn warm_side(&self) -> WarmSide {

@@ -18,7 +18,7 @@ pub enum HeatLink {}
 /// One link between two nodes of a thermal network.
 ///
 /// It may look at [`HeatLinkAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait HeatLinkModel: Send + Sync {
     /// Heat flow from the one end to the other over their difference of temperature, not negative. Pure; must not allocate.
     /// \[W/K\]
@@ -69,17 +69,17 @@ context! {
         /// Speed of the vehicle; zero outside of a drive cycle. [m/s]
         vehicle_speed: 0.0 in 0.0..=100.0 from "the duty",
         /// Kinematic viscosity of the oil at the mean of both temperatures. [mm2/s]
-        nu: 12.0 in 0.5..=100000.0 from "the oil of the housing",
+        nu: 12.0 in 0.5..=100000.0 from "`lubricant` of the link, else the oil of the housing",
         /// Dynamic viscosity of the oil at the mean of both temperatures. [mPa s]
         eta: 10.0 in 0.3..=100000.0 from "`nu` times `rho`",
         /// Density of the oil at the mean of both temperatures. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the oil of the housing",
+        rho: 820.0 in 500.0..=1300.0 from "`lubricant` of the link, else the oil of the housing",
         /// Specific heat of the oil at the mean of both temperatures. [J/(kg K)]
-        heat_capacity: 2100.0 in 1000.0..=4000.0 from "the oil of the housing",
+        heat_capacity: 2100.0 in 1000.0..=4000.0 from "`lubricant` of the link, else the oil of the housing",
         /// Thermal conductivity of the oil at the mean of both temperatures. [W/(m K)]
-        conductivity: 0.14 in 0.05..=1.0 from "the oil of the housing",
+        conductivity: 0.14 in 0.05..=1.0 from "`lubricant` of the link, else the oil of the housing",
         /// Mass flow of the oil in its circuit; zero without one. [kg/s]
-        oil_flow: 0.1 in 0.0..=100.0 from "the flow of the network that the link names",
+        oil_flow: 0.1 in 0.0..=100.0 from "`oil_flow` of the network, or the flow of the duty",
     }
 }
 

@@ -15,7 +15,7 @@ pub enum MeanFriction {}
 /// Mean coefficient of friction of a mesh.
 ///
 /// It may look at [`MeanFrictionAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait MeanFrictionModel: Send + Sync {
     /// Coefficient of friction. \[-\] Pure; must not allocate. Called with torque and speed above zero.
     fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined>;
@@ -43,7 +43,7 @@ context! {
         /// Root mean square roughness of both flanks together. [um]
         rq: 0.5 in 0.01..=5.0 from "`surface.rq` of both gears",
         /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network",
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]

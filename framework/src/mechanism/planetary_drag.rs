@@ -19,7 +19,7 @@ pub enum PlanetaryDrag {}
 /// reference shaft, or with powers; the loss is felt by that shaft.
 ///
 /// It may look at [`PlanetaryDragAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait PlanetaryDragModel: Send + Sync {
     /// What the model counts of the gears on the planets, so that nothing is counted twice.
     fn covers(&self) -> Covers;
@@ -74,7 +74,7 @@ context! {
         /// Height of the oil above the carrier's axis. [mm]
         level: -10.0 in -10000.0..=10000.0 from "the oil level and the place of the carrier",
         /// Temperature of the oil. [degC]
-        temperature: 60.0 in -40.0..=200.0 from "the oil of the housing: given, balanced or a node of the network",
+        temperature: 60.0 in -40.0..=200.0 from "`lubricant` of the set or the oil of the housing: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
         nu: 100.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]

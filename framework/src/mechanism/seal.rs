@@ -18,7 +18,7 @@ pub enum Seal {}
 /// Friction of one shaft seal. A model answers with a moment about the shaft.
 ///
 /// It may look at [`SealAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait SealModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined>;

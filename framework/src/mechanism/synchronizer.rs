@@ -18,7 +18,7 @@ pub enum Synchronizer {}
 /// Drag of one open coupling. Engaged, its members have one speed and it loses nothing.
 ///
 /// It may look at [`SynchronizerAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait SynchronizerModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined>;

@@ -17,7 +17,7 @@ pub enum ToothFriction {}
 /// work between its nodes, answers for the whole path.
 ///
 /// It may look at [`ContactAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// asked, and at the part in it.
+/// tested, and at the part in it.
 pub trait ToothFrictionModel: Send + Sync {
     /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined>;
@@ -72,7 +72,7 @@ context! {
         /// Root mean square roughness of both flanks together. [um]
         rq: 0.5 in 0.01..=5.0 from "`surface.rq` of both gears",
         /// Temperature of the oil that enters the contact. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh; a law along the path may raise it",
+        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh, with its `temperature_offset`",
         /// Kinematic viscosity of that oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of that oil. [mPa s]

@@ -90,6 +90,8 @@ pub struct Build<'a> {
     files: &'a Files,
     path: String,
     part: Option<Arc<dyn Any + Send + Sync>>,
+    /// Scope of the drag model around the slot that is being built.
+    around: Option<Scope>,
     instances: Vec<Instance>,
     cells: usize,
 }
@@ -102,6 +104,7 @@ impl<'a> Build<'a> {
             files,
             path: String::new(),
             part: None,
+            around: None,
             instances: Vec::new(),
             cells: 0,
         }
@@ -135,7 +138,7 @@ impl<'a> Build<'a> {
     pub fn text(&self, file: &str) -> Result<Arc<str>, Diagnostic> {
         self.files.text(file).map_err(|reason| {
             self.error(reason)
-                .mend("file names are relative to the gearbox document")
+                .mend("names of files are relative to the document that names them")
         })
     }
 
@@ -217,6 +220,17 @@ impl<'a> Build<'a> {
                 None => missing.mend("choose one of them"),
             });
         };
+        let outer = self.around;
+        if M::KEY == GearDrag::KEY {
+            if (outer, entry.scope) == (Some(Scope::Gear), Scope::Mesh) {
+                return Err(self
+                    .error(format!(
+                        "`{name}` is asked for meshes, the model around it for single gears"
+                    ))
+                    .mend("choose a law of a single gear"));
+            }
+            self.around = Some(entry.scope);
+        }
         let observed = self.cells + entry.limits.len();
         let mut notes = NoteBase {
             instance: self.instances.len(),
@@ -230,7 +244,9 @@ impl<'a> Build<'a> {
             entry,
             notes,
         });
-        let built = (entry.build)(value, self)?;
+        let built = (entry.build)(value, self);
+        self.around = outer;
+        let built = built?;
         notes.end = self.cells;
         match built.downcast::<Arc<M::Model>>() {
             Ok(model) => Ok(Slot::new(*model, notes, name == "none")),

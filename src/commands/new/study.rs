@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::{Kind, Language};
+use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
@@ -16,9 +17,6 @@ const STUDY: &str = include_str!("study.yaml");
 
 /// The shipped sets that the study compares.
 const SHIPPED: [&str; 2] = ["iso14179_2", "joint"];
-
-/// rad/s per 1/min.
-const RPM: f64 = std::f64::consts::PI / 30.0;
 
 pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
     let language = Language::linked()?;
@@ -89,7 +87,7 @@ impl Start {
                 .meshes()
                 .next()
                 .map(|(path, _)| path.trim_start_matches("meshes.").to_owned()),
-            rating: transmission.rating.as_ref().map(|r| [r.torque, r.speed / RPM]),
+            rating: transmission.rating.as_ref().map(|r| [r.torque, r.speed.rpm()]),
             port,
             shipped,
         })
