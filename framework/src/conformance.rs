@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::language::Language;
 use crate::loss::{Extent, MOST_KEPT, NoteBase, Notes, Undefined};
 use crate::mechanism::{Answer, Mechanism, Quantity};
-use crate::registry::{Build, Entry, Evidence, Files, Registry, from_resolved};
+use crate::registry::{Build, Entry, Evidence, Files, Graded, Registry, from_resolved};
 
 /// Checks every linked model on its mechanism's example part. Empty when all is well; else one line for each fault.
 pub fn check_all(language: &Language) -> Vec<String> {
@@ -142,8 +142,9 @@ pub fn conform<M: Mechanism>(
             }
         }
     }
-    // What the user states himself may hang on the sense of rotation.
-    if entry.evidence.iter().all(|g| g.grade != Evidence::User) {
+    // A law that the user states himself, as `formula` and `table`, may hang on the sense of rotation.
+    let stated = |g: &Graded| g.key.is_empty() && g.grade == Evidence::User;
+    if !entry.evidence.iter().any(stated) {
         faults.extend(rest_and_reversal::<M>(&slot, &usual));
     }
     faults.extend(keeping::<M>(&slot, &part, slot.notes, cells));

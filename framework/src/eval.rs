@@ -110,9 +110,9 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         }
     }
     let files = Files::beside(folder.to_path_buf());
-    // Those of the example serve where the folder has none of their name.
+    // The example has its own files; to a record that somebody writes they serve where the folder has none of their name.
     for (name, text) in entry.files {
-        if !folder.join(name).is_file() {
+        if model.is_none() || !folder.join(name).is_file() {
             files.put(name, text);
         }
     }

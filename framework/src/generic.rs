@@ -262,7 +262,20 @@ impl<M: Mechanism> Lookup<M> {
                 ))
                 .mend("name each axis as a quantity; answers stand behind all axes"));
         }
-        let tables = Table::several_from_csv(&text, reading, axes).map_err(fault)?;
+        let tables = Table::several_from_csv(&text, reading, axes).map_err(|reason| {
+            let error = fault(reason);
+            if columns.len() > axes + 1 {
+                let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
+                let answers = columns[axes..].join("`, `");
+                error.note(format!(
+                    "`{answers}` count as answers, because {} has no such quantities: {}",
+                    M::KEY,
+                    names.join(", ")
+                ))
+            } else {
+                error
+            }
+        })?;
         for (i, (table, column)) in tables.iter().zip(&columns[axes..]).enumerate() {
             let at = format!("line 1, column {}", axes + i + 1);
             if table.unit().is_none() && unit != "-" {

@@ -399,7 +399,9 @@ impl Registry {
             }
         }
         for pair in models.windows(2) {
-            if (pair[0].mechanism, pair[0].name) == (pair[1].mechanism, pair[1].name) {
+            // Two mechanisms of one key bring their generic models twice, which needs no words of its own.
+            let clear = mechanisms.iter().filter(|m| m.key == pair[0].mechanism).count() < 2;
+            if clear && (pair[0].mechanism, pair[0].name) == (pair[1].mechanism, pair[1].name) {
                 let what = format!("{} model", pair[0].mechanism);
                 found.push(twice(&what, pair[0].name, pair[0].origin, pair[1].origin));
             }

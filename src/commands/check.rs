@@ -30,6 +30,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
             gearbox(&language, file, &choice, args.resolved).map(|(text, weakest)| {
                 if deny.is_some_and(|deny| weakest.is_some_and(|w| w >= deny)) {
                     end = End::Finding;
+                    return text + &format!("  denied: {}\n", args.deny.as_deref().unwrap_or_default());
                 }
                 text
             })

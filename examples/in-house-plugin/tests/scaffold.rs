@@ -1,6 +1,8 @@
 //! A crate that `new plugin` writes compiles, and one test is left to its author.
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -34,7 +36,7 @@ fn scaffold() -> Option<PathBuf> {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     let root = own.join("../..");
     if !root.join("framework/Cargo.toml").is_file() {
-        eprintln!("skipped: there is no ../../framework/Cargo.toml to build a new crate on");
+        common::skipped("new plugin is not tested: there is no ../../framework/Cargo.toml to build a new crate on");
         return None;
     }
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("scaffold");

@@ -10,7 +10,9 @@ use std::process::Command;
 fn two_versions_of_the_framework_are_refused() {
     let framework = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../framework");
     if !framework.is_dir() {
-        eprintln!("SKIPPED: this crate stands outside of the repository, so there is no second framework to take");
+        common::skipped(
+            "two versions are not tested: this crate stands outside of the repository, so there is no second framework",
+        );
         return;
     }
     let folder = common::folder("two-versions");

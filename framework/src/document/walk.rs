@@ -501,8 +501,16 @@ impl<'a> Walker<'a> {
                 None => match &field.default {
                     Some(default) => {
                         let places = std::mem::take(&mut self.places);
+                        let before = self.findings.len();
                         let value = self.within(name, |w| w.value(&Node::from_json(default), &field.shape));
                         self.places = places;
+                        for finding in &mut self.findings[before..] {
+                            finding.message = format!("the default of `{name}`: {}", finding.message);
+                            finding.mend = Some(
+                                "mend the default: it is in SI, the range in the unit of the parameter's doc comment"
+                                    .to_owned(),
+                            );
+                        }
                         value
                     }
                     // A misspelt key is one error, not two.

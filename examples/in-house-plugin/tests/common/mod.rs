@@ -1,6 +1,7 @@
 //! The program of this crate, run in the crate's folder.
 #![allow(clippy::unwrap_used, dead_code, reason = "each test file takes what it needs")]
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
@@ -43,4 +44,11 @@ impl Run {
 /// A folder for results in the target folder.
 pub fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+/// Says past the capture of the test runner, so that everybody sees it, what was not tested.
+pub fn skipped(what: &str) {
+    std::io::stderr()
+        .write_all(format!("SKIPPED: {what}\n").as_bytes())
+        .unwrap();
 }
