@@ -1,5 +1,6 @@
 //! Analyses: many points of one transmission, in parallel, with the same bits on any number of threads.
 
+mod bits;
 mod cycle;
 mod grid;
 mod notes;
@@ -9,7 +10,9 @@ mod sums;
 mod temperature;
 
 pub use cycle::{Driven, Ride, Stretch, drive};
-pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
+pub use grid::{
+    Field, Given, GridResult, MOST_HELD, Piece, PointResult, Points, merge, pieces, run_grid, solve_pieces,
+};
 pub use notes::{Note, Stated, WeakPoint, evidence, notes};
 pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
 pub use statistics::{Statistics, bands, correlation, histogram, levels, quantile};

@@ -14,6 +14,7 @@ mod inputs;
 mod map;
 mod operating_points;
 mod parquet;
+mod pieces;
 mod ranges;
 mod report;
 mod rms_surface;
@@ -33,7 +34,7 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::{Field, Given, GridResult, Points, notes, run_grid};
+use gearloss_framework::analysis::{Field, Given, GridResult, Piece, Points, merge, notes, pieces, solve_pieces};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
@@ -144,18 +145,46 @@ impl Runner<'_> {
         bar
     }
 
+    /// Solves all points and holds them.
     fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
+        let mut all = GridResult::default();
+        self.solve_pieces(built, points, None, &mut |piece| {
+            all.add(piece);
+            Ok(())
+        })?;
+        Ok(all)
+    }
+
+    /// Solves all points and hands them over piece by piece.
+    fn solve_pieces(
+        &self,
+        built: &Built<'_>,
+        points: &Points,
+        _of: Option<(&str, usize)>,
+        take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         let bar = self.bar(points.field.len() as u64, &built.name);
         let going = |n: usize| {
             bar.inc(n as u64);
             !interrupt::pressed()
         };
-        let result = run_grid(&built.transmission, points, &going);
+        let numbers: Vec<usize> = (0..pieces(points.field.len())).collect();
+        let (mut seen, mut fault) = (Vec::new(), None);
+        let whole = solve_pieces(&built.transmission, points, &numbers, &going, &mut |piece| {
+            merge(&mut seen, &piece.seen);
+            fault = take(piece).err();
+            fault.is_none()
+        });
         bar.finish_and_clear();
-        let result = result.map_err(|list| Failure::from(built.gearbox.findings(list)))?;
-        let result = result.ok_or(Failure::Interrupted)?;
-        self.seen(&built.transmission, &result.seen);
-        Ok(result)
+        let whole = whole.map_err(|list| Failure::from(built.gearbox.findings(list)))?;
+        match fault {
+            Some(fault) => Err(fault),
+            None if whole => {
+                self.seen(&built.transmission, &seen);
+                Ok(())
+            }
+            None => Err(Failure::Interrupted),
+        }
     }
 
     /// Prints a sentence that a reader must not miss, and puts it where the report begins to tell of the analysis.

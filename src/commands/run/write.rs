@@ -1,5 +1,6 @@
 //! Files of results.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
@@ -148,6 +149,33 @@ impl Place {
 pub struct TableFile {
     csv: Option<(Place, csv::Writer<BufWriter<fs::File>>)>,
     parquet: Option<(Place, ParquetTable<BufWriter<fs::File>>)>,
+    /// A number as text.
+    digits: String,
+}
+
+/// A cell of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cell<'a> {
+    Gap,
+    Number(f64),
+    Text(&'a str),
+}
+
+impl From<Option<f64>> for Cell<'_> {
+    fn from(value: Option<f64>) -> Self {
+        value.map_or(Self::Gap, Self::Number)
+    }
+}
+
+impl Cell<'_> {
+    /// The cell as text; absent for a gap.
+    pub fn text(&self) -> Option<String> {
+        match self {
+            Self::Gap | Self::Text("") => None,
+            Self::Number(x) => Some(format!("{x}")),
+            Self::Text(text) => Some((*text).to_owned()),
+        }
+    }
 }
 
 impl TableFile {
@@ -155,6 +183,7 @@ impl TableFile {
         let mut table = Self {
             csv: None,
             parquet: None,
+            digits: String::new(),
         };
         if formats.contains(&Write::Csv) {
             let (place, file) = Place::new(runner, &format!("{name}.csv"))?;
@@ -169,9 +198,26 @@ impl TableFile {
         Ok(table)
     }
 
+    /// Adds a row of texts.
     pub fn push(&mut self, row: &[String]) -> Result<(), Failure> {
+        let cells: Vec<Cell<'_>> = row.iter().map(|text| Cell::Text(text)).collect();
+        self.push_cells(&cells)
+    }
+
+    /// Adds a row; numbers become texts in the CSV only.
+    pub fn push_cells(&mut self, row: &[Cell<'_>]) -> Result<(), Failure> {
         if let Some((place, writer)) = &mut self.csv {
-            writer.write_record(row).map_err(|e| place.cannot(&e))?;
+            let written = row.iter().try_for_each(|cell| match cell {
+                Cell::Gap => writer.write_field(""),
+                Cell::Text(text) => writer.write_field(text),
+                Cell::Number(x) => {
+                    self.digits.clear();
+                    let _ = write!(self.digits, "{x}");
+                    writer.write_field(&self.digits)
+                }
+            });
+            let ended = written.and_then(|()| writer.write_record(None::<&[u8]>));
+            ended.map_err(|e| place.cannot(&e))?;
         }
         if let Some((place, table)) = &mut self.parquet {
             table.push(row).map_err(|e| place.cannot(&e))?;
@@ -218,9 +264,13 @@ pub fn cell(value: Option<f64>) -> String {
 }
 
 /// FNV-1a, 64 bit: tells whether an input changed, no more.
-pub fn hash(bytes: &[u8]) -> String {
-    let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+pub fn fnv1a_64(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-    });
-    format!("{hash:016x}")
+    })
+}
+
+/// The hash of bytes as it stands in results.
+pub fn hash(bytes: &[u8]) -> String {
+    format!("{:016x}", fnv1a_64(bytes))
 }
