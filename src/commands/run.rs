@@ -1,5 +1,6 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
+mod axes;
 mod balance;
 mod breakdown;
 mod compare;
@@ -14,12 +15,14 @@ mod inputs;
 mod map;
 mod operating_points;
 mod parquet;
+mod parts;
 mod pieces;
 mod ranges;
 mod report;
 mod rms_surface;
 mod rows;
 mod sensitivity;
+mod shard;
 mod shares;
 mod sweep;
 mod thermal_limit;
@@ -29,6 +32,10 @@ mod uncertainty;
 mod write;
 
 pub(super) use map::tidy;
+pub(super) use parts::Parts;
+pub use shard::Shard;
+
+use self::axes::{axis, grid_axes, speeds, torques};
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
@@ -40,12 +47,12 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::study::{Analysis, Grid, SpeedAxis, Study, TorqueAxis};
+use gearloss_framework::study::{Analysis, Grid, Study};
 use gearloss_framework::transmission::Transmission;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 
-use crate::args::RunArgs;
+use crate::args::{ResultArgs, RunArgs};
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
 use crate::report::Report;
@@ -79,9 +86,65 @@ pub(super) struct Runner<'a> {
     left: Cell<usize>,
     /// Files of points that the analysis at hand has read, with their hashes.
     read: RefCell<Vec<(String, String)>>,
+    /// Files that the gearboxes had read before any analysis.
+    known: Vec<Vec<PathBuf>>,
+    /// What shards have computed, where they are merged.
+    parts: Option<Parts>,
+}
+
+impl<'a> Runner<'a> {
+    fn new(language: &'a Language, study: &'a Study, folder: PathBuf, parts: Option<Parts>) -> Self {
+        let known = |(_, gearbox): &(String, Gearbox)| gearbox.files.all().into_iter().map(|(file, _)| file).collect();
+        Self {
+            language,
+            study,
+            folder,
+            progress: Out::error().is_terminal(),
+            report: RefCell::default(),
+            names: RefCell::default(),
+            left: Cell::new(0),
+            read: RefCell::default(),
+            known: study.gearboxes.iter().map(known).collect(),
+            parts,
+        }
+    }
 }
 
 impl Runner<'_> {
+    /// Runs an analysis, with its section in the report. What another one has read is forgotten: the inputs that its results
+    /// name are its own, whatever ran before.
+    fn attempt(&self, name: &str, analysis: &Analysis, out: &mut Out) -> Result<(), Failure> {
+        self.report.borrow_mut().begin(name, about(analysis));
+        self.read.borrow_mut().clear();
+        for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
+            gearbox.files.forget_all_but(known);
+        }
+        out.begin_copy();
+        let done = match analysis {
+            Analysis::Map(entry) => map::run(self, name, entry, out),
+            Analysis::Compare(entry) => compare::run(self, name, entry, out),
+            Analysis::Breakdown(entry) => breakdown::run(self, name, entry, out),
+            Analysis::ComponentCompare(entry) => component_compare::run(self, name, entry, out),
+            Analysis::ContactPath(entry) => contact_path::run(self, name, entry, out),
+            Analysis::OperatingPoints(entry) => operating_points::run(self, name, entry, out),
+            Analysis::ThermalLimit(entry) => thermal_limit::run(self, name, entry, out),
+            Analysis::Balance(entry) => balance::run(self, name, entry, out),
+            Analysis::Sweep(entry) => sweep::run(self, name, entry, out),
+            Analysis::Tournament(entry) => tournament::run(self, name, entry, out),
+            Analysis::Uncertainty(entry) => uncertainty::run(self, name, entry, out),
+            Analysis::Identify(entry) => identify::run(self, name, entry, out),
+            Analysis::Sensitivity(entry) => sensitivity::run(self, name, entry, out),
+            Analysis::RmsSurface(entry) => rms_surface::run(self, name, entry, out),
+            Analysis::Cycle(entry) => cycle::run(self, name, entry, out),
+            Analysis::FluidSweep(entry) => fluid_sweep::run(self, name, entry, out),
+            Analysis::SpinLoss(entry) => breakdown::spin_loss(self, name, entry, out),
+            Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(self, name, entry, out),
+        };
+        let printed = out.end_copy();
+        self.report.borrow_mut().text(&printed);
+        done
+    }
+
     /// The gearbox under each set; under its own models where no set is named.
     fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &'s [String]) -> Result<Vec<Built<'s>>, Failure> {
         self.built_with(gearbox, sets, &[])
@@ -155,12 +218,38 @@ impl Runner<'_> {
         Ok(all)
     }
 
-    /// Solves all points and hands them over piece by piece.
+    /// Solves all points and hands them over piece by piece. Those `of` a map, its analysis and its number there, come from
+    /// the shards where they are merged.
     fn solve_pieces(
         &self,
         built: &Built<'_>,
         points: &Points,
-        _of: Option<(&str, usize)>,
+        of: Option<(&str, usize)>,
+        take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let mut seen = Vec::new();
+        let mut counted = |piece: Piece| {
+            merge(&mut seen, &piece.seen);
+            take(piece)
+        };
+        let solved = self.parts.as_ref().zip(of).and_then(|(parts, of)| parts.pieces(of));
+        match solved {
+            Some(solved) => solved.into_iter().try_for_each(|piece| counted(piece?))?,
+            None => {
+                let numbers: Vec<usize> = (0..pieces(points.field.len())).collect();
+                self.evaluate(built, points, &numbers, &mut counted)?;
+            }
+        }
+        self.seen(&built.transmission, &seen);
+        Ok(())
+    }
+
+    /// Solves pieces of given numbers, however they are wanted.
+    fn evaluate(
+        &self,
+        built: &Built<'_>,
+        points: &Points,
+        numbers: &[usize],
         take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let bar = self.bar(points.field.len() as u64, &built.name);
@@ -168,10 +257,8 @@ impl Runner<'_> {
             bar.inc(n as u64);
             !interrupt::pressed()
         };
-        let numbers: Vec<usize> = (0..pieces(points.field.len())).collect();
-        let (mut seen, mut fault) = (Vec::new(), None);
-        let whole = solve_pieces(&built.transmission, points, &numbers, &going, &mut |piece| {
-            merge(&mut seen, &piece.seen);
+        let mut fault = None;
+        let whole = solve_pieces(&built.transmission, points, numbers, &going, &mut |piece| {
             fault = take(piece).err();
             fault.is_none()
         });
@@ -179,10 +266,7 @@ impl Runner<'_> {
         let whole = whole.map_err(|list| Failure::from(built.gearbox.findings(list)))?;
         match fault {
             Some(fault) => Err(fault),
-            None if whole => {
-                self.seen(&built.transmission, &seen);
-                Ok(())
-            }
+            None if whole => Ok(()),
             None => Err(Failure::Interrupted),
         }
     }
@@ -222,8 +306,28 @@ impl Runner<'_> {
 
 pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     let language = Language::linked()?;
-    let study = Study::read(&language, &args.study)?;
-    study.check(&language)?;
+    let study = read(&language, &args.study)?;
+    match args.shard {
+        Some(shard) => shard::run(&language, &study, shard, args, out),
+        None => all(&language, &study, None, &args.results, out),
+    }
+}
+
+/// A study, checked.
+pub(super) fn read(language: &Language, file: &Path) -> Result<Study, Failure> {
+    let study = Study::read(language, file)?;
+    study.check(language)?;
+    Ok(study)
+}
+
+/// All analyses and the report; what shards have computed is taken from them.
+pub(super) fn all(
+    language: &Language,
+    study: &Study,
+    parts: Option<Parts>,
+    args: &ResultArgs,
+    out: &mut Out,
+) -> Result<End, Failure> {
     let folder = args.output.clone().unwrap_or_else(|| study.folder.join("results"));
     if let Some(wrong) = args.deny.iter().find(|what| *what != "extrapolation") {
         return Err(Failure::input(
@@ -233,51 +337,22 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     }
     let template = report::template(args.template.as_deref())?;
     replaced(&folder, args.force, out)?;
-    let runner = Runner {
-        language: &language,
-        study: &study,
-        folder,
-        progress: Out::error().is_terminal(),
-        report: RefCell::default(),
-        names: RefCell::default(),
-        left: Cell::new(0),
-        read: RefCell::default(),
-    };
+    let runner = Runner::new(language, study, folder, parts);
     if let Some(title) = &study.entry.title {
         out.line(title)?;
         out.line("")?;
     }
-    overridden(&study, out)?;
+    overridden(study, out)?;
     // A folder that cannot be written is told before anything is computed.
     write::folder(&runner)?;
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
-        runner.report.borrow_mut().begin(name, about(analysis));
-        runner.read.borrow_mut().clear();
-        out.begin_copy();
-        let done = match analysis {
-            Analysis::Map(entry) => map::run(&runner, name, entry, out),
-            Analysis::Compare(entry) => compare::run(&runner, name, entry, out),
-            Analysis::Breakdown(entry) => breakdown::run(&runner, name, entry, out),
-            Analysis::ComponentCompare(entry) => component_compare::run(&runner, name, entry, out),
-            Analysis::ContactPath(entry) => contact_path::run(&runner, name, entry, out),
-            Analysis::OperatingPoints(entry) => operating_points::run(&runner, name, entry, out),
-            Analysis::ThermalLimit(entry) => thermal_limit::run(&runner, name, entry, out),
-            Analysis::Balance(entry) => balance::run(&runner, name, entry, out),
-            Analysis::Sweep(entry) => sweep::run(&runner, name, entry, out),
-            Analysis::Tournament(entry) => tournament::run(&runner, name, entry, out),
-            Analysis::Uncertainty(entry) => uncertainty::run(&runner, name, entry, out),
-            Analysis::Identify(entry) => identify::run(&runner, name, entry, out),
-            Analysis::Sensitivity(entry) => sensitivity::run(&runner, name, entry, out),
-            Analysis::RmsSurface(entry) => rms_surface::run(&runner, name, entry, out),
-            Analysis::Cycle(entry) => cycle::run(&runner, name, entry, out),
-            Analysis::FluidSweep(entry) => fluid_sweep::run(&runner, name, entry, out),
-            Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
-            Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
+        let outcome = runner.parts.as_ref().and_then(|parts| parts.outcome(name));
+        let done = match outcome {
+            Some(outcome) => outcome.replay(&runner, out),
+            None => runner.attempt(name, analysis, out),
         };
-        let printed = out.end_copy();
-        runner.report.borrow_mut().text(&printed);
         match done {
             Ok(()) => {}
             // What was computed before and what comes after is kept.
@@ -318,52 +393,6 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             study.entry.analyses.len()
         )))
     }
-}
-
-/// Values of an axis, or the fault with its path.
-fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Failure> {
-    values.map_err(|reason| {
-        let mend = if reason.contains("rating") {
-            "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis values of its own"
-        } else {
-            "give a step that leads from one end to the other"
-        };
-        runner.wrong(path, reason, mend)
-    })
-}
-
-/// The most points of one grid.
-const MOST_POINTS: usize = 20_000_000;
-
-/// Torques and speeds of a grid for a gearbox; each rises or falls all along.
-fn grid_axes(runner: &Runner<'_>, name: &str, grid: &Grid, t: &Transmission) -> Result<(Vec<f64>, Vec<f64>), Failure> {
-    let path = format!("grids.{name}");
-    let own = (
-        torques(runner, &format!("{path}.torque"), &grid.torque, t)?,
-        speeds(runner, &format!("{path}.speed"), &grid.speed, t)?,
-    );
-    for (list, key) in [(&own.0, "torque"), (&own.1, "speed")] {
-        let along = |rises: bool| list.windows(2).all(|w| if rises { w[0] < w[1] } else { w[0] > w[1] });
-        if !along(true) && !along(false) {
-            let message = "the values of a grid's axis neither rise nor fall all along";
-            return Err(runner.wrong(&format!("{path}.{key}"), message, "sort them, and name each once"));
-        }
-    }
-    if own.0.len().saturating_mul(own.1.len()) > MOST_POINTS {
-        let message = format!("the grid has more than {MOST_POINTS} points");
-        return Err(runner.wrong(&path, message, "take wider steps"));
-    }
-    Ok(own)
-}
-
-/// Torques of an axis for a gearbox.
-fn torques(runner: &Runner<'_>, path: &str, axis_of: &TorqueAxis, t: &Transmission) -> Result<Vec<f64>, Failure> {
-    axis(runner, path, axis_of.values(t.rating.map(|r| r.torque)))
-}
-
-/// Speeds of an axis for a gearbox.
-fn speeds(runner: &Runner<'_>, path: &str, axis_of: &SpeedAxis, t: &Transmission) -> Result<Vec<f64>, Failure> {
-    axis(runner, path, axis_of.values(t.rating.map(|r| r.speed)))
 }
 
 /// The gear state that an analysis names, or the first.

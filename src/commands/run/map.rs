@@ -244,7 +244,7 @@ fn common(points: &[PointResult]) -> Option<f64> {
 
 /// Axes of a grid for one gearbox.
 #[derive(Clone)]
-struct Axes {
+pub struct Axes {
     /// \[Nm\]
     torques: Vec<f64>,
     /// \[rad/s\]

@@ -33,7 +33,12 @@ impl PieceFile {
     /// A file to go on with, with the numbers and places of its whole pieces; what follows the last of them is overwritten.
     pub fn reopen(path: PathBuf) -> io::Result<(Self, Vec<(usize, Place)>)> {
         let mut options = OpenOptions::new();
-        let file = options.read(true).write(true).create(true).truncate(false).open(&path)?;
+        let file = options
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&path)?;
         let mut file = Self::at_start(file, path);
         let found = file.scan()?;
         file.file.set_len(file.end)?;
@@ -45,6 +50,11 @@ impl PieceFile {
         let mut file = Self::at_start(File::open(&path)?, path);
         let found = file.scan()?;
         Ok((file, found))
+    }
+
+    /// The piece at a place of a file.
+    pub fn at_place(path: &Path, place: Place) -> io::Result<Piece> {
+        Self::at_start(File::open(path)?, path.to_owned()).piece(place)
     }
 
     fn at_start(file: File, path: PathBuf) -> Self {

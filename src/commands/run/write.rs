@@ -6,7 +6,7 @@ use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::report::Figure;
-use gearloss_framework::study::Write;
+use gearloss_framework::study::{Study, Write};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -16,20 +16,7 @@ use crate::output::Failure;
 
 /// What stands at the head of every JSON result.
 pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value {
-    let mut inputs = vec![json!({ "gearbox": null, "file": "study", "fnv1a_64": hash(runner.study.text.as_bytes()) })];
-    for (name, gearbox) in &runner.study.gearboxes {
-        for source in 0.. {
-            let Some((file, text)) = gearbox.sources.get(source) else {
-                break;
-            };
-            let file = Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file));
-            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
-        }
-        for (file, text) in gearbox.files.all() {
-            let file = file.file_name().and_then(|f| f.to_str()).unwrap_or_default().to_owned();
-            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
-        }
-    }
+    let mut inputs = inputs(runner.study);
     for (file, hash) in runner.read.borrow().iter() {
         inputs.push(json!({ "gearbox": null, "file": file, "fnv1a_64": hash }));
     }
@@ -50,6 +37,25 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
         "inputs": inputs,
         "unreached": built.iter().map(|b| json!({ "model_set": b.name, "lines": b.resolved.unreached })).collect::<Vec<_>>(),
     })
+}
+
+/// The study, its gearboxes and the files that they have read, with their hashes.
+pub fn inputs(study: &Study) -> Vec<Value> {
+    let mut list = vec![json!({ "gearbox": null, "file": "study", "fnv1a_64": hash(study.text.as_bytes()) })];
+    for (name, gearbox) in &study.gearboxes {
+        for source in 0.. {
+            let Some((file, text)) = gearbox.sources.get(source) else {
+                break;
+            };
+            let file = Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file));
+            list.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
+        }
+        for (file, text) in gearbox.files.all() {
+            let file = file.file_name().and_then(|f| f.to_str()).unwrap_or_default().to_owned();
+            list.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
+        }
+    }
+    list
 }
 
 /// Name of the page.
