@@ -38,7 +38,6 @@ pub use shard::Shard;
 use self::axes::{axis, grid_axes, speeds, torques};
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::analysis::{Field, Given, GridResult, Piece, Points, merge, notes, pieces, solve_pieces};
@@ -81,7 +80,7 @@ pub(super) struct Runner<'a> {
     progress: bool,
     report: RefCell<Report>,
     /// Files that were written.
-    names: RefCell<BTreeSet<String>>,
+    names: write::Names,
     /// Limits that were left at any point, counted over all analyses.
     left: Cell<usize>,
     /// Files of points that the analysis at hand has read, with their hashes.
@@ -101,7 +100,7 @@ impl<'a> Runner<'a> {
             folder,
             progress: Out::error().is_terminal(),
             report: RefCell::default(),
-            names: RefCell::default(),
+            names: write::Names::default(),
             left: Cell::new(0),
             read: RefCell::default(),
             known: study.gearboxes.iter().map(known).collect(),
@@ -252,7 +251,9 @@ impl Runner<'_> {
         numbers: &[usize],
         take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        let bar = self.bar(points.field.len() as u64, &built.name);
+        let count = points.field.len();
+        let own = count * numbers.len() / pieces(count).max(1);
+        let bar = self.bar(own as u64, &built.name);
         let going = |n: usize| {
             bar.inc(n as u64);
             !interrupt::pressed()

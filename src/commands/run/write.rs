@@ -1,9 +1,12 @@
 //! Files of results.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use gearloss_framework::report::Figure;
 use gearloss_framework::study::{Study, Write};
@@ -63,9 +66,7 @@ pub const REPORT: &str = "report.html";
 
 /// Makes the folder of the results, or says why it cannot.
 pub fn folder(runner: &Runner<'_>) -> Result<(), Failure> {
-    let (place, _) = Place::new(runner, REPORT)?;
-    let _ = fs::remove_file(&place.part);
-    Ok(())
+    Place::new(runner, REPORT).map(|_| ())
 }
 
 /// Takes away what an earlier run of an analysis left, because it would pass for the results of this one. What this run has
@@ -107,16 +108,21 @@ pub fn write_json(runner: &Runner<'_>, name: &str, formats: &[Write], value: &im
     place.done(written.map_err(|e| e.to_string()))
 }
 
-/// A file that is written beside its place and moved there when it is whole.
+/// A file that is written beside its place and moved there when it is whole; until then its name is held for it.
 struct Place {
+    name: String,
+    names: Names,
     part: PathBuf,
     path: PathBuf,
 }
 
+/// Names of the files of a run.
+pub type Names = Rc<RefCell<BTreeSet<String>>>;
+
 impl Place {
     fn new(runner: &Runner<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
         // Names of analyses, sets and products are joined with hyphens, which they may hold themselves.
-        if name != REPORT && !runner.names.borrow_mut().insert(name.to_owned()) {
+        if !runner.names.borrow_mut().insert(name.to_owned()) {
             return Err(Failure::input(
                 format!("two results would be called {name}"),
                 "rename an analysis or a set of models",
@@ -124,6 +130,8 @@ impl Place {
         }
         let path = runner.folder.join(name);
         let place = Self {
+            name: name.to_owned(),
+            names: Rc::clone(&runner.names),
             part: path.with_file_name(format!("{name}.part")),
             path,
         };
@@ -141,13 +149,22 @@ impl Place {
         )
     }
 
-    /// Moves the file to its place, or takes it away where it was not written whole.
-    fn done(&self, written: Result<(), String>) -> Result<(), Failure> {
+    /// Moves the file to its place, if it was written whole.
+    fn done(mut self, written: Result<(), String>) -> Result<(), Failure> {
         let moved = written.and_then(|()| fs::rename(&self.part, &self.path).map_err(|e| e.to_string()));
-        moved.map_err(|e| {
+        moved.map_err(|e| self.cannot(&e))?;
+        self.name.clear();
+        Ok(())
+    }
+}
+
+impl Drop for Place {
+    /// Takes away what was not written whole, and lets its name go.
+    fn drop(&mut self) {
+        if !self.name.is_empty() {
             let _ = fs::remove_file(&self.part);
-            self.cannot(&e)
-        })
+            self.names.borrow_mut().remove(&self.name);
+        }
     }
 }
 

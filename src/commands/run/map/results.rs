@@ -25,7 +25,13 @@ impl Waited {
         if !formats.contains(&Write::Json) {
             return Ok(None);
         }
-        let made = Waiting::new(&runner.folder.join(format!("{name}.points.part")));
+        let path = runner.folder.join(format!("{name}.points.part"));
+        let made = Waiting::new(&path).map_err(|e| {
+            Failure::input(
+                format!("cannot write {}: {e}", path.display()),
+                "name another folder with -o",
+            )
+        });
         Ok(Some(Self(RefCell::new(made?))))
     }
 
