@@ -196,12 +196,8 @@ fn failures_and_denials_are_those_of_the_single_run() {
     );
     assert!(words.contains("1 of 5 analyses failed"), "{words}");
 
-    let sound: String = STUDY
-        .lines()
-        .filter(|line| !line.starts_with("  beyond"))
-        .map(|line| format!("{line}\n"))
-        .collect();
-    fs::write(folder.join("study.yaml"), sound).unwrap();
+    let sound: Vec<&str> = STUDY.lines().filter(|line| !line.starts_with("  beyond")).collect();
+    fs::write(folder.join("study.yaml"), sound.join("\n")).unwrap();
     for old in ["part-1", "part-2", "results"] {
         fs::remove_dir_all(folder.join(old)).unwrap();
     }

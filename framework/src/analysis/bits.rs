@@ -103,7 +103,9 @@ impl PointResult {
             numbers(to, list);
         }
         count(to, terms.len());
-        terms.iter().for_each(|terms| numbers(to, terms));
+        for terms in terms {
+            numbers(to, terms);
+        }
         count(to, *passes);
         count(to, *evaluations);
         to.push(u8::from(undefined.is_some()));
@@ -254,8 +256,8 @@ mod tests {
             speed: -0.0,
             torque_speed: 1.0 / 3.0,
             reference_speed: 1e-300,
-            output_speed: (i % 2 == 0).then_some(7.0),
-            at_reference: i % 3 == 0,
+            output_speed: i.is_multiple_of(2).then_some(7.0),
+            at_reference: i.is_multiple_of(3),
             oil: Some(80.0),
             surface: None,
             balance: OUTCOMES.get(i).copied(),
@@ -269,7 +271,7 @@ mod tests {
             sums: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
             parts: vec![0.25; 3 * i],
             terms: vec![[1.5; MOST_TERMS]; i],
-            outside: i % 2 == 1,
+            outside: !i.is_multiple_of(2),
             undefined: (i == 2).then_some((
                 4,
                 Undefined {

@@ -1,6 +1,7 @@
 //! Losses and efficiency over a grid.
 
 mod export;
+mod files;
 mod kept;
 mod over_bound;
 mod pictures;
@@ -17,14 +18,13 @@ use gearloss_framework::measured::{Measured, Row};
 use gearloss_framework::study::MapEntry;
 use serde_json::Value;
 
+use self::files::Files;
 use self::kept::{Brief, Kept, Shown};
 use self::over_bound::over_bound;
 use self::pictures::pictures;
 pub(super) use self::plan::Planned;
-use self::results::Waited;
-use self::rows::{RowsOf, header};
+use self::rows::RowsOf;
 use super::super::solve::{RPM, outside};
-use super::write::{TableFile, head, write_json};
 use super::{Built, Runner};
 use crate::output::{Failure, Out, Table, number};
 
@@ -111,46 +111,6 @@ impl Mark {
             gear: row.gear.clone(),
             torque: measured.value(row, "torque").unwrap_or(0.0),
             speed: measured.value(row, "speed").unwrap_or(0.0),
-        }
-    }
-}
-
-/// The files of a map that are written while its points are solved.
-struct Files {
-    parts: Vec<String>,
-    table: TableFile,
-    waited: Option<Waited>,
-}
-
-impl Files {
-    fn new(
-        runner: &Runner<'_>,
-        name: &str,
-        entry: &MapEntry,
-        bound: &[String],
-        all: &[&Built<'_>],
-    ) -> Result<Self, Failure> {
-        // Sets may differ in their parts; each part has one column, empty where a set has it not.
-        let mut parts: Vec<String> = Vec::new();
-        for part in all.iter().flat_map(|built| built.transmission.parts()) {
-            if !parts.contains(&part.path) {
-                parts.push(part.path.clone());
-            }
-        }
-        Ok(Self {
-            table: TableFile::new(runner, name, &entry.write, &header(bound, &parts))?,
-            waited: Waited::where_asked(runner, name, &entry.write)?,
-            parts,
-        })
-    }
-
-    /// Ends the table, and writes the JSON with the points that have waited for it.
-    fn finish(self, runner: &Runner<'_>, name: &str, entry: &MapEntry, maps: &[Map<'_>]) -> Result<(), Failure> {
-        self.table.finish()?;
-        let head = head(runner, name, &maps.iter().map(|m| &*m.built).collect::<Vec<_>>());
-        match self.waited {
-            Some(waited) => write_json(runner, name, &entry.write, &waited.results(head, maps)),
-            None => Ok(()),
         }
     }
 }

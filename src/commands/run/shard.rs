@@ -143,9 +143,8 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
     let deal = Deal::of(&runner, shard.of);
     let mut count = Count::default();
     let done = deal.works.iter().try_for_each(|work| match &work.kind {
-        Kind::Faulty => Ok(()),
         Kind::Whole(unit) if deal.owner(*unit) == shard.number => whole(&runner, work, &mut count),
-        Kind::Whole(_) => Ok(()),
+        Kind::Whole(_) | Kind::Faulty => Ok(()),
         Kind::Maps(maps) => maps.iter().enumerate().try_for_each(|(number, map)| {
             let own = (0..map.pieces()).filter(|piece| deal.owner(map.first + piece) == shard.number);
             of_map(&runner, work.name, number, map, own.collect(), &mut count)
