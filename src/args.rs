@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::commands::run::Shard;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
 /// Power losses, efficiency and operating temperature of transmissions.
@@ -24,6 +25,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Runs a study and writes its results.
     Run(RunArgs),
+    /// Joins the parts of `run --shard` to the results of the whole study.
+    Merge(MergeArgs),
     /// Lists mechanisms and models, or what a gearbox lacks for them.
     Models(ModelsArgs),
     /// Evaluates one model alone.
@@ -306,6 +309,28 @@ pub struct ExplainArgs {
 pub struct RunArgs {
     /// Study file.
     pub study: PathBuf,
+    /// Computes only part K of N, for `merge`: what is not yet there of it. Its folder is `shards/K-of-N` beside the study, or
+    /// that of -o.
+    #[arg(long, value_name = "K/N", conflicts_with_all = ["template", "force", "deny"])]
+    pub shard: Option<Shard>,
+    #[command(flatten)]
+    pub results: ResultArgs,
+}
+
+/// Arguments of `merge`.
+#[derive(Debug, ClapArgs)]
+pub struct MergeArgs {
+    /// Study file.
+    pub study: PathBuf,
+    /// Folders of all shards; absent, those in `shards` beside the study.
+    pub parts: Vec<PathBuf>,
+    #[command(flatten)]
+    pub results: ResultArgs,
+}
+
+/// Where the results of a study go, and how it ends.
+#[derive(Debug, ClapArgs)]
+pub struct ResultArgs {
     /// Folder for the results; absent, `results` beside the study.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,

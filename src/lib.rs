@@ -65,6 +65,7 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Solve(args) => commands::solve::run(&args, &mut out),
         Command::Explain(args) => commands::explain::run(&args, &mut out),
         Command::Run(args) => commands::run::run(&args, &mut out),
+        Command::Merge(args) => commands::merge::run(&args, &mut out),
         Command::Models(args) => commands::models::run(&args, &mut out),
         Command::Eval(args) => commands::eval::run(&args, &mut out),
         Command::Schema(args) => commands::schema::run(&args, &mut out),

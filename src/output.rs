@@ -72,6 +72,16 @@ impl Out {
         }
     }
 
+    /// Nowhere: only copies are kept.
+    pub fn nowhere() -> Self {
+        Self {
+            to: Box::new(io::sink()),
+            terminal: false,
+            closed: true,
+            copy: None,
+        }
+    }
+
     /// True on a terminal.
     pub fn is_terminal(&self) -> bool {
         self.terminal

@@ -4,7 +4,7 @@ use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::report::Figure;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, Value as Filled};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// The template that is used unless the user gives one of his own.
@@ -18,8 +18,8 @@ pub struct Report {
 }
 
 /// One analysis.
-#[derive(Debug, Serialize)]
-struct Section {
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Section {
     name: String,
     /// What the analysis is, as a sentence.
     about: String,
@@ -30,12 +30,36 @@ struct Section {
     figures: Vec<Shown>,
 }
 
+impl Section {
+    /// Tables and notes as printed.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
 /// A picture in the page.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Shown {
-    id: String,
     title: String,
-    spec: Value,
+    /// Traces and layout, as JSON.
+    spec: String,
+}
+
+/// A section as templates see it.
+#[derive(Serialize)]
+struct SectionOfPage<'a> {
+    name: &'a str,
+    about: &'a str,
+    verdicts: &'a [String],
+    text: &'a str,
+    figures: Vec<FigureOfPage<'a>>,
+}
+
+/// A picture as templates see it; its data stand in `figures`.
+#[derive(Serialize)]
+struct FigureOfPage<'a> {
+    id: String,
+    title: &'a str,
 }
 
 /// A gearbox with what its results rest on.
@@ -101,19 +125,22 @@ impl Report {
         });
     }
 
-    /// Takes back the section of an analysis that was not finished.
-    pub fn drop_last(&mut self) {
-        self.sections.pop();
+    /// Takes back the last section.
+    pub fn drop_last(&mut self) -> Option<Section> {
+        self.sections.pop()
+    }
+
+    /// Adds a section that was made elsewhere.
+    pub fn add(&mut self, section: Section) {
+        self.sections.push(section);
     }
 
     /// Adds a picture to the section.
     pub fn figure(&mut self, figure: Figure) {
-        let id = self.sections.iter().map(|s| s.figures.len()).sum::<usize>();
         if let Some(section) = self.sections.last_mut() {
             section.figures.push(Shown {
-                id: format!("figure-{id}"),
                 title: figure.title().to_owned(),
-                spec: figure.plotly(),
+                spec: figure.plotly().to_string(),
             });
         }
     }
@@ -148,13 +175,33 @@ impl Report {
             .add_template("report", template.unwrap_or(TEMPLATE))
             .map_err(|e| format!("{e:#}"))?;
         let page = environment.get_template("report").map_err(|e| format!("{e:#}"))?;
-        let figures: Vec<&Shown> = self.sections.iter().flat_map(|s| &s.figures).collect();
-        let data = serde_json::to_string(&figures).map_err(|e| e.to_string())?;
+        let mut data: Vec<String> = Vec::new();
+        let mut sections = Vec::new();
+        for section in &self.sections {
+            let mut figures = Vec::new();
+            for Shown { title, spec } in &section.figures {
+                let id = format!("figure-{}", data.len());
+                data.push(format!(
+                    r#"{{"id":{},"title":{},"spec":{spec}}}"#,
+                    Value::from(id.as_str()),
+                    Value::from(title.as_str())
+                ));
+                figures.push(FigureOfPage { id, title });
+            }
+            sections.push(SectionOfPage {
+                name: &section.name,
+                about: &section.about,
+                verdicts: &section.verdicts,
+                text: &section.text,
+                figures,
+            });
+        }
+        let data = format!("[{}]", data.join(","));
         // A text in the data must not end the script that holds it.
         let data = data.replace("</", "<\\/");
         page.render(minijinja::context! {
             frame => Filled::from(Serde(frame)),
-            sections => Filled::from(Serde(&self.sections)),
+            sections => Filled::from(Serde(&sections)),
             gearboxes => Filled::from(Serde(&self.gearboxes)),
             plotly => script(),
             figures => data,

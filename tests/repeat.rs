@@ -3,8 +3,10 @@
 
 mod common;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use common::{RPM, language, two_speed_with};
-use gearloss_framework::analysis::{Field, OilTemperature, Points, run_grid};
+use gearloss_framework::analysis::{Field, MOST_HELD, OilTemperature, Points, pieces, run_grid, solve_pieces};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use serde_json::json;
@@ -80,4 +82,86 @@ fn one_thread_and_many_give_the_same_bits() {
         "{} passes for 713 points",
         one.passes
     );
+}
+
+/// Counts what was solved and not yet taken, whatever the speed of both sides.
+#[test]
+fn few_points_of_a_large_field_are_held_at_once() {
+    let language = language();
+    let t = two_speed_with(&language, Some("joint"), &[]);
+    let torques: Vec<f64> = (0..400).map(|i| 0.05 * f64::from(i)).collect();
+    let speeds: Vec<f64> = (0..320).map(|i| f64::from(i) * 60.0 * RPM).collect();
+    let count = torques.len() * speeds.len();
+    assert!(count > 3 * MOST_HELD);
+    let points = Points {
+        gear: "first".to_owned(),
+        torque_at: vec!["input".to_owned()],
+        speed_at: vec!["input".to_owned()],
+        field: Field::Grid { torques, speeds },
+        oil: OilTemperature::Fixed(100.0),
+        flow: PowerFlow::Real,
+        terms: false,
+    };
+    let numbers: Vec<usize> = (0..pieces(count)).collect();
+    for threads in [1, 3] {
+        let (held, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let solved = |more: usize| {
+            let now = held.fetch_add(more, Ordering::SeqCst) + more;
+            most.fetch_max(now, Ordering::SeqCst);
+            true
+        };
+        let (mut taken, mut next) = (0, 0);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let whole = pool.install(|| {
+            solve_pieces(&t, &points, &numbers, &solved, &mut |piece| {
+                assert_eq!(piece.number, next);
+                next += 1;
+                taken += piece.points.len();
+                held.fetch_sub(piece.points.len(), Ordering::SeqCst);
+                true
+            })
+        });
+        assert!(whole.unwrap());
+        assert_eq!((taken, next), (count, numbers.len()));
+        let most = most.into_inner();
+        assert!(most <= MOST_HELD && most > MOST_HELD / 4, "{most} of {MOST_HELD} held");
+    }
+}
+
+/// A piece is the same alone, among others, and in the whole field.
+#[test]
+fn pieces_solved_alone_are_those_of_the_whole_field() {
+    let language = language();
+    let t = two_speed_with(&language, Some("joint"), &[]);
+    let points = Points {
+        gear: "first".to_owned(),
+        torque_at: vec!["input".to_owned()],
+        speed_at: vec!["input".to_owned()],
+        field: Field::Grid {
+            torques: (0..50).map(|i| 0.4 * f64::from(i)).collect(),
+            speeds: (0..70).map(|i| f64::from(i) * 300.0 * RPM).collect(),
+        },
+        oil: OilTemperature::Fixed(100.0),
+        flow: PowerFlow::Real,
+        terms: false,
+    };
+    let whole = run_grid(&t, &points, &|_| true).unwrap().unwrap();
+    assert_eq!(pieces(points.field.len()), 4);
+    let mut start = 0;
+    let mut seen = Vec::new();
+    for number in 0..4 {
+        let mut alone = Vec::new();
+        solve_pieces(&t, &points, &[number], &|_| true, &mut |piece| {
+            alone.push(piece);
+            true
+        })
+        .unwrap();
+        let end = start + alone[0].points.len();
+        assert_eq!(alone[0].points, whole.points[start..end]);
+        gearloss_framework::analysis::merge(&mut seen, &alone[0].seen);
+        start = end;
+    }
+    assert_eq!((start, seen), (3500, whole.seen));
+    let stopped = solve_pieces(&t, &points, &[0, 1, 2, 3], &|_| true, &mut |piece| piece.number < 1);
+    assert!(!stopped.unwrap(), "who takes no more is handed no more");
 }

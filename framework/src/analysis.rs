@@ -1,8 +1,10 @@
 //! Analyses: many points of one transmission, in parallel, with the same bits on any number of threads.
 
+mod bits;
 mod cycle;
 mod grid;
 mod notes;
+mod pieces;
 mod rows;
 mod statistics;
 mod sums;
@@ -11,6 +13,7 @@ mod temperature;
 pub use cycle::{Driven, Ride, Stretch, drive};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use notes::{Note, Stated, WeakPoint, evidence, notes};
+pub use pieces::{MOST_HELD, Piece, pieces, solve_pieces};
 pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
 pub use statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use sums::{SUMS, sum_of};

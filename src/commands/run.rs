@@ -1,5 +1,6 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
+mod axes;
 mod balance;
 mod breakdown;
 mod compare;
@@ -14,11 +15,15 @@ mod inputs;
 mod map;
 mod operating_points;
 mod parquet;
+mod parts;
+mod pieces;
 mod ranges;
 mod report;
 mod rms_surface;
 mod rows;
+mod runner;
 mod sensitivity;
+mod shard;
 mod shares;
 mod sweep;
 mod thermal_limit;
@@ -28,173 +33,46 @@ mod uncertainty;
 mod write;
 
 pub(super) use map::tidy;
+pub(super) use parts::Parts;
+pub use shard::Shard;
 
-use std::cell::{Cell, RefCell};
-use std::collections::BTreeSet;
+use self::axes::{axis, grid_axes, speeds, torques};
+use self::runner::{Built, Runner};
+
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::{Field, Given, GridResult, Points, notes, run_grid};
-use gearloss_framework::document::Diagnostic;
-use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
-use gearloss_framework::loss::Extent;
-use gearloss_framework::resolve::Resolved;
-use gearloss_framework::study::{Analysis, Grid, SpeedAxis, Study, TorqueAxis};
+use gearloss_framework::study::{Analysis, Study};
 use gearloss_framework::transmission::Transmission;
-use indicatif::{ProgressBar, ProgressStyle};
-use serde_json::Value;
 
-use crate::args::RunArgs;
+use crate::args::{ResultArgs, RunArgs};
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
-use crate::report::Report;
-
-/// One gearbox under one set of models.
-pub(super) struct Built<'a> {
-    pub name: String,
-    pub gearbox: &'a Gearbox,
-    pub resolved: Resolved,
-    pub transmission: Transmission,
-}
-
-impl Built<'_> {
-    /// The set as a choice names it: without the product, absent for the gearbox's own models.
-    pub fn set(&self) -> Option<&str> {
-        let set = self.name.rsplit('/').next();
-        set.filter(|set| *set != "own")
-    }
-}
-
-/// What all analyses of one run share.
-pub(super) struct Runner<'a> {
-    language: &'a Language,
-    study: &'a Study,
-    folder: PathBuf,
-    progress: bool,
-    report: RefCell<Report>,
-    /// Files that were written.
-    names: RefCell<BTreeSet<String>>,
-    /// Limits that were left at any point, counted over all analyses.
-    left: Cell<usize>,
-    /// Files of points that the analysis at hand has read, with their hashes.
-    read: RefCell<Vec<(String, String)>>,
-}
-
-impl Runner<'_> {
-    /// The gearbox under each set; under its own models where no set is named.
-    fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &'s [String]) -> Result<Vec<Built<'s>>, Failure> {
-        self.built_with(gearbox, sets, &[])
-    }
-
-    /// As [`Runner::built`], with further overrides.
-    fn built_with<'s>(
-        &'s self,
-        gearbox: &'s Gearbox,
-        sets: &'s [String],
-        overrides: &[(String, Value)],
-    ) -> Result<Vec<Built<'s>>, Failure> {
-        let build = |name: Option<&'s str>| -> Result<Built<'s>, Failure> {
-            let (gearbox, set) = match name {
-                Some(name) => self.study.reference("analyses", name, gearbox)?,
-                None => (gearbox, None),
-            };
-            let mut choice = self.study.choice(set);
-            choice.overrides.extend_from_slice(overrides);
-            let resolved = gearbox.resolve(self.language, &choice)?;
-            let transmission = gearbox.build(self.language, &resolved)?;
-            Ok(Built {
-                name: name.unwrap_or("own").to_owned(),
-                gearbox,
-                resolved,
-                transmission,
-            })
-        };
-        if sets.is_empty() {
-            Ok(vec![build(None)?])
-        } else {
-            sets.iter().map(|set| build(Some(set))).collect()
-        }
-    }
-
-    /// The points of axes under the study's conditions.
-    fn points(&self, transmission: &Transmission, gear: &str, torques: Vec<f64>, speeds: Vec<f64>) -> Points {
-        self.field(transmission, gear, Field::Grid { torques, speeds })
-    }
-
-    /// The points of a list under the study's conditions.
-    fn listed(&self, transmission: &Transmission, gear: &str, list: Vec<Given>) -> Points {
-        self.field(transmission, gear, Field::List(list))
-    }
-
-    fn field(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
-        self.study.points(transmission, gear, field)
-    }
-
-    /// A bar of progress on standard error, on a terminal only.
-    fn bar(&self, count: u64, name: &str) -> ProgressBar {
-        let bar = if self.progress {
-            ProgressBar::new(count)
-        } else {
-            ProgressBar::hidden()
-        };
-        if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {pos}/{len}") {
-            bar.set_style(style);
-        }
-        bar.set_message(name.to_owned());
-        bar
-    }
-
-    fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
-        let bar = self.bar(points.field.len() as u64, &built.name);
-        let going = |n: usize| {
-            bar.inc(n as u64);
-            !interrupt::pressed()
-        };
-        let result = run_grid(&built.transmission, points, &going);
-        bar.finish_and_clear();
-        let result = result.map_err(|list| Failure::from(built.gearbox.findings(list)))?;
-        let result = result.ok_or(Failure::Interrupted)?;
-        self.seen(&built.transmission, &result.seen);
-        Ok(result)
-    }
-
-    /// Prints a sentence that a reader must not miss, and puts it where the report begins to tell of the analysis.
-    fn verdict(&self, sentence: String, out: &mut Out) -> Result<(), Failure> {
-        out.line(&sentence)?;
-        self.report.borrow_mut().verdict(&sentence);
-        Ok(())
-    }
-
-    /// The one gear state of a grid.
-    fn one_gear(&self, path: &str, grid: &Grid, t: &Transmission) -> Result<String, Failure> {
-        match &grid.gear.of(t)[..] {
-            [gear] => Ok(gear.clone()),
-            several => Err(self.wrong(
-                path,
-                format!("this analysis takes a grid of one gear state, not of {}", several.len()),
-                "give it a grid of its own",
-            )),
-        }
-    }
-
-    /// A fault of the study at a path.
-    fn wrong(&self, path: &str, message: impl Into<String>, mend: &str) -> Failure {
-        self.study
-            .findings(vec![Diagnostic::error(path, message.into()).mend(mend)])
-            .into()
-    }
-
-    /// Counts the limits that were left.
-    fn seen(&self, transmission: &Transmission, seen: &[Extent]) {
-        let left = notes(transmission, seen).iter().filter(|n| n.outside > 0).count();
-        self.left.set(self.left.get() + left);
-    }
-}
 
 pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     let language = Language::linked()?;
-    let study = Study::read(&language, &args.study)?;
-    study.check(&language)?;
+    let study = read(&language, &args.study)?;
+    match args.shard {
+        Some(shard) => shard::run(&language, &study, shard, args, out),
+        None => all(&language, &study, None, &args.results, out),
+    }
+}
+
+/// A study, checked.
+pub(super) fn read(language: &Language, file: &Path) -> Result<Study, Failure> {
+    let study = Study::read(language, file)?;
+    study.check(language)?;
+    Ok(study)
+}
+
+/// All analyses and the report; what shards have computed is taken from them.
+pub(super) fn all(
+    language: &Language,
+    study: &Study,
+    parts: Option<Parts>,
+    args: &ResultArgs,
+    out: &mut Out,
+) -> Result<End, Failure> {
     let folder = args.output.clone().unwrap_or_else(|| study.folder.join("results"));
     if let Some(wrong) = args.deny.iter().find(|what| *what != "extrapolation") {
         return Err(Failure::input(
@@ -204,51 +82,22 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     }
     let template = report::template(args.template.as_deref())?;
     replaced(&folder, args.force, out)?;
-    let runner = Runner {
-        language: &language,
-        study: &study,
-        folder,
-        progress: Out::error().is_terminal(),
-        report: RefCell::default(),
-        names: RefCell::default(),
-        left: Cell::new(0),
-        read: RefCell::default(),
-    };
+    let runner = Runner::new(language, study, folder, parts);
     if let Some(title) = &study.entry.title {
         out.line(title)?;
         out.line("")?;
     }
-    overridden(&study, out)?;
+    overridden(study, out)?;
     // A folder that cannot be written is told before anything is computed.
     write::folder(&runner)?;
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
-        runner.report.borrow_mut().begin(name, about(analysis));
-        runner.read.borrow_mut().clear();
-        out.begin_copy();
-        let done = match analysis {
-            Analysis::Map(entry) => map::run(&runner, name, entry, out),
-            Analysis::Compare(entry) => compare::run(&runner, name, entry, out),
-            Analysis::Breakdown(entry) => breakdown::run(&runner, name, entry, out),
-            Analysis::ComponentCompare(entry) => component_compare::run(&runner, name, entry, out),
-            Analysis::ContactPath(entry) => contact_path::run(&runner, name, entry, out),
-            Analysis::OperatingPoints(entry) => operating_points::run(&runner, name, entry, out),
-            Analysis::ThermalLimit(entry) => thermal_limit::run(&runner, name, entry, out),
-            Analysis::Balance(entry) => balance::run(&runner, name, entry, out),
-            Analysis::Sweep(entry) => sweep::run(&runner, name, entry, out),
-            Analysis::Tournament(entry) => tournament::run(&runner, name, entry, out),
-            Analysis::Uncertainty(entry) => uncertainty::run(&runner, name, entry, out),
-            Analysis::Identify(entry) => identify::run(&runner, name, entry, out),
-            Analysis::Sensitivity(entry) => sensitivity::run(&runner, name, entry, out),
-            Analysis::RmsSurface(entry) => rms_surface::run(&runner, name, entry, out),
-            Analysis::Cycle(entry) => cycle::run(&runner, name, entry, out),
-            Analysis::FluidSweep(entry) => fluid_sweep::run(&runner, name, entry, out),
-            Analysis::SpinLoss(entry) => breakdown::spin_loss(&runner, name, entry, out),
-            Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(&runner, name, entry, out),
+        let outcome = runner.parts.as_ref().and_then(|parts| parts.outcome(name));
+        let done = match outcome {
+            Some(outcome) => outcome.replay(&runner, out),
+            None => runner.attempt(name, analysis, out),
         };
-        let printed = out.end_copy();
-        runner.report.borrow_mut().text(&printed);
         match done {
             Ok(()) => {}
             // What was computed before and what comes after is kept.
@@ -289,52 +138,6 @@ pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
             study.entry.analyses.len()
         )))
     }
-}
-
-/// Values of an axis, or the fault with its path.
-fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Failure> {
-    values.map_err(|reason| {
-        let mend = if reason.contains("rating") {
-            "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis values of its own"
-        } else {
-            "give a step that leads from one end to the other"
-        };
-        runner.wrong(path, reason, mend)
-    })
-}
-
-/// The most points of one grid.
-const MOST_POINTS: usize = 20_000_000;
-
-/// Torques and speeds of a grid for a gearbox; each rises or falls all along.
-fn grid_axes(runner: &Runner<'_>, name: &str, grid: &Grid, t: &Transmission) -> Result<(Vec<f64>, Vec<f64>), Failure> {
-    let path = format!("grids.{name}");
-    let own = (
-        torques(runner, &format!("{path}.torque"), &grid.torque, t)?,
-        speeds(runner, &format!("{path}.speed"), &grid.speed, t)?,
-    );
-    for (list, key) in [(&own.0, "torque"), (&own.1, "speed")] {
-        let along = |rises: bool| list.windows(2).all(|w| if rises { w[0] < w[1] } else { w[0] > w[1] });
-        if !along(true) && !along(false) {
-            let message = "the values of a grid's axis neither rise nor fall all along";
-            return Err(runner.wrong(&format!("{path}.{key}"), message, "sort them, and name each once"));
-        }
-    }
-    if own.0.len().saturating_mul(own.1.len()) > MOST_POINTS {
-        let message = format!("the grid has more than {MOST_POINTS} points");
-        return Err(runner.wrong(&path, message, "take wider steps"));
-    }
-    Ok(own)
-}
-
-/// Torques of an axis for a gearbox.
-fn torques(runner: &Runner<'_>, path: &str, axis_of: &TorqueAxis, t: &Transmission) -> Result<Vec<f64>, Failure> {
-    axis(runner, path, axis_of.values(t.rating.map(|r| r.torque)))
-}
-
-/// Speeds of an axis for a gearbox.
-fn speeds(runner: &Runner<'_>, path: &str, axis_of: &SpeedAxis, t: &Transmission) -> Result<Vec<f64>, Failure> {
-    axis(runner, path, axis_of.values(t.rating.map(|r| r.speed)))
 }
 
 /// The gear state that an analysis names, or the first.

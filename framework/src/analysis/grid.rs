@@ -1,19 +1,14 @@
 //! Many points: every torque at every speed of a grid, or a list.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
 
-use rayon::prelude::*;
-
-use super::{OilTemperature, sums};
+use super::{OilTemperature, Piece, pieces, solve_pieces};
 use crate::document::Diagnostic;
-use crate::evaluate::{Point, PowerFlow};
-use crate::flow::{Status, Tolerance};
+use crate::evaluate::PowerFlow;
+use crate::flow::Status;
 use crate::loss::{Extent, MOST_TERMS, Undefined};
 use crate::thermal::Outcome as ThermalOutcome;
 use crate::transmission::{Case, Transmission};
-
-/// Points per task; fixed, so that the bits do not hang on the number of threads.
-const CHUNK: usize = 64;
 
 /// The points of a grid and how they are prescribed.
 #[derive(Debug, Clone)]
@@ -46,6 +41,16 @@ pub struct Given {
     pub oil: Option<f64>,
 }
 
+impl Given {
+    fn on_grid(torques: &[f64], speeds: &[f64], place: usize) -> Self {
+        Self {
+            torque: torques[place / speeds.len()],
+            speed: speeds[place % speeds.len()],
+            oil: None,
+        }
+    }
+}
+
 /// Torques and speeds of many points.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Field {
@@ -56,6 +61,15 @@ pub enum Field {
         /// Speeds. \[rad/s\]
         speeds: Vec<f64>,
     },
+    /// Some places of such a grid.
+    Part {
+        /// Torques. \[Nm\]
+        torques: Vec<f64>,
+        /// Speeds. \[rad/s\]
+        speeds: Vec<f64>,
+        /// Numbers of the places, rising.
+        places: Arc<[u32]>,
+    },
     /// One after the other.
     List(Vec<Given>),
 }
@@ -65,6 +79,7 @@ impl Field {
     pub fn len(&self) -> usize {
         match self {
             Self::Grid { torques, speeds } => torques.len() * speeds.len(),
+            Self::Part { places, .. } => places.len(),
             Self::List(list) => list.len(),
         }
     }
@@ -80,12 +95,21 @@ impl Field {
     /// If there are not as many points: a bug of the caller.
     pub fn at(&self, i: usize) -> Given {
         match self {
-            Self::Grid { torques, speeds } => Given {
-                torque: torques[i / speeds.len()],
-                speed: speeds[i % speeds.len()],
-                oil: None,
-            },
+            Self::Grid { torques, speeds } => Given::on_grid(torques, speeds, i),
+            Self::Part {
+                torques,
+                speeds,
+                places,
+            } => Given::on_grid(torques, speeds, places[i] as usize),
             Self::List(list) => list[i],
+        }
+    }
+
+    /// The place on the grid of a point by its number; the number itself for a list.
+    pub fn place(&self, i: usize) -> usize {
+        match self {
+            Self::Part { places, .. } => places[i] as usize,
+            _ => i,
         }
     }
 }
@@ -143,7 +167,7 @@ pub struct PointResult {
 
 impl PointResult {
     /// Without all that hangs on a temperature that was not found.
-    fn without_temperature(self) -> Self {
+    pub(super) fn without_temperature(self) -> Self {
         Self {
             oil: None,
             nodes: Vec::new(),
@@ -161,7 +185,7 @@ impl PointResult {
 }
 
 /// Solved points.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct GridResult {
     /// The points, in the order of the field.
     pub points: Vec<PointResult>,
@@ -185,8 +209,8 @@ impl Points {
     }
 }
 
-/// Solves all points. `progress` hears how many more are solved; where it answers false the work is broken off, and there is
-/// no result.
+/// Solves all points and holds them. `progress` hears how many more are solved; where it answers false the work is broken
+/// off, and there is no result.
 ///
 /// # Errors
 /// If the case does not fit.
@@ -195,109 +219,23 @@ pub fn run_grid(
     points: &Points,
     progress: &(dyn Fn(usize) -> bool + Sync),
 ) -> Result<Option<GridResult>, Vec<Diagnostic>> {
-    let case = points.case(transmission)?;
     let count = points.field.len();
-    let going = AtomicBool::new(true);
-    let solved: Vec<(Vec<PointResult>, Vec<Extent>)> = (0..count.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            if !going.load(Ordering::Relaxed) {
-                return (Vec::new(), Vec::new());
-            }
-            let chunk = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
-            let mut scratch = transmission.scratch(&case);
-            let member = |port: usize| transmission.ports()[port].member;
-            let at_torque = case.torque_ports.first().map(|port| member(*port));
-            let reference = member(transmission.reference_port());
-            let other = match transmission.ports() {
-                [_, _] => Some(member(1 - transmission.reference_port())),
-                _ => None,
-            };
-            let at_reference = case.torque_ports.first() == Some(&transmission.reference_port());
-            let mut torques = vec![0.0; case.torque_ports.len()];
-            let mut speeds = vec![0.0; case.speed_ports.len()];
-            let solved = chunk.len();
-            let results = chunk
-                .map(|i| {
-                    let Given { torque, speed, oil } = points.field.at(i);
-                    for (value, first) in [(torque, torques.first_mut()), (speed, speeds.first_mut())] {
-                        if let Some(first) = first {
-                            *first = value;
-                        }
-                    }
-                    let point = Point {
-                        speeds: &speeds,
-                        torques: &torques,
-                        flow: points.flow,
-                        tolerance: Tolerance::default(),
-                    };
-                    let wanted = oil.map_or(points.oil, OilTemperature::Fixed);
-                    let warm = wanted.find(transmission, &case, &point, &mut scratch);
-                    let solution = transmission.evaluate(&case, &point, warm.temperatures(), &mut scratch);
-                    let mut totals = [0.0; 6];
-                    let mut terms = Vec::new();
-                    for (part, loss) in solution.parts() {
-                        sums::add(&mut totals, transmission, part, &loss);
-                        if points.terms {
-                            terms.push(std::array::from_fn(|k| loss.term_watts(k)));
-                        }
-                    }
-                    let result = PointResult {
-                        torque,
-                        speed,
-                        torque_speed: at_torque.map_or(0.0, |member| solution.speed(member)),
-                        reference_speed: solution.speed(reference),
-                        output_speed: other.map(|member| solution.speed(member)),
-                        at_reference,
-                        oil: Some(warm.oil),
-                        surface: warm.balance.as_ref().and_then(|b| b.surface),
-                        balance: warm.outcome(),
-                        evaluations: warm.evaluations(),
-                        nodes: warm
-                            .network
-                            .as_ref()
-                            .map(|n| n.temperatures.clone())
-                            .unwrap_or_default(),
-                        status: solution.status(),
-                        efficiency: solution.efficiency(),
-                        loss: solution.loss(),
-                        loss_torque: solution.loss_torque(),
-                        input: solution.input_power(),
-                        output: solution.output_power(),
-                        sums: totals,
-                        parts: solution.watts().to_vec(),
-                        terms,
-                        outside: solution.extents().iter().any(|e| e.outside > 0),
-                        undefined: solution.undefined_part(),
-                        passes: solution.passes(),
-                    };
-                    if warm.is_sound() {
-                        result
-                    } else {
-                        result.without_temperature()
-                    }
-                })
-                .collect();
-            if !progress(solved) {
-                going.store(false, Ordering::Relaxed);
-            }
-            (results, scratch.totals)
-        })
-        .collect();
-    let mut seen: Vec<Extent> = Vec::new();
-    let mut results = Vec::with_capacity(count);
-    for (points, totals) in solved {
-        if !totals.is_empty() {
-            merge(&mut seen, &totals);
-        }
-        results.extend(points);
+    let numbers: Vec<usize> = (0..pieces(count)).collect();
+    let mut all = GridResult::default();
+    let whole = solve_pieces(transmission, points, &numbers, progress, &mut |piece| {
+        all.add(piece);
+        true
+    })?;
+    Ok(whole.then_some(all))
+}
+
+impl GridResult {
+    /// Adds the piece that follows.
+    pub fn add(&mut self, piece: Piece) {
+        merge(&mut self.seen, &piece.seen);
+        self.passes += piece.points.iter().map(|p| p.passes).sum::<usize>();
+        self.points.extend(piece.points);
     }
-    let passes = results.iter().map(|p| p.passes).sum();
-    Ok((results.len() == count).then_some(GridResult {
-        points: results,
-        seen,
-        passes,
-    }))
 }
 
 /// Adds what was seen of limits and observed quantities to what was seen before; both in the order of one transmission.

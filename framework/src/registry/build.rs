@@ -48,6 +48,12 @@ impl Files {
         Ok(text)
     }
 
+    /// Forgets what was read, but for some files.
+    pub fn forget_all_but(&self, kept: &[PathBuf]) {
+        let mut read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        read.retain(|path, _| kept.contains(path));
+    }
+
     /// Gives a text for a file that need not exist.
     pub fn put(&self, name: &str, text: &str) {
         let path = self.folder.as_deref().unwrap_or(Path::new("")).join(name);

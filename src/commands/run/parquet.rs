@@ -8,7 +8,9 @@ use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
+use parquet::schema::types::{ColumnPath, Type};
+
+use super::write::Cell;
 
 /// Columns that hold names, whatever their cells look like.
 const NAMES: [&str; 9] = [
@@ -26,25 +28,123 @@ const NAMES: [&str; 9] = [
 /// Rows of one row group.
 const GROUP: usize = 65_536;
 
+/// Number columns whose cells repeat so often that a dictionary pays.
+const REPEATED: [&str; 3] = ["torque_nm", "speed_rpm", "oil_temperature_degc"];
+
 /// A table that is written in groups of rows.
 pub struct ParquetTable<W: Write + Send> {
     header: Vec<String>,
-    rows: Vec<Vec<String>>,
+    columns: Vec<Column>,
+    rows: usize,
     state: State<W>,
 }
 
-/// Which columns are texts is told by the first group.
+/// Whether the file was begun, which needs the kinds of all columns.
 enum State<W: Write + Send> {
     Waiting(Option<W>),
-    Begun(Box<SerializedFileWriter<W>>, Vec<bool>),
+    Begun(Box<SerializedFileWriter<W>>),
+}
+
+/// Cells of the present group in one column.
+enum Column {
+    /// Texts that may all be numbers; what they are is told by the first group.
+    Open(Vec<Option<String>>),
+    Numbers(Filled<f64>),
+    Texts(Filled<ByteArray>),
+}
+
+/// Values, and for each cell one where it has a value.
+struct Filled<T> {
+    values: Vec<T>,
+    levels: Vec<i16>,
+}
+
+impl<T> Filled<T> {
+    /// So many gaps.
+    fn gaps(count: usize) -> Self {
+        Self {
+            values: Vec::new(),
+            levels: vec![0; count],
+        }
+    }
+
+    fn push(&mut self, value: Option<T>) {
+        self.levels.push(i16::from(value.is_some()));
+        self.values.extend(value);
+    }
+
+    fn clear(&mut self) {
+        self.values.clear();
+        self.levels.clear();
+    }
+}
+
+impl Column {
+    fn push(&mut self, cell: &Cell<'_>) -> Result<(), String> {
+        match (&mut *self, cell) {
+            // A number before any text tells that the column is one of numbers.
+            (Self::Open(cells), Cell::Number(x)) if cells.iter().all(Option::is_none) => {
+                let mut numbers = Filled::gaps(cells.len());
+                numbers.push(Some(*x));
+                *self = Self::Numbers(numbers);
+            }
+            (Self::Open(cells), cell) => cells.push(cell.text()),
+            (Self::Numbers(numbers), Cell::Number(x)) => numbers.push(Some(*x)),
+            (Self::Numbers(numbers), Cell::Text(text)) if !text.is_empty() => numbers.push(Some(number(text)?)),
+            (Self::Numbers(numbers), _) => numbers.push(None),
+            (Self::Texts(texts), Cell::Text(text)) if !text.is_empty() => {
+                // Most names are those of the row before, whose bytes are shared.
+                let same = texts.values.last().filter(|last| last.data() == text.as_bytes());
+                let value = same.cloned().unwrap_or_else(|| ByteArray::from(*text));
+                texts.push(Some(value));
+            }
+            (Self::Texts(texts), cell) => texts.push(cell.text().map(|text| ByteArray::from(text.as_str()))),
+        }
+        Ok(())
+    }
+
+    /// Settles whether the column holds texts: one of names, or with a cell that is no number.
+    fn settle(&mut self, name: &str) -> Result<(), String> {
+        let Self::Open(cells) = self else {
+            return Ok(());
+        };
+        let cells = std::mem::take(cells);
+        let is_text = NAMES.contains(&name) || cells.iter().flatten().any(|text| number(text).is_err());
+        if is_text {
+            let mut texts = Filled::gaps(0);
+            for cell in cells {
+                texts.push(cell.map(|text| ByteArray::from(text.as_str())));
+            }
+            *self = Self::Texts(texts);
+        } else {
+            let mut numbers = Filled::gaps(0);
+            for cell in cells {
+                numbers.push(cell.map(|text| number(&text)).transpose()?);
+            }
+            *self = Self::Numbers(numbers);
+        }
+        Ok(())
+    }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| format!("`{text}` is no number"))
 }
 
 impl<W: Write + Send> ParquetTable<W> {
     /// A table with its columns.
     pub fn new(header: &[String], to: W) -> Self {
+        let column = |name: &String| {
+            if NAMES.contains(&name.as_str()) {
+                Column::Texts(Filled::gaps(0))
+            } else {
+                Column::Open(Vec::new())
+            }
+        };
         Self {
             header: header.to_vec(),
-            rows: Vec::new(),
+            columns: header.iter().map(column).collect(),
+            rows: 0,
             state: State::Waiting(Some(to)),
         }
     }
@@ -53,9 +153,12 @@ impl<W: Write + Send> ParquetTable<W> {
     ///
     /// # Errors
     /// What the writer says; a text in a column that held numbers before.
-    pub fn push(&mut self, row: &[String]) -> Result<(), String> {
-        self.rows.push(row.to_vec());
-        if self.rows.len() < GROUP {
+    pub fn push(&mut self, row: &[Cell<'_>]) -> Result<(), String> {
+        for (column, cell) in self.columns.iter_mut().zip(row) {
+            column.push(cell)?;
+        }
+        self.rows += 1;
+        if self.rows < GROUP {
             return Ok(());
         }
         self.group()
@@ -68,81 +171,75 @@ impl<W: Write + Send> ParquetTable<W> {
     pub fn finish(mut self) -> Result<(), String> {
         self.group()?;
         match self.state {
-            State::Begun(writer, _) => (*writer).close().map(|_| ()).map_err(|e| e.to_string()),
+            State::Begun(writer) => (*writer).close().map(|_| ()).map_err(|e| e.to_string()),
             State::Waiting(_) => Ok(()),
         }
     }
 
     fn group(&mut self) -> Result<(), String> {
-        let rows = std::mem::take(&mut self.rows);
+        self.rows = 0;
         if let State::Waiting(to) = &mut self.state {
-            let texts: Vec<bool> = (0..self.header.len())
-                .map(|i| is_text(&self.header[i], i, &rows))
-                .collect();
+            for (column, name) in self.columns.iter_mut().zip(&self.header) {
+                column.settle(name)?;
+            }
             let to = to.take().ok_or("the file was begun twice")?;
-            let writer = begun(&self.header, &texts, to).map_err(|e| e.to_string())?;
-            self.state = State::Begun(Box::new(writer), texts);
+            let writer = begun(&self.header, &self.columns, to).map_err(|e| e.to_string())?;
+            self.state = State::Begun(Box::new(writer));
         }
         match &mut self.state {
-            State::Begun(writer, texts) => written(writer, texts, &rows).map_err(|e| e.to_string()),
+            State::Begun(writer) => written(writer, &mut self.columns).map_err(|e| e.to_string()),
             State::Waiting(_) => Ok(()),
         }
     }
 }
 
-fn begun<W: Write + Send>(header: &[String], texts: &[bool], to: W) -> Result<SerializedFileWriter<W>, ParquetError> {
-    let fields = header.iter().zip(texts).map(|(name, text)| {
-        let field = if *text {
-            Type::primitive_type_builder(name, Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String))
-        } else {
-            Type::primitive_type_builder(name, Physical::DOUBLE)
+fn begun<W: Write + Send>(
+    header: &[String],
+    columns: &[Column],
+    to: W,
+) -> Result<SerializedFileWriter<W>, ParquetError> {
+    let fields = header.iter().zip(columns).map(|(name, column)| {
+        let field = match column {
+            Column::Numbers(_) => Type::primitive_type_builder(name, Physical::DOUBLE),
+            Column::Open(_) | Column::Texts(_) => {
+                Type::primitive_type_builder(name, Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String))
+            }
         };
         field.with_repetition(Repetition::OPTIONAL).build().map(Arc::new)
     });
     let fields = fields.collect::<Result<Vec<_>, _>>()?;
     let schema = Type::group_type_builder("results").with_fields(fields).build()?;
-    let properties = WriterProperties::builder()
+    let mut properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
-        .set_created_by(concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned())
-        .build();
-    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))
+        .set_created_by(concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned());
+    for (name, column) in header.iter().zip(columns) {
+        if matches!(column, Column::Numbers(_)) && !REPEATED.contains(&name.as_str()) {
+            properties = properties.set_column_dictionary_enabled(ColumnPath::from(vec![name.clone()]), false);
+        }
+    }
+    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties.build()))
 }
 
-fn written<W: Write + Send>(
-    writer: &mut SerializedFileWriter<W>,
-    texts: &[bool],
-    rows: &[Vec<String>],
-) -> Result<(), ParquetError> {
+fn written<W: Write + Send>(writer: &mut SerializedFileWriter<W>, columns: &mut [Column]) -> Result<(), ParquetError> {
     let mut group = writer.next_row_group()?;
-    for (i, text) in texts.iter().enumerate() {
-        let cells = || rows.iter().map(|row| row[i].as_str()).filter(|c| !c.is_empty());
-        // A gap is a cell without a value; level one stands for a value.
-        let levels: Vec<i16> = rows.iter().map(|row| i16::from(!row[i].is_empty())).collect();
+    for cells in columns {
         let Some(mut column) = group.next_column()? else { break };
-        if *text {
-            let values: Vec<ByteArray> = cells().map(ByteArray::from).collect();
-            column
-                .typed::<ByteArrayType>()
-                .write_batch(&values, Some(&levels), None)?;
-        } else {
-            let number = |c: &str| {
-                c.parse()
-                    .map_err(|_| ParquetError::General(format!("`{c}` is no number")))
-            };
-            let values = cells().map(number).collect::<Result<Vec<f64>, _>>()?;
-            column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
+        match cells {
+            Column::Numbers(own) => {
+                let to = column.typed::<DoubleType>();
+                to.write_batch(&own.values, Some(&own.levels), None)?;
+                own.clear();
+            }
+            Column::Texts(own) => {
+                let to = column.typed::<ByteArrayType>();
+                to.write_batch(&own.values, Some(&own.levels), None)?;
+                own.clear();
+            }
+            Column::Open(_) => {}
         }
         column.close()?;
     }
     group.close().map(|_| ())
-}
-
-/// True for a column of names, and for one with a cell that is no number.
-fn is_text(name: &str, column: usize, rows: &[Vec<String>]) -> bool {
-    NAMES.contains(&name)
-        || rows
-            .iter()
-            .any(|row| !row[column].is_empty() && row[column].parse::<f64>().is_err())
 }
 
 #[cfg(test)]
@@ -153,11 +250,15 @@ mod tests {
 
     use super::*;
 
+    fn texts(row: &[String]) -> Vec<Cell<'_>> {
+        row.iter().map(|text| Cell::Text(text)).collect()
+    }
+
     fn parquet(header: &[String], rows: &[Vec<String>]) -> Vec<u8> {
         let path = std::env::temp_dir().join(format!("gearloss-parquet-{}-{}", std::process::id(), rows.len()));
         let mut table = ParquetTable::new(header, std::fs::File::create(&path).unwrap());
         for row in rows {
-            table.push(row).unwrap();
+            table.push(&texts(row)).unwrap();
         }
         table.finish().unwrap();
         std::fs::read(path).unwrap()
@@ -188,6 +289,28 @@ mod tests {
     }
 
     #[test]
+    fn numbers_and_texts_of_numbers_make_the_same_column() {
+        let path = std::env::temp_dir().join(format!("gearloss-parquet-{}-cells", std::process::id()));
+        let header = ["gear", "loss_w", "bound"].map(str::to_owned);
+        let mut table = ParquetTable::new(&header, std::fs::File::create(&path).unwrap());
+        for row in [
+            [Cell::Text("1"), Cell::Gap, Cell::Text("5")],
+            [Cell::Text("1"), Cell::Number(0.1 + 0.2), Cell::Text("5 mm2/s")],
+            [Cell::Gap, Cell::Text("2.50"), Cell::Number(3.0)],
+        ] {
+            table.push(&row).unwrap();
+        }
+        table.finish().unwrap();
+        let reader = SerializedFileReader::new(std::fs::File::open(path).unwrap()).unwrap();
+        let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
+        assert!(rows[0].get_double(1).is_err() && rows[2].get_string(0).is_err());
+        assert_eq!(rows[1].get_double(1).unwrap(), 0.1 + 0.2);
+        assert_eq!(rows[2].get_double(1).unwrap(), 2.5);
+        let bound: Vec<&String> = rows.iter().map(|row| row.get_string(2).unwrap()).collect();
+        assert_eq!(bound, ["5", "5 mm2/s", "3"]);
+    }
+
+    #[test]
     fn a_table_without_rows_is_a_file() {
         assert!(!parquet(&["torque_nm".to_owned()], &[]).is_empty());
     }
@@ -203,9 +326,9 @@ mod tests {
         );
         let mut table = ParquetTable::new(&["loss_w".to_owned()], Vec::new());
         for row in &rows[..GROUP] {
-            table.push(row).unwrap();
+            table.push(&texts(row)).unwrap();
         }
-        table.push(&["none".to_owned()]).unwrap();
-        assert!(table.finish().unwrap_err().contains("`none` is no number"));
+        let late = table.push(&[Cell::Text("none")]);
+        assert!(late.unwrap_err().contains("`none` is no number"));
     }
 }

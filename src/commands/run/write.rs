@@ -1,11 +1,15 @@
 //! Files of results.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::fs;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use gearloss_framework::report::Figure;
-use gearloss_framework::study::Write;
+use gearloss_framework::study::{Study, Write};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -15,20 +19,7 @@ use crate::output::Failure;
 
 /// What stands at the head of every JSON result.
 pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value {
-    let mut inputs = vec![json!({ "gearbox": null, "file": "study", "fnv1a_64": hash(runner.study.text.as_bytes()) })];
-    for (name, gearbox) in &runner.study.gearboxes {
-        for source in 0.. {
-            let Some((file, text)) = gearbox.sources.get(source) else {
-                break;
-            };
-            let file = Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file));
-            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
-        }
-        for (file, text) in gearbox.files.all() {
-            let file = file.file_name().and_then(|f| f.to_str()).unwrap_or_default().to_owned();
-            inputs.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
-        }
-    }
+    let mut inputs = inputs(runner.study);
     for (file, hash) in runner.read.borrow().iter() {
         inputs.push(json!({ "gearbox": null, "file": file, "fnv1a_64": hash }));
     }
@@ -51,14 +42,31 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
     })
 }
 
+/// The study, its gearboxes and the files that they have read, with their hashes.
+pub fn inputs(study: &Study) -> Vec<Value> {
+    let mut list = vec![json!({ "gearbox": null, "file": "study", "fnv1a_64": hash(study.text.as_bytes()) })];
+    for (name, gearbox) in &study.gearboxes {
+        for source in 0.. {
+            let Some((file, text)) = gearbox.sources.get(source) else {
+                break;
+            };
+            let file = Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file));
+            list.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
+        }
+        for (file, text) in gearbox.files.all() {
+            let file = file.file_name().and_then(|f| f.to_str()).unwrap_or_default().to_owned();
+            list.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
+        }
+    }
+    list
+}
+
 /// Name of the page.
 pub const REPORT: &str = "report.html";
 
 /// Makes the folder of the results, or says why it cannot.
 pub fn folder(runner: &Runner<'_>) -> Result<(), Failure> {
-    let (place, _) = Place::new(runner, REPORT)?;
-    let _ = fs::remove_file(&place.part);
-    Ok(())
+    Place::new(runner, REPORT).map(|_| ())
 }
 
 /// Takes away what an earlier run of an analysis left, because it would pass for the results of this one. What this run has
@@ -100,16 +108,21 @@ pub fn write_json(runner: &Runner<'_>, name: &str, formats: &[Write], value: &im
     place.done(written.map_err(|e| e.to_string()))
 }
 
-/// A file that is written beside its place and moved there when it is whole.
+/// A file that is written beside its place and moved there when it is whole; until then its name is held for it.
 struct Place {
+    name: String,
+    names: Names,
     part: PathBuf,
     path: PathBuf,
 }
 
+/// Names of the files of a run.
+pub type Names = Rc<RefCell<BTreeSet<String>>>;
+
 impl Place {
     fn new(runner: &Runner<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
         // Names of analyses, sets and products are joined with hyphens, which they may hold themselves.
-        if name != REPORT && !runner.names.borrow_mut().insert(name.to_owned()) {
+        if !runner.names.borrow_mut().insert(name.to_owned()) {
             return Err(Failure::input(
                 format!("two results would be called {name}"),
                 "rename an analysis or a set of models",
@@ -117,6 +130,8 @@ impl Place {
         }
         let path = runner.folder.join(name);
         let place = Self {
+            name: name.to_owned(),
+            names: Rc::clone(&runner.names),
             part: path.with_file_name(format!("{name}.part")),
             path,
         };
@@ -134,13 +149,22 @@ impl Place {
         )
     }
 
-    /// Moves the file to its place, or takes it away where it was not written whole.
-    fn done(&self, written: Result<(), String>) -> Result<(), Failure> {
+    /// Moves the file to its place, if it was written whole.
+    fn done(mut self, written: Result<(), String>) -> Result<(), Failure> {
         let moved = written.and_then(|()| fs::rename(&self.part, &self.path).map_err(|e| e.to_string()));
-        moved.map_err(|e| {
+        moved.map_err(|e| self.cannot(&e))?;
+        self.name.clear();
+        Ok(())
+    }
+}
+
+impl Drop for Place {
+    /// Takes away what was not written whole, and lets its name go.
+    fn drop(&mut self) {
+        if !self.name.is_empty() {
             let _ = fs::remove_file(&self.part);
-            self.cannot(&e)
-        })
+            self.names.borrow_mut().remove(&self.name);
+        }
     }
 }
 
@@ -148,6 +172,33 @@ impl Place {
 pub struct TableFile {
     csv: Option<(Place, csv::Writer<BufWriter<fs::File>>)>,
     parquet: Option<(Place, ParquetTable<BufWriter<fs::File>>)>,
+    /// A number as text.
+    digits: String,
+}
+
+/// A cell of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cell<'a> {
+    Gap,
+    Number(f64),
+    Text(&'a str),
+}
+
+impl From<Option<f64>> for Cell<'_> {
+    fn from(value: Option<f64>) -> Self {
+        value.map_or(Self::Gap, Self::Number)
+    }
+}
+
+impl Cell<'_> {
+    /// The cell as text; absent for a gap.
+    pub fn text(&self) -> Option<String> {
+        match self {
+            Self::Gap | Self::Text("") => None,
+            Self::Number(x) => Some(format!("{x}")),
+            Self::Text(text) => Some((*text).to_owned()),
+        }
+    }
 }
 
 impl TableFile {
@@ -155,6 +206,7 @@ impl TableFile {
         let mut table = Self {
             csv: None,
             parquet: None,
+            digits: String::new(),
         };
         if formats.contains(&Write::Csv) {
             let (place, file) = Place::new(runner, &format!("{name}.csv"))?;
@@ -169,9 +221,26 @@ impl TableFile {
         Ok(table)
     }
 
+    /// Adds a row of texts.
     pub fn push(&mut self, row: &[String]) -> Result<(), Failure> {
+        let cells: Vec<Cell<'_>> = row.iter().map(|text| Cell::Text(text)).collect();
+        self.push_cells(&cells)
+    }
+
+    /// Adds a row; numbers become texts in the CSV only.
+    pub fn push_cells(&mut self, row: &[Cell<'_>]) -> Result<(), Failure> {
         if let Some((place, writer)) = &mut self.csv {
-            writer.write_record(row).map_err(|e| place.cannot(&e))?;
+            let written = row.iter().try_for_each(|cell| match cell {
+                Cell::Gap => writer.write_field(""),
+                Cell::Text(text) => writer.write_field(text),
+                Cell::Number(x) => {
+                    self.digits.clear();
+                    let _ = write!(self.digits, "{x}");
+                    writer.write_field(&self.digits)
+                }
+            });
+            let ended = written.and_then(|()| writer.write_record(None::<&[u8]>));
+            ended.map_err(|e| place.cannot(&e))?;
         }
         if let Some((place, table)) = &mut self.parquet {
             table.push(row).map_err(|e| place.cannot(&e))?;
@@ -218,9 +287,13 @@ pub fn cell(value: Option<f64>) -> String {
 }
 
 /// FNV-1a, 64 bit: tells whether an input changed, no more.
-pub fn hash(bytes: &[u8]) -> String {
-    let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+pub fn fnv1a_64(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-    });
-    format!("{hash:016x}")
+    })
+}
+
+/// The hash of bytes as it stands in results.
+pub fn hash(bytes: &[u8]) -> String {
+    format!("{:016x}", fnv1a_64(bytes))
 }

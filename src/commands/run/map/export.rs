@@ -3,13 +3,14 @@
 //! Sources of the formats: VECTO's user manual (Transmission Loss Map), the Powertrain Blockset's block Gearbox, and the
 //! documentation of `Modelica.Mechanics.Rotational.Components.LossyGear`.
 
-use gearloss_framework::analysis::{Given, PointResult, Statistics};
+use gearloss_framework::analysis::{Given, Statistics};
 use gearloss_framework::study::Export;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
 use super::super::write::keep;
-use super::{Axes, Map, tidy};
+use super::kept::Whole;
+use super::{Map, tidy};
 use crate::output::Failure;
 
 /// Writes the tables, and says in lines what a reader has to know.
@@ -25,17 +26,18 @@ pub fn write(runner: &Runner<'_>, name: &str, export: Export, maps: &[Map<'_>]) 
             let mend = format!("write `torque_at: {reference}` and `speed_at: {reference}` under `conditions`");
             return Err(runner.wrong(&path, message, &mend));
         }
-        let Some((axes, places)) = &map.grid else { continue };
+        let Some(whole) = &map.kept.whole else { continue };
+        let axes = &whole.axes;
         let rising = |list: &[f64]| list.windows(2).all(|w| w[0] < w[1]);
         if !rising(&axes.torques) || !rising(&axes.speeds) {
             let message = "a table for another program needs torques and speeds that rise";
             return Err(runner.wrong(&path, message, "sort the axes of the grid"));
         }
-        if export == Export::Matlab && places.contains(&None) {
+        if export == Export::Matlab && whole.has_gaps() {
             let message = "an efficiency over a grid with an envelope would be zero beyond it";
             return Err(runner.wrong(&path, message, "give a grid without envelope"));
         }
-        let table = Table { map, axes, places };
+        let table = Table { map, whole };
         // Maps that differ in bound values have a number each; the temperatures of one table stand in one file.
         let same = |m: &&Map<'_>| m.built.name == map.built.name && m.gear == map.gear;
         let siblings: Vec<&Map<'_>> = maps.iter().filter(same).collect();
@@ -65,11 +67,11 @@ pub fn write(runner: &Runner<'_>, name: &str, export: Export, maps: &[Map<'_>]) 
 
 /// How far straight lines between the points of a table are from the loss torque half way between them.
 fn between(runner: &Runner<'_>, table: &Table<'_>) -> Result<String, Failure> {
-    let (axes, t) = (table.axes, &table.map.built.transmission);
+    let (axes, t) = (&table.whole.axes, &table.map.built.transmission);
     let (mut list, mut means) = (Vec::new(), Vec::new());
     for i in 0..axes.torques.len().saturating_sub(1) {
         for k in 0..axes.speeds.len().saturating_sub(1) {
-            let corners = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(a, b)| table.at(i + a, k + b)?.loss_torque);
+            let corners = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(a, b)| table.whole.loss_torque(i + a, k + b));
             let sum: Option<f64> = corners.into_iter().sum();
             let Some(sum) = sum else { continue };
             list.push(Given {
@@ -84,12 +86,12 @@ fn between(runner: &Runner<'_>, table: &Table<'_>) -> Result<String, Failure> {
         return Ok(String::new());
     }
     let points = runner.listed(t, &table.map.gear, list);
-    let solved = runner.solve(&table.map.built, &points)?;
-    let gaps = solved
-        .points
-        .iter()
-        .zip(means)
-        .filter_map(|(p, mean)| Some(mean - p.loss_torque?));
+    let (mut gaps, mut means) = (Vec::new(), means.into_iter());
+    runner.solve_pieces(&table.map.built, &points, None, &mut |piece| {
+        let pairs = piece.points.iter().zip(means.by_ref());
+        gaps.extend(pairs.filter_map(|(p, mean)| Some(mean - p.loss_torque?)));
+        Ok(())
+    })?;
     let gaps = Statistics::of(gaps);
     Ok(gaps.map_or_else(String::new, |g| {
         let worst = g.greatest.abs().max(g.least.abs());
@@ -106,18 +108,13 @@ type Written = Result<(String, String), (String, &'static str)>;
 /// A map with its axes.
 struct Table<'a> {
     map: &'a Map<'a>,
-    axes: &'a Axes,
-    places: &'a [Option<usize>],
+    whole: &'a Whole,
 }
 
 impl Table<'_> {
-    fn at(&self, torque: usize, speed: usize) -> Option<&PointResult> {
-        self.places[torque * self.axes.speeds.len() + speed].map(|i| &self.map.points[i])
-    }
-
     /// Loss torque over speed and torque, both at the side of the engine.
     fn vecto(&self) -> Written {
-        let torques = &self.axes.torques;
+        let torques = &self.whole.axes.torques;
         if !(torques.iter().any(|t| *t < 0.0) && torques.contains(&0.0) && torques.iter().any(|t| *t > 0.0)) {
             return Err((
                 "VECTO needs rows below, at and above zero torque".to_owned(),
@@ -126,12 +123,12 @@ impl Table<'_> {
         }
         let mut text = "Input Speed [rpm],Input Torque [Nm],Torque Loss [Nm]\n".to_owned();
         let (mut rows, mut left) = (0, 0);
-        for w in 0..self.axes.speeds.len() {
+        for w in 0..self.whole.axes.speeds.len() {
             for t in 0..torques.len() {
                 // Where nothing turns or a loss has no value there is no loss torque.
-                match self.at(t, w).and_then(|p| p.loss_torque) {
+                match self.whole.loss_torque(t, w) {
                     Some(loss) => {
-                        let speed = tidy(self.axes.speeds[w] * RPM);
+                        let speed = tidy(self.whole.axes.speeds[w] * RPM);
                         text.push_str(&format!("{speed:.2},{:.4},{loss:.6}\n", torques[t]));
                         rows += 1;
                     }
@@ -156,12 +153,12 @@ impl Table<'_> {
     fn lossy_gear(&self, name: &str) -> Written {
         let (mut rows, mut worst, mut square, mut count): (Vec<[f64; 5]>, _, _, _) = (Vec::new(), 0.0_f64, 0.0, 0.0);
         let mut coasts = false;
-        for w in 0..self.axes.speeds.len() {
-            let speed = self.axes.speeds[w];
+        for w in 0..self.whole.axes.speeds.len() {
+            let speed = self.whole.axes.speeds[w];
             let side = |sign: f64| -> Vec<(f64, f64)> {
-                (0..self.axes.torques.len())
-                    .filter(|t| sign * self.axes.torques[*t] >= 0.0)
-                    .filter_map(|t| Some((self.axes.torques[t].abs(), self.at(t, w)?.loss_torque?)))
+                (0..self.whole.axes.torques.len())
+                    .filter(|t| sign * self.whole.axes.torques[*t] >= 0.0)
+                    .filter_map(|t| Some((self.whole.axes.torques[t].abs(), self.whole.loss_torque(t, w)?)))
                     .collect()
             };
             let drive = side(1.0);
@@ -272,7 +269,7 @@ fn matlab(maps: &[&Map<'_>]) -> Written {
         let (oil, map) = slabs[0];
         slabs = vec![(oil - 50.0, map), (oil + 50.0, map)];
     }
-    let Some((axes, _)) = &slabs[0].1.grid else {
+    let Some(Whole { axes, .. }) = &slabs[0].1.kept.whole else {
         return Err(("the map has no grid".to_owned(), "give `grid`"));
     };
     if axes.speeds.len() < 2 || axes.torques.len() < 2 {
@@ -285,12 +282,12 @@ fn matlab(maps: &[&Map<'_>]) -> Written {
     let mut empty = 0;
     let mut eta = String::new();
     for (k, (_, map)) in slabs.iter().enumerate() {
-        let Some((axes, places)) = &map.grid else { continue };
+        let Some(whole) = &map.kept.whole else { continue };
+        let axes = &whole.axes;
         eta.push_str(&format!("eta_tbl(:,:,{}) = [\n", k + 1));
         for t in 0..axes.torques.len() {
             let row = (0..axes.speeds.len()).map(|w| {
-                let point = places[t * axes.speeds.len() + w].map(|i| &map.points[i]);
-                let eta = point.and_then(|p| p.efficiency);
+                let eta = whole.efficiency(t, w);
                 empty += usize::from(eta.is_none());
                 eta.unwrap_or(0.0)
             });

@@ -1,21 +1,22 @@
 //! One table for a map over speed and the values of one bound path.
 
-use gearloss_framework::analysis::{OilTemperature, PointResult, merge, notes};
+use gearloss_framework::analysis::{OilTemperature, merge, notes};
 
 use super::super::super::solve::{RPM, outside};
-use super::{Map, set_names, spread, word};
+use super::{Brief, Map, set_names, spread, word};
 use crate::output::{Failure, Out, Table, number};
 
 /// A quantity in words, and how to read it.
-type Shown = (&'static str, fn(&PointResult) -> Option<f64>);
+type Shown = (&'static str, fn(&Brief) -> Option<f64>);
 
 /// True for maps of one torque and one gear state, over speed and the values of one bound path.
 pub fn fits(maps: &[Map<'_>]) -> bool {
     maps.iter().all(|m| {
         let one = m
+            .kept
             .grid
             .as_ref()
-            .is_some_and(|(axes, places)| axes.torques.len() == 1 && !places.contains(&None));
+            .is_some_and(|shown| shown.axes.torques.len() == 1 && !shown.places.contains(&None));
         one && m.bound.len() == 1 && m.gear == maps[0].gear
     })
 }
@@ -24,7 +25,7 @@ pub fn fits(maps: &[Map<'_>]) -> bool {
 pub fn over_bound(name: &str, maps: &[Map<'_>], out: &mut Out) -> Result<(), Failure> {
     for set in set_names(maps) {
         let of_set: Vec<&Map<'_>> = maps.iter().filter(|m| m.built.name == set).collect();
-        let points = &of_set[0].points;
+        let points = &of_set[0].kept.points;
         let shown = spread(points.len());
         let mut quantities: Vec<Shown> = vec![("loss in W", |p| p.loss)];
         if of_set[0].oil == OilTemperature::Balance {
@@ -40,7 +41,7 @@ pub fn over_bound(name: &str, maps: &[Map<'_>], out: &mut Out) -> Result<(), Fai
             let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
             for map in &of_set {
                 let mut row = vec![word(&map.bound[0].1)];
-                row.extend(shown.iter().map(|i| number(quantity(&map.points[*i]), 2)));
+                row.extend(shown.iter().map(|i| number(quantity(&map.kept.points[*i]), 2)));
                 table.row(row);
             }
             out.text(&table.render())?;

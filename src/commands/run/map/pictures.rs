@@ -1,17 +1,17 @@
 //! Pictures of maps.
 
-use gearloss_framework::analysis::{OilTemperature, PointResult};
+use gearloss_framework::analysis::OilTemperature;
 use gearloss_framework::report::{Cloud, Figure, Map as Picture};
 use gearloss_framework::study::Write;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
 use super::super::write::picture;
-use super::{Axes, Map, Mark, over_bound, set_names, tidy, word};
+use super::{Axes, Brief, Map, Mark, Shown as ShownGrid, over_bound, set_names, tidy, word};
 use crate::output::Failure;
 
 /// A quantity in short, in words, and how to read it.
-type Shown = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
+type Shown = (&'static str, &'static str, fn(&Brief) -> Option<f64>);
 
 /// Pictures over speed and torque; over speed and the bound values where there is one torque and one path is bound.
 pub fn pictures(
@@ -32,8 +32,8 @@ pub fn pictures(
     let one_picture = over_bound::fits(maps);
     let axes = AxisNames::of(runner);
     // One scale for each quantity, so that maps can be compared by eye.
-    let ends = |quantity: fn(&PointResult) -> Option<f64>| {
-        let values = maps.iter().flat_map(|m| m.points.iter().filter_map(quantity));
+    let ends = |quantity: fn(&Brief) -> Option<f64>| {
+        let values = maps.iter().flat_map(|m| m.kept.points.iter().filter_map(quantity));
         values.fold(None, |ends: Option<(f64, f64)>, x| {
             Some(ends.map_or((x, x), |(low, high)| (low.min(x), high.max(x))))
         })
@@ -43,17 +43,20 @@ pub fn pictures(
         for (short, long, quantity) in &quantities {
             let ends = ends(*quantity);
             // Without load there is no efficiency to show.
-            if of_set.iter().all(|m| m.points.iter().all(|p| quantity(p).is_none())) {
+            if of_set
+                .iter()
+                .all(|m| m.kept.points.iter().all(|p| quantity(p).is_none()))
+            {
                 continue;
             }
-            if let (true, Some((own, _))) = (one_picture, &of_set[0].grid) {
-                let points = || of_set.iter().flat_map(|m| &m.points);
+            if let (true, Some(own)) = (one_picture, &of_set[0].kept.grid) {
+                let points = || of_set.iter().flat_map(|m| &m.kept.points);
                 let figure = Figure::Map(Picture {
                     title: format!(
                         "{name}: {long}, models {set}, gear {}, {} Nm",
-                        of_set[0].gear, own.torques[0]
+                        of_set[0].gear, own.axes.torques[0]
                     ),
-                    x: own.over_speed(&axes),
+                    x: own.axes.over_speed(&axes),
                     y: (
                         of_set[0].bound[0].0.clone(),
                         of_set.iter().map(|m| word(&m.bound[0].1)).collect(),
@@ -113,7 +116,7 @@ struct Quantity<'a> {
     title: &'a str,
     /// Whether drive and coast have pictures of their own.
     sided: bool,
-    of: fn(&PointResult) -> Option<f64>,
+    of: fn(&Brief) -> Option<f64>,
     /// Ends of the colours.
     ends: Option<(f64, f64)>,
 }
@@ -122,12 +125,12 @@ struct Quantity<'a> {
 /// of its own.
 fn figures(map: &Map<'_>, shown: &Quantity<'_>, names: &AxisNames, marks: &[Mark]) -> Vec<(&'static str, Figure)> {
     let quantity = shown.of;
-    let Some((axes, places)) = &map.grid else {
-        let of = |p: &PointResult| Some((p.speed * RPM, p.torque, quantity(p)?));
+    let Some(ShownGrid { axes, places }) = &map.kept.grid else {
+        let of = |p: &Brief| Some((p.speed * RPM, p.torque, quantity(p)?));
         let cloud = Cloud {
             title: shown.title.to_owned(),
             axes: (names.speed.clone(), names.torque.clone()),
-            points: map.points.iter().filter_map(of).collect(),
+            points: map.kept.points.iter().filter_map(of).collect(),
             diverging: false,
         };
         return vec![("", Figure::Cloud(cloud))];
@@ -150,7 +153,7 @@ fn figures(map: &Map<'_>, shown: &Quantity<'_>, names: &AxisNames, marks: &[Mark
     let picture = |(file, words, held): &(&'static str, &str, fn(f64) -> bool)| {
         let rows: Vec<usize> = (0..axes.torques.len()).filter(|t| held(axes.torques[*t])).collect();
         let cells = || rows.iter().flat_map(|t| &places[t * columns..(t + 1) * columns]);
-        let solved = |place: &Option<usize>| place.map(|i| &map.points[i]);
+        let solved = |place: &Option<usize>| place.map(|i| &map.kept.points[i]);
         let mut y = axes.over_torque(names);
         y.1 = rows.iter().map(|t| y.1[*t].clone()).collect();
         let figure = Figure::Map(Picture {

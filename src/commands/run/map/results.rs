@@ -1,25 +1,65 @@
-//! Maps as JSON, written without a copy of their points.
+//! Maps as JSON. Passes and notes stand before the points, so these wait in a file of their own until all are solved.
 
-use gearloss_framework::analysis::{Note, PointResult, SUMS, WeakPoint, evidence};
+use std::cell::RefCell;
+
+use gearloss_framework::analysis::{Note, Piece, PointResult, SUMS, WeakPoint, evidence};
 use gearloss_framework::flow::Status;
+use gearloss_framework::study::Write;
 use gearloss_framework::thermal::Outcome;
+use serde::ser::{Error as _, SerializeSeq as _};
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::super::super::solve::RPM;
-use super::{Map, parts_of, sums, tidy};
+use super::super::Runner;
+use super::super::pieces::Waiting;
+use super::{Map, loss_of, sums, tidy};
+use crate::output::Failure;
+
+/// Solved pieces that wait to be written as JSON.
+pub struct Waited(RefCell<Waiting>);
+
+impl Waited {
+    /// A file beside the results, where JSON is asked for.
+    pub fn where_asked(runner: &Runner<'_>, name: &str, formats: &[Write]) -> Result<Option<Self>, Failure> {
+        if !formats.contains(&Write::Json) {
+            return Ok(None);
+        }
+        let path = runner.folder.join(format!("{name}.points.part"));
+        let made = Waiting::new(&path).map_err(|e| {
+            Failure::input(
+                format!("cannot write {}: {e}", path.display()),
+                "name another folder with -o",
+            )
+        });
+        Ok(Some(Self(RefCell::new(made?))))
+    }
+
+    /// Adds a piece and tells its place.
+    pub fn append(&mut self, piece: &Piece) -> Result<u64, Failure> {
+        Ok(self.0.get_mut().append(piece)?)
+    }
+
+    /// All maps of an analysis as they are written.
+    pub fn results<'a>(&'a self, head: Value, maps: &'a [Map<'_>]) -> impl Serialize + 'a {
+        Results {
+            head,
+            maps: maps.iter().map(|map| map.result(self)).collect(),
+        }
+    }
+}
 
 /// All maps of an analysis.
 #[derive(Serialize)]
-pub struct Results<'a> {
+struct Results<'a> {
     #[serde(flatten)]
-    pub head: Value,
-    pub maps: Vec<MapResult<'a>>,
+    head: Value,
+    maps: Vec<MapResult<'a>>,
 }
 
 /// One map.
 #[derive(Serialize)]
-pub struct MapResult<'a> {
+struct MapResult<'a> {
     model_set: &'a str,
     gear: &'a str,
     bound: serde_json::Map<String, Value>,
@@ -30,7 +70,7 @@ pub struct MapResult<'a> {
     notes: &'a [Note],
     evidence: Vec<WeakPoint>,
     #[serde(serialize_with = "points")]
-    points: &'a Map<'a>,
+    points: (&'a Map<'a>, &'a Waited),
 }
 
 #[derive(Serialize)]
@@ -79,9 +119,7 @@ impl Serialize for Sums {
     }
 }
 
-// The way that serde asks for.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn points<S: Serializer>(map: &&Map<'_>, to: S) -> Result<S::Ok, S::Error> {
+fn points<S: Serializer>((map, waited): &(&Map<'_>, &Waited), to: S) -> Result<S::Ok, S::Error> {
     let point = |p: &PointResult| -> Point<'_> {
         Point {
             torque_nm: p.torque,
@@ -96,19 +134,26 @@ fn points<S: Serializer>(map: &&Map<'_>, to: S) -> Result<S::Ok, S::Error> {
             input_w: p.input,
             output_w: p.output,
             sums_w: sums(p).map(Sums),
-            parts_w: parts_of(p),
+            parts_w: (0..p.parts.len()).map(|part| loss_of(p, part)).collect(),
             undefined: p.undefined.map(|(part, reason)| Missing {
                 part: &map.built.transmission.parts()[part].path,
                 reason: reason.to_string(),
             }),
         }
     };
-    to.collect_seq(map.points.iter().map(point))
+    let mut list = to.serialize_seq(None)?;
+    for place in &map.waiting {
+        let piece = waited.0.borrow_mut().piece(*place).map_err(S::Error::custom)?;
+        for p in &piece.points {
+            list.serialize_element(&point(p))?;
+        }
+    }
+    list.end()
 }
 
 impl Map<'_> {
     /// The map as it is written.
-    pub fn result(&self) -> MapResult<'_> {
+    fn result<'s>(&'s self, waited: &'s Waited) -> MapResult<'s> {
         let (built, t) = (&self.built, &self.built.transmission);
         MapResult {
             model_set: &built.name,
@@ -128,7 +173,7 @@ impl Map<'_> {
             passes: self.passes,
             notes: &self.notes,
             evidence: evidence(t, &built.resolved, &|path| built.gearbox.places.is_written(path)),
-            points: self,
+            points: (self, waited),
         }
     }
 }

@@ -1,0 +1,99 @@
+//! Which points a map over a grid solves, told without solving any.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use gearloss_framework::analysis::{Field, Given, Points};
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::study::{Envelope, Grid, MapEntry};
+use serde_json::Value;
+
+use super::super::{Built, Runner, grid_axes};
+use super::Axes;
+use crate::output::Failure;
+
+/// The points of one map over a grid.
+pub struct Planned<'a> {
+    /// Maps that differ in their points only share a transmission.
+    pub built: Rc<Built<'a>>,
+    pub bound: Vec<(String, Value)>,
+    pub axes: Axes,
+    pub points: Points,
+}
+
+/// One map for each gear state, each set and each combination of bound values.
+pub fn on_grid<'s>(
+    runner: &'s Runner<'_>,
+    name: &str,
+    entry: &'s MapEntry,
+    grid_name: &str,
+    gearbox: &'s Gearbox,
+) -> Result<Vec<Planned<'s>>, Failure> {
+    let grid = runner.study.grid(&format!("analyses.{name}"), grid_name)?;
+    let path = format!("grids.{grid_name}");
+    let combinations = grid.combinations().map_err(|bound| {
+        let message = format!("`{bound}` has no list of values");
+        runner.wrong(&format!("{path}.bind"), message, "write `[60 ml, 90 ml]`, say")
+    })?;
+    if let Some(Err(reason)) = grid.envelope.as_ref().map(Envelope::check) {
+        let mend = "give as many torques as speeds, and speeds that rise";
+        return Err(runner.wrong(&format!("{path}.envelope"), reason, mend));
+    }
+    let mut maps = Vec::new();
+    for bound in combinations {
+        for built in runner.built_with(gearbox, &entry.model_sets, &bound)? {
+            let built = Rc::new(built);
+            let t = &built.transmission;
+            let (torques, speeds) = grid_axes(runner, grid_name, grid, t)?;
+            let axes = Axes {
+                torques,
+                speeds,
+                shares: [
+                    t.rating.filter(|_| grid.speed.is_rated()).map(|r| r.speed),
+                    t.rating.filter(|_| grid.torque.is_rated()).map(|r| r.torque),
+                ],
+            };
+            let field = below(grid, &axes);
+            if field.is_empty() {
+                let path = format!("{path}.envelope");
+                return Err(runner.wrong(
+                    &path,
+                    "no point of the grid lies below the envelope",
+                    "correct one of them",
+                ));
+            }
+            for gear in grid.gear.of(t) {
+                maps.push(Planned {
+                    built: Rc::clone(&built),
+                    bound: bound.clone(),
+                    axes: axes.clone(),
+                    points: runner.field(t, &gear, field.clone()),
+                });
+            }
+        }
+    }
+    Ok(maps)
+}
+
+/// The points of a grid, those below the envelope where it has one.
+fn below(grid: &Grid, axes: &Axes) -> Field {
+    let (torques, speeds) = (axes.torques.clone(), axes.speeds.clone());
+    let whole = Field::Grid { torques, speeds };
+    let Some(envelope) = &grid.envelope else {
+        return whole;
+    };
+    let held = |place: &u32| {
+        let Given { torque, speed, .. } = whole.at(*place as usize);
+        envelope.holds(torque, speed)
+    };
+    let count = u32::try_from(whole.len()).unwrap_or(u32::MAX);
+    let places: Arc<[u32]> = (0..count).filter(held).collect();
+    if places.len() == whole.len() {
+        return whole;
+    }
+    Field::Part {
+        torques: axes.torques.clone(),
+        speeds: axes.speeds.clone(),
+        places,
+    }
+}

@@ -1,0 +1,147 @@
+//! Solved pieces in a file: points of a map that wait for their JSON, and the part of a shard.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+
+use gearloss_framework::analysis::Piece;
+
+use super::write::fnv1a_64;
+
+/// Length and hash before the bytes of a piece.
+const HEAD: usize = 16;
+
+/// Where the bytes of a piece begin in their file.
+pub type Place = u64;
+
+/// A file of pieces, each behind its length and its hash, so that one that was cut off or changed is told from a whole one.
+pub struct PieceFile {
+    file: File,
+    path: PathBuf,
+    end: Place,
+    bytes: Vec<u8>,
+}
+
+impl PieceFile {
+    /// A new file, in place of one that may be there.
+    pub fn create(path: PathBuf) -> io::Result<Self> {
+        let mut options = OpenOptions::new();
+        let file = options.read(true).write(true).create(true).truncate(true).open(&path)?;
+        Ok(Self::at_start(file, path))
+    }
+
+    /// A file to go on with, with the numbers and places of its whole pieces; what follows the last of them is overwritten.
+    pub fn reopen(path: PathBuf) -> io::Result<(Self, Vec<(usize, Place)>)> {
+        let mut options = OpenOptions::new();
+        let file = options
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&path)?;
+        let mut file = Self::at_start(file, path);
+        let found = file.scan()?;
+        file.file.set_len(file.end)?;
+        Ok((file, found))
+    }
+
+    /// A file to read only, with the numbers and places of its whole pieces.
+    pub fn read_only(path: PathBuf) -> io::Result<(Self, Vec<(usize, Place)>)> {
+        let mut file = Self::at_start(File::open(&path)?, path);
+        let found = file.scan()?;
+        Ok((file, found))
+    }
+
+    /// The piece at a place of a file.
+    pub fn at_place(path: &Path, place: Place) -> io::Result<Piece> {
+        Self::at_start(File::open(path)?, path.to_owned()).piece(place)
+    }
+
+    fn at_start(file: File, path: PathBuf) -> Self {
+        Self {
+            file,
+            path,
+            end: 0,
+            bytes: Vec::new(),
+        }
+    }
+
+    fn scan(&mut self) -> io::Result<Vec<(usize, Place)>> {
+        let mut found = Vec::new();
+        while let Some(piece) = self.at(self.end)? {
+            found.push((piece.number, self.end));
+            self.end += (HEAD + self.bytes.len()) as u64;
+        }
+        Ok(found)
+    }
+
+    /// Adds a piece and tells its place.
+    pub fn append(&mut self, piece: &Piece) -> io::Result<Place> {
+        self.bytes.clear();
+        self.bytes.resize(HEAD, 0);
+        piece.write_bits(&mut self.bytes);
+        let (head, body) = self.bytes.split_at_mut(HEAD);
+        head[..8].copy_from_slice(&(body.len() as u64).to_le_bytes());
+        head[8..].copy_from_slice(&fnv1a_64(body).to_le_bytes());
+        let place = self.end;
+        self.file.seek(SeekFrom::Start(place))?;
+        self.file.write_all(&self.bytes)?;
+        self.end += self.bytes.len() as u64;
+        Ok(place)
+    }
+
+    /// The piece at a place.
+    pub fn piece(&mut self, place: Place) -> io::Result<Piece> {
+        self.at(place)?
+            .ok_or_else(|| io::Error::other(format!("{} was changed while it was read", self.path.display())))
+    }
+
+    /// The piece at a place; absent where no whole one begins there.
+    fn at(&mut self, place: Place) -> io::Result<Option<Piece>> {
+        let whole = self.file.metadata()?.len();
+        let mut head = [0; HEAD];
+        self.bytes.clear();
+        if place + HEAD as u64 > whole {
+            return Ok(None);
+        }
+        self.file.seek(SeekFrom::Start(place))?;
+        self.file.read_exact(&mut head)?;
+        let [length, hash] = [&head[..8], &head[8..]].map(|half| {
+            let half: [u8; 8] = half.try_into().unwrap_or_default();
+            u64::from_le_bytes(half)
+        });
+        if length > whole - place - HEAD as u64 {
+            return Ok(None);
+        }
+        self.bytes.resize(length as usize, 0);
+        self.file.read_exact(&mut self.bytes)?;
+        if fnv1a_64(&self.bytes) != hash {
+            return Ok(None);
+        }
+        let mut from = &self.bytes[..];
+        Ok(Piece::read_bits(&mut from).filter(|_| from.is_empty()))
+    }
+}
+
+/// Pieces that wait in a file of their own until they are written elsewhere; it goes with them.
+pub struct Waiting(PieceFile);
+
+impl Waiting {
+    pub fn new(path: &Path) -> io::Result<Self> {
+        PieceFile::create(path.to_owned()).map(Self)
+    }
+
+    pub fn append(&mut self, piece: &Piece) -> io::Result<Place> {
+        self.0.append(piece)
+    }
+
+    pub fn piece(&mut self, place: Place) -> io::Result<Piece> {
+        self.0.piece(place)
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0.path);
+    }
+}

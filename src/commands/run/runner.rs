@@ -1,0 +1,277 @@
+//! What the analyses of one run share: the study, the way to solve its points, and where its results go.
+
+use std::cell::{Cell, RefCell};
+use std::path::PathBuf;
+
+use gearloss_framework::analysis::{Field, Given, GridResult, Piece, Points, merge, notes, pieces, solve_pieces};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
+use gearloss_framework::loss::Extent;
+use gearloss_framework::resolve::Resolved;
+use gearloss_framework::study::{Analysis, Grid, Study};
+use gearloss_framework::transmission::Transmission;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::Value;
+
+use super::{
+    Parts, about, balance, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map,
+    operating_points, rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+};
+use crate::interrupt;
+use crate::output::{Failure, Out};
+use crate::report::Report;
+
+/// One gearbox under one set of models.
+pub struct Built<'a> {
+    pub name: String,
+    pub gearbox: &'a Gearbox,
+    pub resolved: Resolved,
+    pub transmission: Transmission,
+}
+
+impl Built<'_> {
+    /// The set as a choice names it: without the product, absent for the gearbox's own models.
+    pub fn set(&self) -> Option<&str> {
+        let set = self.name.rsplit('/').next();
+        set.filter(|set| *set != "own")
+    }
+}
+
+/// What all analyses of one run share.
+pub struct Runner<'a> {
+    pub(super) language: &'a Language,
+    pub(super) study: &'a Study,
+    pub(super) folder: PathBuf,
+    pub(super) progress: bool,
+    pub(super) report: RefCell<Report>,
+    /// Files that were written.
+    pub(super) names: write::Names,
+    /// Limits that were left at any point, counted over all analyses.
+    pub(super) left: Cell<usize>,
+    /// Files of points that the analysis at hand has read, with their hashes.
+    pub(super) read: RefCell<Vec<(String, String)>>,
+    /// Files that the gearboxes had read before any analysis.
+    pub(super) known: Vec<Vec<PathBuf>>,
+    /// What shards have computed, where they are merged.
+    pub(super) parts: Option<Parts>,
+}
+
+impl<'a> Runner<'a> {
+    pub(super) fn new(language: &'a Language, study: &'a Study, folder: PathBuf, parts: Option<Parts>) -> Self {
+        let known = |(_, gearbox): &(String, Gearbox)| gearbox.files.all().into_iter().map(|(file, _)| file).collect();
+        Self {
+            language,
+            study,
+            folder,
+            progress: Out::error().is_terminal(),
+            report: RefCell::default(),
+            names: write::Names::default(),
+            left: Cell::new(0),
+            read: RefCell::default(),
+            known: study.gearboxes.iter().map(known).collect(),
+            parts,
+        }
+    }
+}
+
+impl Runner<'_> {
+    /// Runs an analysis, with its section in the report. What another one has read is forgotten: the inputs that its results
+    /// name are its own, whatever ran before.
+    pub(super) fn attempt(&self, name: &str, analysis: &Analysis, out: &mut Out) -> Result<(), Failure> {
+        self.report.borrow_mut().begin(name, about(analysis));
+        self.read.borrow_mut().clear();
+        for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
+            gearbox.files.forget_all_but(known);
+        }
+        out.begin_copy();
+        let done = match analysis {
+            Analysis::Map(entry) => map::run(self, name, entry, out),
+            Analysis::Compare(entry) => compare::run(self, name, entry, out),
+            Analysis::Breakdown(entry) => breakdown::run(self, name, entry, out),
+            Analysis::ComponentCompare(entry) => component_compare::run(self, name, entry, out),
+            Analysis::ContactPath(entry) => contact_path::run(self, name, entry, out),
+            Analysis::OperatingPoints(entry) => operating_points::run(self, name, entry, out),
+            Analysis::ThermalLimit(entry) => thermal_limit::run(self, name, entry, out),
+            Analysis::Balance(entry) => balance::run(self, name, entry, out),
+            Analysis::Sweep(entry) => sweep::run(self, name, entry, out),
+            Analysis::Tournament(entry) => tournament::run(self, name, entry, out),
+            Analysis::Uncertainty(entry) => uncertainty::run(self, name, entry, out),
+            Analysis::Identify(entry) => identify::run(self, name, entry, out),
+            Analysis::Sensitivity(entry) => sensitivity::run(self, name, entry, out),
+            Analysis::RmsSurface(entry) => rms_surface::run(self, name, entry, out),
+            Analysis::Cycle(entry) => cycle::run(self, name, entry, out),
+            Analysis::FluidSweep(entry) => fluid_sweep::run(self, name, entry, out),
+            Analysis::SpinLoss(entry) => breakdown::spin_loss(self, name, entry, out),
+            Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(self, name, entry, out),
+        };
+        let printed = out.end_copy();
+        self.report.borrow_mut().text(&printed);
+        done
+    }
+
+    /// The gearbox under each set; under its own models where no set is named.
+    pub(super) fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &'s [String]) -> Result<Vec<Built<'s>>, Failure> {
+        self.built_with(gearbox, sets, &[])
+    }
+
+    /// As [`Runner::built`], with further overrides.
+    pub(super) fn built_with<'s>(
+        &'s self,
+        gearbox: &'s Gearbox,
+        sets: &'s [String],
+        overrides: &[(String, Value)],
+    ) -> Result<Vec<Built<'s>>, Failure> {
+        let build = |name: Option<&'s str>| -> Result<Built<'s>, Failure> {
+            let (gearbox, set) = match name {
+                Some(name) => self.study.reference("analyses", name, gearbox)?,
+                None => (gearbox, None),
+            };
+            let mut choice = self.study.choice(set);
+            choice.overrides.extend_from_slice(overrides);
+            let resolved = gearbox.resolve(self.language, &choice)?;
+            let transmission = gearbox.build(self.language, &resolved)?;
+            Ok(Built {
+                name: name.unwrap_or("own").to_owned(),
+                gearbox,
+                resolved,
+                transmission,
+            })
+        };
+        if sets.is_empty() {
+            Ok(vec![build(None)?])
+        } else {
+            sets.iter().map(|set| build(Some(set))).collect()
+        }
+    }
+
+    /// The points of axes under the study's conditions.
+    pub(super) fn points(
+        &self,
+        transmission: &Transmission,
+        gear: &str,
+        torques: Vec<f64>,
+        speeds: Vec<f64>,
+    ) -> Points {
+        self.field(transmission, gear, Field::Grid { torques, speeds })
+    }
+
+    /// The points of a list under the study's conditions.
+    pub(super) fn listed(&self, transmission: &Transmission, gear: &str, list: Vec<Given>) -> Points {
+        self.field(transmission, gear, Field::List(list))
+    }
+
+    pub(super) fn field(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
+        self.study.points(transmission, gear, field)
+    }
+
+    /// A bar of progress on standard error, on a terminal only.
+    pub(super) fn bar(&self, count: u64, name: &str) -> ProgressBar {
+        let bar = if self.progress {
+            ProgressBar::new(count)
+        } else {
+            ProgressBar::hidden()
+        };
+        if let Ok(style) = ProgressStyle::with_template("{msg} {bar:30} {pos}/{len}") {
+            bar.set_style(style);
+        }
+        bar.set_message(name.to_owned());
+        bar
+    }
+
+    /// Solves all points and holds them.
+    pub(super) fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
+        let mut all = GridResult::default();
+        self.solve_pieces(built, points, None, &mut |piece| {
+            all.add(piece);
+            Ok(())
+        })?;
+        Ok(all)
+    }
+
+    /// Solves all points and hands them over piece by piece. Those `of` a map, its analysis and its number there, come from
+    /// the shards where they are merged.
+    pub(super) fn solve_pieces(
+        &self,
+        built: &Built<'_>,
+        points: &Points,
+        of: Option<(&str, usize)>,
+        take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let mut seen = Vec::new();
+        let mut counted = |piece: Piece| {
+            merge(&mut seen, &piece.seen);
+            take(piece)
+        };
+        let solved = self.parts.as_ref().zip(of).and_then(|(parts, of)| parts.pieces(of));
+        if let Some(mut solved) = solved {
+            solved.try_for_each(|piece| counted(piece?))?;
+        } else {
+            let numbers: Vec<usize> = (0..pieces(points.field.len())).collect();
+            self.evaluate(built, points, &numbers, &mut counted)?;
+        }
+        self.seen(&built.transmission, &seen);
+        Ok(())
+    }
+
+    /// Solves pieces of given numbers, however they are wanted.
+    pub(super) fn evaluate(
+        &self,
+        built: &Built<'_>,
+        points: &Points,
+        numbers: &[usize],
+        take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let count = points.field.len();
+        let own = count * numbers.len() / pieces(count).max(1);
+        let bar = self.bar(own as u64, &built.name);
+        let going = |n: usize| {
+            bar.inc(n as u64);
+            !interrupt::pressed()
+        };
+        let mut fault = None;
+        let whole = solve_pieces(&built.transmission, points, numbers, &going, &mut |piece| {
+            fault = take(piece).err();
+            fault.is_none()
+        });
+        bar.finish_and_clear();
+        let whole = whole.map_err(|list| Failure::from(built.gearbox.findings(list)))?;
+        match fault {
+            Some(fault) => Err(fault),
+            None if whole => Ok(()),
+            None => Err(Failure::Interrupted),
+        }
+    }
+
+    /// Prints a sentence that a reader must not miss, and puts it where the report begins to tell of the analysis.
+    pub(super) fn verdict(&self, sentence: String, out: &mut Out) -> Result<(), Failure> {
+        out.line(&sentence)?;
+        self.report.borrow_mut().verdict(&sentence);
+        Ok(())
+    }
+
+    /// The one gear state of a grid.
+    pub(super) fn one_gear(&self, path: &str, grid: &Grid, t: &Transmission) -> Result<String, Failure> {
+        match &grid.gear.of(t)[..] {
+            [gear] => Ok(gear.clone()),
+            several => Err(self.wrong(
+                path,
+                format!("this analysis takes a grid of one gear state, not of {}", several.len()),
+                "give it a grid of its own",
+            )),
+        }
+    }
+
+    /// A fault of the study at a path.
+    pub(super) fn wrong(&self, path: &str, message: impl Into<String>, mend: &str) -> Failure {
+        self.study
+            .findings(vec![Diagnostic::error(path, message.into()).mend(mend)])
+            .into()
+    }
+
+    /// Counts the limits that were left.
+    pub(super) fn seen(&self, transmission: &Transmission, seen: &[Extent]) {
+        let left = notes(transmission, seen).iter().filter(|n| n.outside > 0).count();
+        self.left.set(self.left.get() + left);
+    }
+}

@@ -1,0 +1,340 @@
+//! Shards of a study, merged, give what a single run gives, byte by byte; they go on where they were broken off, and parts of
+//! anything else are refused.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder of its own for each test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shard").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+/// The program in a folder, so that what it prints of its results is the same wherever that lies.
+fn gearloss(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_gearloss"));
+    command.current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn fine(folder: &Path, arguments: &[&str]) -> Output {
+    let output = gearloss(folder, arguments);
+    assert!(
+        output.status.success(),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    output
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Why a command fails.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = gearloss(folder, arguments);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stdout));
+    text(&output.stderr)
+}
+
+/// All files of a folder.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let read = |path: PathBuf| {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        (name, fs::read(path).unwrap())
+    };
+    entries.map(read).collect()
+}
+
+/// Runs a study at once and in shards, and compares everything.
+fn same_as_single(folder: &Path, study: &str, shards: usize, end: &[&str]) -> Output {
+    let both = |command: &[&str]| -> Vec<String> { [command, end].concat().into_iter().map(str::to_owned).collect() };
+    let run = |arguments: Vec<String>| gearloss(folder, &arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    let single = run(both(&["run", study, "-o", "results"]));
+    let single_files = files(&folder.join("results"));
+    fs::remove_dir_all(folder.join("results")).unwrap();
+    let mut parts = Vec::new();
+    for k in 1..=shards {
+        let part = format!("part-{k}");
+        fine(
+            folder,
+            &["run", study, "--shard", &format!("{k}/{shards}"), "-o", &part],
+        );
+        parts.push(part);
+    }
+    let names = parts.iter().map(String::as_str);
+    let command: Vec<&str> = ["merge", study]
+        .into_iter()
+        .chain(names)
+        .chain(["-o", "results"])
+        .collect();
+    let merged = run(both(&command));
+    let merged_files = files(&folder.join("results"));
+    assert_eq!(
+        single_files.keys().collect::<Vec<_>>(),
+        merged_files.keys().collect::<Vec<_>>()
+    );
+    for (name, bytes) in &single_files {
+        let merged = &merged_files[name];
+        if name == "report.html" {
+            same(&text(bytes), &text(merged));
+        }
+        assert!(*bytes == *merged || name == "report.html", "{name} differs");
+    }
+    same(&text(&single.stdout), &text(&merged.stdout));
+    same(&text(&single.stderr), &text(&merged.stderr));
+    assert_eq!(single.status.code(), merged.status.code());
+    single
+}
+
+/// Compares line by line, but for the columns of times that a tournament measures: they differ between any two runs.
+fn same(one: &str, other: &str) {
+    assert_eq!(one.lines().count(), other.lines().count());
+    // First and last character of the column in the present table.
+    let mut times: Option<(usize, usize)> = None;
+    for (a, b) in one.lines().zip(other.lines()) {
+        let masked = |line: &str| -> String {
+            let held = |i: usize| times.is_none_or(|(start, end)| !(start..end).contains(&i));
+            let chars = line.chars().enumerate();
+            chars.map(|(i, c)| if held(i) { c } else { '*' }).collect()
+        };
+        assert!(masked(a) == masked(b), "{a:.300}\n{b:.300}");
+        let long = a.find("  time over that of the set");
+        let short = a.find("  time  ").or(a.strip_suffix("  time").map(str::len));
+        if let Some(start) = long.or(short.filter(|_| a.starts_with("rank"))) {
+            times = Some((start + 2, if long.is_some() { a.len() } else { start + 6 }));
+        } else if a.is_empty() {
+            times = None;
+        }
+    }
+}
+
+/// Copies the files of a folder, without folders in it.
+fn copied(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap().map(Result::unwrap) {
+        if entry.file_type().unwrap().is_file() {
+            fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+        }
+    }
+}
+
+/// Every type of analysis with every variant.
+#[test]
+fn three_shards_of_every_analysis_make_the_single_run() {
+    let folder = folder("every");
+    for from in ["two-speed-ev", "planetary-reducer", "electric-drive-unit"] {
+        copied(
+            &common::file("examples").join(from),
+            &folder.join("examples").join(from),
+        );
+    }
+    copied(&common::file("tests/results"), &folder.join("tests/results"));
+    let output = same_as_single(&folder, "tests/results/study.yaml", 3, &[]);
+    assert!(output.status.success());
+}
+
+/// A study with a map of several pieces, one of points and bound values, a failing analysis, and the gearbox beside it.
+const STUDY: &str = "
+gearloss: study/1
+title: In parts
+gearboxes: { ours: gearbox.yaml }
+conditions: { torque_at: input, speed_at: input }
+model_sets:
+  iso: { bearing: { type: iso14179_2 } }
+grids:
+  field:
+    gear: [first, second]
+    torque: { from: 1 Nm, to: 20 Nm, step: 0.5 Nm }
+    speed: { from: 500 rpm, to: 22000 rpm, step: 500 rpm }
+    envelope: { speed: [0 rpm, 10000 rpm, 22000 rpm], torque: [20 Nm, 20 Nm, 8 Nm] }
+  rising: { gear: first, torque: { from: 1 Nm, to: 20 Nm, step: 1 Nm }, speed: { from: 1000 rpm, to: 20000 rpm, step: 1000 rpm } }
+  high: { gear: first, torque: 5 Nm, speed: 1 rpm, envelope: { speed: [0 rpm, 10 rpm], torque: [1 Nm, 1 Nm] } }
+analyses:
+  maps: { type: map, grid: field, model_sets: [iso], write: [csv, json, parquet, svg] }
+  listed: { type: map, points: { file: points.csv }, gear: first, write: [csv, json] }
+  beyond: { type: map, grid: high }
+  table: { type: map, grid: rising, export: [lossy_gear], write: [csv] }
+  gap: { type: compare, grid: rising, base: iso, against: [iso], quantity: loss, write: [csv, json, parquet] }
+";
+
+/// Writes the study with what it names into a folder.
+fn small(name: &str) -> PathBuf {
+    let folder = folder(name);
+    fs::write(folder.join("study.yaml"), STUDY).unwrap();
+    fs::copy(
+        common::file("examples/two-speed-ev/gearbox.yaml"),
+        folder.join("gearbox.yaml"),
+    )
+    .unwrap();
+    fs::write(
+        folder.join("points.csv"),
+        "torque [Nm],speed [rpm]\n5,3000\n8,12000\n-3,4000\n",
+    )
+    .unwrap();
+    folder
+}
+
+/// What fails in a single run fails in the same words after a merge, with the same exit code; and what is denied is denied.
+#[test]
+fn failures_and_denials_are_those_of_the_single_run() {
+    let folder = small("failures");
+    let output = same_as_single(&folder, "study.yaml", 2, &[]);
+    let words = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        words.contains("no point of the grid lies below the envelope"),
+        "{words}"
+    );
+    assert!(words.contains("1 of 5 analyses failed"), "{words}");
+
+    let sound: Vec<&str> = STUDY.lines().filter(|line| !line.starts_with("  beyond")).collect();
+    fs::write(folder.join("study.yaml"), sound.join("\n")).unwrap();
+    for old in ["part-1", "part-2", "results"] {
+        fs::remove_dir_all(folder.join(old)).unwrap();
+    }
+    let output = same_as_single(&folder, "study.yaml", 2, &["--deny", "extrapolation"]);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("denied: extrapolation"));
+}
+
+/// `shard 1/2: 3 of 9 units in FOLDER, 2 of them from before`: the units of the shard, and those from before.
+fn counted(output: &Output) -> (usize, usize) {
+    let line = text(&output.stdout).lines().next().unwrap().to_owned();
+    let numbers: Vec<usize> = line
+        .replace(',', " ")
+        .split_whitespace()
+        .filter_map(|w| w.parse().ok())
+        .collect();
+    let [own, _, before] = numbers[..] else {
+        panic!("{line}");
+    };
+    (own, before)
+}
+
+#[test]
+fn a_broken_off_shard_goes_on_where_it_stopped() {
+    let folder = small("resumed");
+    let run = ["run", "study.yaml", "--shard", "1/2", "-o", "one"];
+    let (own, before) = counted(&fine(&folder, &run));
+    assert!(own >= 4 && before == 0, "{own} {before}");
+    assert_eq!(counted(&fine(&folder, &run)), (own, own), "nothing is computed twice");
+
+    // The last piece is cut off in the middle, as by a full disk, and one byte of an earlier one is changed in another file.
+    let path = folder.join("one/maps/0.pieces");
+    let whole = fs::read(&path).unwrap();
+    fs::write(&path, &whole[..whole.len() - 100]).unwrap();
+    assert_eq!(counted(&fine(&folder, &run)), (own, own - 1));
+    assert_eq!(fs::read(&path).unwrap(), whole);
+
+    let mut changed = whole.clone();
+    changed[200] ^= 1;
+    fs::write(&path, changed).unwrap();
+    let (_, before) = counted(&fine(&folder, &run));
+    assert!(before < own);
+    assert_eq!(fs::read(&path).unwrap(), whole);
+
+    // A result of an analysis that was run as a whole is not there any more.
+    let outcomes = ["listed", "gap"].map(|name| folder.join("one").join(name).join("outcome.json"));
+    let outcome = outcomes.iter().find(|path| path.is_file()).unwrap();
+    let csv = fs::read_dir(outcome.with_file_name("files")).unwrap().next().unwrap();
+    fs::remove_file(csv.unwrap().path()).unwrap();
+    assert_eq!(counted(&fine(&folder, &run)), (own, own - 1));
+    fine(&folder, &["run", "study.yaml", "--shard", "2/2", "-o", "two"]);
+    assert_eq!(
+        gearloss(&folder, &["merge", "study.yaml", "one", "two"]).status.code(),
+        Some(2),
+        "the failing analysis of the study is told"
+    );
+    assert!(folder.join("results/maps.json").is_file());
+}
+
+#[test]
+fn parts_of_anything_else_are_refused() {
+    let folder = small("changed");
+    let shard = |k: &'static str| ["run", "study.yaml", "--shard", k];
+    fine(&folder, &shard("1/2"));
+    let missing = refused(&folder, &["merge", "study.yaml"]);
+    assert!(missing.contains("missing or not finished: shard 2/2"), "{missing}");
+    assert!(missing.contains("gearloss run study.yaml --shard 2/2"), "{missing}");
+    fine(&folder, &shard("2/2"));
+    assert!(!folder.join("results").exists());
+
+    for (file, from, to) in [
+        ("gearbox.yaml", "radial_clearance", "radial_clearance"),
+        ("points.csv", "8,12000", "8,12001"),
+        ("study.yaml", "step: 0.5 Nm", "step: 0.25 Nm"),
+    ] {
+        let path = folder.join(file);
+        let original = fs::read_to_string(&path).unwrap();
+        // A comment is a change as well: what was read is told by its bytes.
+        let changed = if from == to {
+            format!("{original}\n# changed\n")
+        } else {
+            original.replace(from, to)
+        };
+        assert_ne!(changed, original, "{file}");
+        fs::write(&path, changed).unwrap();
+        for arguments in [&["merge", "study.yaml"][..], &shard("1/2")] {
+            let words = refused(&folder, arguments);
+            let named = file.replace("study.yaml", "study");
+            assert!(words.contains("was computed from something else"), "{words}");
+            assert!(words.contains(&named) && words.contains("has changed"), "{words}");
+        }
+        fs::write(&path, original).unwrap();
+    }
+
+    // Another version of a crate of models.
+    let manifest = folder.join("shards/2-of-2/shard.json");
+    let original = fs::read_to_string(&manifest).unwrap();
+    let other = original.replacen("gearloss-plugins ", "gearloss-plugins 9.", 1);
+    assert_ne!(other, original);
+    fs::write(&manifest, other).unwrap();
+    let words = refused(&folder, &["merge", "study.yaml"]);
+    assert!(
+        words.contains("the models of") && words.contains("gearloss-plugins 9."),
+        "{words}"
+    );
+    fs::write(&manifest, original).unwrap();
+
+    // Shards of two splittings, a folder of something else, a shard in the folder of another.
+    fine(&folder, &["run", "study.yaml", "--shard", "1/3", "-o", "third"]);
+    let words = refused(&folder, &["merge", "study.yaml", "shards/1-of-2", "third"]);
+    assert!(words.contains("of 2 shards") && words.contains("of 3"), "{words}");
+    let words = refused(&folder, &["run", "study.yaml", "--shard", "2/3", "-o", "third"]);
+    assert!(words.contains("shard 1/3, not of 2/3"), "{words}");
+    let words = refused(&folder, &["run", "study.yaml", "--shard", "2/3", "-o", "."]);
+    assert!(words.contains("no part of a study"), "{words}");
+    let words = refused(&folder, &["merge", "study.yaml", "."]);
+    assert!(words.contains("no part of a study"), "{words}");
+}
+
+#[test]
+fn more_shards_than_pieces_are_fine_and_wrong_numbers_are_told() {
+    let folder = folder("many");
+    fs::copy(
+        common::file("examples/two-speed-ev/gearbox.yaml"),
+        folder.join("gearbox.yaml"),
+    )
+    .unwrap();
+    let study = "gearloss: study/1\ngearboxes: { ours: gearbox.yaml }\ngrids:\n  few: { gear: first, torque: [5 Nm, 10 Nm], speed: [2000 rpm, 8000 rpm] }\nanalyses:\n  map: { type: map, grid: few, write: [csv] }\n";
+    fs::write(folder.join("study.yaml"), study).unwrap();
+    same_as_single(&folder, "study.yaml", 4, &[]);
+    for wrong in ["0/3", "4/3", "1", "1/0", "a/b", "-1/3", ""] {
+        let words = refused(&folder, &["run", "study.yaml", &format!("--shard={wrong}")]);
+        assert!(words.contains("K/N"), "{wrong}: {words}");
+    }
+    let words = refused(
+        &folder,
+        &["run", "study.yaml", "--shard", "1/2", "--deny", "extrapolation"],
+    );
+    assert!(words.contains("cannot be used with"), "{words}");
+}
