@@ -30,10 +30,9 @@ VARIED = (
 VARIED_POINTS = [(0.5, 500.0, 100.0), (5.0, 8000.0, 100.0), (20.0, 22000.0, 100.0), (10.0, 3000.0, 40.0)]
 
 
-def program():
-    """Path of the program."""
-    path = sys.argv[1] if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else os.environ.get("GEARLOSS")
-    path = Path(path or ROOT / "target" / "release" / "gearloss").resolve()
+def program(path=None):
+    """Path of the program: as given, else as GEARLOSS says, else where cargo builds it."""
+    path = Path(path or os.environ.get("GEARLOSS") or ROOT / "target" / "release" / "gearloss").resolve()
     if not path.exists():
         sys.exit(f"missing: {path}; build it with `cargo build --release`, or name it by GEARLOSS=...")
     return str(path)
@@ -98,4 +97,4 @@ def report(gearloss):
 
 
 if __name__ == "__main__":
-    report(program())
+    report(program(*sys.argv[1:2]))

@@ -187,7 +187,8 @@ def churning(mesh):
 def oil():
     """Viscosity over temperature after ASTM D341 from kv100 and an index of 150 (ASTM D2270), density, full-film friction."""
     kv100, index = 6.4, 150.0
-    h = (0.22619 * kv100 + 7.7369) * kv100 - 16.656
+    # kv100 is where two ranges of the standard's table meet; the program takes the lower one, and so does this.
+    h = (0.04985 * kv100 + 9.1613) * kv100 - 18.557
     kv40 = h / kv100 ** log10(1.0 + 0.00715 * (index - 100.0))
     y = [log10(log10(nu + 0.7)) for nu in (kv40, kv100)]
     x = [log10(t + 273.15) for t in (40.0, 100.0)]

@@ -10,8 +10,12 @@ import constants
 
 RPM = 30.0 / pi
 TOLERANCE = 1e-9
+# Shaft of each ball bearing from the input on.
+SHAFTS = (("B1", 0), ("B2", 0), ("B3", 1), ("B4", 1), ("B5", 2), ("B6", 2))
+STEEP = 24.6 * pi / 180.0
 # Regression of Xu and others 2007.
 B = (-8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958, 0.620305)
+B3, B4 = B[3:5]
 
 
 class Gearbox:
@@ -47,10 +51,14 @@ class Gearbox:
                 )
             ]
             self.meshes.append((mesh["force"], mesh["normal"], path))
-        self.bearings = {}
-        for name, b in known["bearings"].items():
-            rows = [(radial * y, radial * z, x) for y, z, x in b["loads"]]
-            self.bearings[name] = (b, rows)
+        self.bearings = []
+        for name, shaft in SHAFTS:
+            b = known["bearings"][name]
+            y, z, x = zip(*b["loads"])
+            thrust = x if any(x) else None
+            rolling, sliding = b["rolling"], b["sliding" if thrust else "sliding_radial"]
+            loads = tuple(radial * c for c in y), tuple(radial * c for c in z), thrust
+            self.bearings.append((shaft, b, (*loads, rolling, b["r2"], sliding, b["s2"], b["c0"])))
         self.needle = known["needle"] | {"load": radial * known["needle"]["load"]}
         self.wheels = known["wheels"]
 
@@ -65,20 +73,23 @@ class Gearbox:
         return starved * viscous**0.6, boundary * self.mu_bl + (1.0 - boundary) * self.mu_ehl, drag
 
     @staticmethod
-    def moment(kept, bearing, rows, forces):
+    def moment(kept, ball, forces):
         """Moment of a ball bearing under the tangential forces of the meshes. Nm"""
-        y = sum(row[0] * force for row, force in zip(rows, forces))
-        z = sum(row[1] * force for row, force in zip(rows, forces))
-        axial = abs(sum(row[2] * force for row, force in zip(rows, forces)))
+        (y1, y2, y3), (z1, z2, z3), thrust, rolling, r2, sliding, s2, c0 = ball
+        first, second, idle = forces
+        y = y1 * first + y2 * second + y3 * idle
+        z = z1 * first + z2 * second + z3 * idle
         radial = sqrt(y * y + z * z)
-        if axial == 0.0:
-            rolling = bearing["rolling"] * radial**0.54
-            sliding = bearing["sliding_radial"] * radial ** (5.0 / 3.0)
+        if thrust is None:
+            g_rr = rolling * radial**0.54
+            g_sl = sliding * radial ** (5.0 / 3.0)
         else:
-            pushed = sin(24.6 * pi / 180.0 * (axial / bearing["c0"]) ** 0.24)
-            rolling = bearing["rolling"] * (radial + bearing["r2"] * axial / pushed) ** 0.54
-            sliding = bearing["sliding"] * cbrt(radial**5 + bearing["s2"] * axial**4 / pushed)
-        return 1e-3 * (kept[0] * rolling + kept[1] * sliding + kept[2])
+            axial = abs(thrust[0] * first + thrust[1] * second + thrust[2] * idle)
+            pushed = axial / sin(STEEP * (axial / c0) ** 0.24)
+            g_rr = rolling * (radial + r2 * pushed) ** 0.54
+            g_sl = sliding * cbrt(radial**5 + s2 * pushed * axial**3)
+        at_speed, mu, drag = kept
+        return 1e-3 * (at_speed * g_rr + mu * g_sl + drag)
 
     def churning(self, wheel, w):
         """Power that a wheel loses in the oil. W"""
@@ -100,8 +111,8 @@ class Gearbox:
         friction = 0.0
         for front, rise in path:
             x = rise * root
-            friction += front * exp(B[3] * x + B[4] * exp(-x))
-        return friction * root ** B[1] * w ** B[5] * pressed / torque
+            friction += front * exp(B3 * x + B4 * exp(-x))
+        return friction * root ** B[1] * w ** B[5] * normal * force
 
     def loss(self, torque, n):
         """Loss for torque (Nm) and speed (rpm) at the input, both above zero: the sum and the number of passes. W"""
@@ -109,8 +120,7 @@ class Gearbox:
         speeds += [speeds[0] / self.first, speeds[0] / self.first / self.second]
         w_idle = speeds[2] * self.idle
         slip = speeds[1] - w_idle
-        turning = {"B1": 0, "B2": 0, "B3": 1, "B4": 1, "B5": 2, "B6": 2}
-        kept = {name: self.at_speed(b[0], speeds[turning[name]] * RPM) for name, b in self.bearings.items()}
+        balls = [(self.at_speed(b, speeds[shaft] * RPM), ball) for shaft, b, ball in self.bearings]
         product = self.nu * slip * RPM
         no_load = self.needle["no_load"] * (1e-7 * product ** (2.0 / 3.0) if product >= 2000.0 else 160e-7)
         churned = sum(self.churning(wheel, speeds[2]) for wheel in self.wheels)
@@ -119,25 +129,21 @@ class Gearbox:
         forces = [torque * self.meshes[0][0], torque * self.first * self.meshes[1][0], 0.0]
         before, moved = None, None
         for passes in range(1, 60):
-            braked = [0.0, 0.0, 0.0]
-            for name in ("B1", "B2"):
-                braked[0] += self.moment(kept[name], *self.bearings[name], forces) * speeds[0]
-            into = power - braked[0]
+            braked = (self.moment(*balls[0], forces) + self.moment(*balls[1], forces)) * speeds[0]
+            into = power - braked
             turning_moment = into / speeds[0]
             forces[0] = turning_moment * self.meshes[0][0]
             first = into * self.share(0, turning_moment, speeds[0])
-            for name in ("B3", "B4"):
-                braked[1] += self.moment(kept[name], *self.bearings[name], forces) * speeds[1]
+            carried = (self.moment(*balls[2], forces) + self.moment(*balls[3], forces)) * speeds[1]
             needle = 1e-3 * (no_load + self.needle["moment_per_load"] * self.needle["load"] * forces[2])
             forces[2] = needle * self.meshes[2][0]
-            into = into - first - braked[1] - needle * speeds[1]
+            into = into - first - carried - needle * speeds[1]
             turning_moment = into / speeds[1]
             forces[1] = turning_moment * self.meshes[1][0]
             second = into * self.share(1, turning_moment, speeds[1])
             idle = needle * w_idle * self.share(2, needle, w_idle)
-            for name in ("B5", "B6"):
-                braked[2] += self.moment(kept[name], *self.bearings[name], forces) * speeds[2]
-            losses = (braked[0], first, braked[1], needle * slip, second, idle, braked[2])
+            last = (self.moment(*balls[4], forces) + self.moment(*balls[5], forces)) * speeds[2]
+            losses = (braked, first, carried, needle * slip, second, idle, last)
             if before:
                 now = max(abs(a - b) for a, b in zip(losses, before))
                 # What the next pass is going to move, if it falls as it did.
