@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from functools import partial
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -81,11 +82,11 @@ def peers():
     import joint_loop
     import joint_map
 
-    return {
-        "NumPy, passes": lambda points, **inputs: joint_map.check_points(points, "passes", **inputs),
-        "NumPy, cascade": lambda points, **inputs: joint_map.check_points(points, "cascade", **inputs),
-        "Python loop": joint_loop.check_points,
-    }
+    found = {}
+    for name, module in (("NumPy", joint_map), ("Python loop", joint_loop)):
+        for method in joint_map.METHODS:
+            found[f"{name}, {method}"] = partial(module.check_points, method=method)
+    return found
 
 
 def report(gearloss):

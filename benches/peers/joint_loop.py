@@ -1,7 +1,8 @@
 """The joint model of the two-speed example in first gear, point by point in plain Python: see README.md.
 
-What is the same at every point is prepared once, what hangs on the speed alone once for each point, and a pass walks from the input to
-the output with the newest torques, until the losses stand still to 1e-9 of the power.
+What is the same at every point is prepared once, what hangs on the speed alone once for each point. The two ways are those of
+joint_map.py: `passes` walks from the input to the output with all laws in every pass until the losses stand still to 1e-9 of the power,
+`cascade` iterates only what hangs on itself in this gear state.
 """
 
 from math import cbrt, exp, log, log10, pi, sin, sqrt
@@ -114,47 +115,89 @@ class Gearbox:
             friction += front * exp(B3 * x + B4 * exp(-x))
         return friction * root ** B[1] * w ** B[5] * normal * force
 
-    def loss(self, torque, n):
-        """Loss for torque (Nm) and speed (rpm) at the input, both above zero: the sum and the number of passes. W"""
-        speeds = [n / RPM]
-        speeds += [speeds[0] / self.first, speeds[0] / self.first / self.second]
-        w_idle = speeds[2] * self.idle
-        slip = speeds[1] - w_idle
-        balls = [(self.at_speed(b, speeds[shaft] * RPM), ball) for shaft, b, ball in self.bearings]
-        product = self.nu * slip * RPM
-        no_load = self.needle["no_load"] * (1e-7 * product ** (2.0 / 3.0) if product >= 2000.0 else 160e-7)
-        churned = sum(self.churning(wheel, speeds[2]) for wheel in self.wheels)
-        power = torque * speeds[0]
+    def at_speeds(self, n):
+        """All that hangs on the speed at the input alone."""
+        w = n / RPM, n / RPM / self.first, n / RPM / self.first / self.second
+        w_idle = w[2] * self.idle
+        balls = [(self.at_speed(b, w[shaft] * RPM), ball) for shaft, b, ball in self.bearings]
+        product = self.nu * (w[1] - w_idle) * RPM
+        no_load = 1e-3 * self.needle["no_load"] * (1e-7 * product ** (2.0 / 3.0) if product >= 2000.0 else 160e-7)
+        churned = sum(self.churning(wheel, w[2]) for wheel in self.wheels)
+        return w, w_idle, balls, no_load, churned
 
-        forces = [torque * self.meshes[0][0], torque * self.first * self.meshes[1][0], 0.0]
-        before, moved = None, None
-        for passes in range(1, 60):
-            braked = (self.moment(*balls[0], forces) + self.moment(*balls[1], forces)) * speeds[0]
+    def braked(self, one, other, forces):
+        """Moment of the two bearings of a shaft. Nm"""
+        return self.moment(*one, forces) + self.moment(*other, forces)
+
+    def passes(self, torque, n):
+        """Loss for torque (Nm) and speed (rpm) at the input, both above zero, all laws in every pass. W"""
+        w, w_idle, balls, no_load, churned = self.at_speeds(n)
+        power = torque * w[0]
+        slip = w[1] - w_idle
+        own = 1e-3 * self.needle["moment_per_load"] * self.needle["load"]
+        to_force = [mesh[0] for mesh in self.meshes]
+        forces = [torque * to_force[0], 0.0, no_load * to_force[2]]
+        before = moved = None
+        for _ in range(60):
+            braked = self.braked(balls[0], balls[1], forces) * w[0]
             into = power - braked
-            turning_moment = into / speeds[0]
-            forces[0] = turning_moment * self.meshes[0][0]
-            first = into * self.share(0, turning_moment, speeds[0])
-            carried = (self.moment(*balls[2], forces) + self.moment(*balls[3], forces)) * speeds[1]
-            needle = 1e-3 * (no_load + self.needle["moment_per_load"] * self.needle["load"] * forces[2])
-            forces[2] = needle * self.meshes[2][0]
-            into = into - first - carried - needle * speeds[1]
-            turning_moment = into / speeds[1]
-            forces[1] = turning_moment * self.meshes[1][0]
-            second = into * self.share(1, turning_moment, speeds[1])
-            idle = needle * w_idle * self.share(2, needle, w_idle)
-            last = (self.moment(*balls[4], forces) + self.moment(*balls[5], forces)) * speeds[2]
-            losses = (braked, first, carried, needle * slip, second, idle, last)
+            forces[0] = into / w[0] * to_force[0]
+            first = into * self.share(0, into / w[0], w[0])
+            into -= first
+            if not before:
+                # The first guess.
+                forces[1] = into / w[1] * to_force[1]
+            carried = self.braked(balls[2], balls[3], forces) * w[1]
+            moment = no_load + own * forces[2]
+            forces[2] = moment * to_force[2]
+            into -= carried + moment * w[1]
+            forces[1] = into / w[1] * to_force[1]
+            second = into * self.share(1, into / w[1], w[1])
+            idle = moment * w_idle * self.share(2, moment, w_idle)
+            last = self.braked(balls[4], balls[5], forces) * w[2]
+            losses = braked, first, carried, moment * slip, second, idle, last
             if before:
                 now = max(abs(a - b) for a, b in zip(losses, before))
                 # What the next pass is going to move, if it falls as it did.
                 if now * (now / moved if moved else 1.0) <= TOLERANCE * power:
-                    break
+                    return sum(losses) + churned
                 moved = now
             before = losses
-        return sum(losses) + churned, passes
+        raise ArithmeticError("no convergence")
+
+    def cascade(self, torque, n):
+        """The same shaft by shaft from the input: only the bearings of a shaft hang on what they take."""
+        w, w_idle, balls, no_load, churned = self.at_speeds(n)
+        power = torque * w[0]
+        to_force = [mesh[0] for mesh in self.meshes]
+        moment = no_load / (1.0 - 1e-3 * self.needle["moment_per_load"] * self.needle["load"] * to_force[2])
+        forces = [0.0, 0.0, moment * to_force[2]]
+
+        def settled(shaft, one, other, into):
+            lost, moved = 0.0, None
+            for _ in range(60):
+                forces[shaft] = (into - lost) / w[shaft] * to_force[shaft]
+                now = self.braked(one, other, forces) * w[shaft]
+                change = abs(now - lost)
+                lost = now
+                if change * (change / moved if moved else 1.0) <= TOLERANCE * power:
+                    forces[shaft] = (into - lost) / w[shaft] * to_force[shaft]
+                    return lost
+                moved = change
+            raise ArithmeticError("no convergence")
+
+        total = settled(0, balls[0], balls[1], power)
+        into = power - total
+        first = into * self.share(0, into / w[0], w[0])
+        into -= first + moment * w[1]
+        carried = settled(1, balls[2], balls[3], into)
+        into -= carried
+        second = into * self.share(1, into / w[1], w[1])
+        idle = moment * w_idle * self.share(2, moment, w_idle) + moment * (w[1] - w_idle)
+        return total + first + carried + second + idle + self.braked(balls[4], balls[5], forces) * w[2] + churned
 
 
-def check_points(points, **inputs):
+def check_points(points, method="cascade", **inputs):
     """Losses at points of torque, speed and oil temperature."""
     known = constants.read()
-    return [Gearbox(known, temperature=t, **inputs).loss(torque, n)[0] for torque, n, t in points]
+    return [getattr(Gearbox(known, temperature=t, **inputs), method)(torque, n) for torque, n, t in points]

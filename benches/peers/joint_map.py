@@ -207,20 +207,19 @@ class Gearbox:
 
     def losses(self, torque, n, temperature=100.0, method="cascade"):
         """Losses in W for torques (Nm) and speeds (rpm) at the input, above zero: (torques, speeds) for a column and a row."""
-        kept = self.at_speed(n, np.asarray(temperature, dtype=float))
         rows, columns = torque.shape[0], len(n)
         answer = np.empty((rows, columns))
-        one = self.passes
-        if method == "cascade":
-            kept, one = kept + self.idling(kept), self.cascade
+        temperature = np.broadcast_to(np.asarray(temperature, dtype=float), n.shape)
         wide = min(columns, CHUNK)
         high = max(1, CHUNK // wide)
         for c in range(0, columns, wide):
             part = slice(c, c + wide)
-            here = cut(kept, part, columns)
+            kept, one = self.at_speed(n[part], temperature[part]), self.passes
+            if method == "cascade":
+                kept, one = kept + self.idling(kept), self.cascade
             column = torque if torque.shape[1] == 1 else torque[:, part]
             for r in range(0, rows, high):
-                answer[r : r + high, part] = one(column[r : r + high], here)
+                answer[r : r + high, part] = one(column[r : r + high], kept)
         return answer
 
     def braked(self, names, forces, bearings):
@@ -285,7 +284,7 @@ class Gearbox:
         power = torque * w[0]
         first, second, idle = self.meshes
         own = 1e-3 * self.needle["moment_per_load"] * self.needle["load"] * self.radial
-        forces = [torque * first.force + 0.0 * w[0], torque * (self.first * second.force) + 0.0 * w[0], 0.0 * power]
+        forces = [torque * first.force + 0.0 * w[0], None, 1e-3 * idle.force * thick]
         before, moved = None, None
         for _ in range(60):
             losses = [self.braked(("B1", "B2"), forces, bearings)]
@@ -293,6 +292,9 @@ class Gearbox:
             turning = into / w[0]
             forces[0] = turning * first.force
             losses.append(into * first.share(turning, mesh[0], lg_eta))
+            if before is None:
+                # The first guess, near enough that a pass is saved.
+                forces[1] = (into - losses[1]) * (second.force / w[1])
             losses.append(self.braked(("B3", "B4"), forces, bearings))
             moment = 1e-3 * thick + own * forces[2]
             forces[2] = moment * idle.force
@@ -312,17 +314,6 @@ class Gearbox:
                 moved = size
             before = losses
         raise ArithmeticError("no convergence")
-
-
-def cut(kept, part, columns):
-    """The same for some of the speeds."""
-    if isinstance(kept, np.ndarray):
-        return kept[part] if kept.shape == (columns,) else kept
-    if isinstance(kept, dict):
-        return {key: cut(value, part, columns) for key, value in kept.items()}
-    if isinstance(kept, (list, tuple)):
-        return type(kept)(cut(value, part, columns) for value in kept)
-    return kept
 
 
 def check_points(points, method="cascade", **inputs):

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from functools import partial
 from pathlib import Path
 
 # Before NumPy is loaded, here and in what is started from here.
@@ -66,6 +67,11 @@ def own(work):
     begun = np.array([time.perf_counter(), time.process_time()])
     work()
     return np.array([time.perf_counter(), time.process_time()]) - begun
+
+
+def all_of(loss, points):
+    """Losses point by point."""
+    return [loss(*point) for point in points]
 
 
 class Library:
@@ -141,29 +147,32 @@ def main():
             print(f"missing: {path}; the library alone is left out. Build it with cargo, see README.md.")
         runs[RUN] = (Run(gearloss, folder, size), size**2)
         for method in joint_map.METHODS:
-            work = lambda method=method: own(lambda: numpy.losses(torque, n, method=method))
-            runs[f"NumPy, {method}"] = (work, size**2)
-        runs["Python loop"] = (lambda: own(lambda: [loop.loss(*point) for point in coarse]), len(coarse))
+            runs[f"NumPy, {method}"] = (partial(own, partial(numpy.losses, torque, n, method=method)), size**2)
+        # The same points as if each had a speed of its own.
+        every = torque.repeat(size, axis=1).reshape(1, -1), np.tile(n, size)
+        runs["NumPy, scattered"] = (partial(own, partial(numpy.losses, *every, method="cascade")), size**2)
+        for method in joint_map.METHODS:
+            runs[f"Python loop, {method}"] = (partial(own, partial(all_of, getattr(loop, method), coarse)), len(coarse))
         seconds = {name: [] for name in runs}
         for _ in range(arguments.rounds):
             for name, (work, _) in runs.items():
                 seconds[name].append(work())
 
     print(f"\nmap of {size} x {size} points (Python loop {LOOP} x {LOOP}), {arguments.rounds} rounds, one thread on core {arguments.core}")
-    print(f"{'':18} {'us/point of CPU':>20} {'us/point by the clock':>22} {'points/s of CPU':>16}")
-    print(f"{'':18} {'min':>10} {'median':>9} {'min':>12} {'median':>9} {'at min':>16}")
+    print(f"{'':20} {'us/point of CPU':>20} {'us/point by the clock':>22} {'points/s of CPU':>16}")
+    print(f"{'':20} {'min':>10} {'median':>9} {'min':>12} {'median':>9} {'at min':>16}")
     least = {}
     for name, (_, points) in runs.items():
         wall, cpu = 1e6 * np.array(seconds[name]).T / points
         least[name] = min(cpu)
         print(
-            f"{name:18} {min(cpu):10.3f} {statistics.median(cpu):9.3f} {min(wall):12.3f} {statistics.median(wall):9.3f} "
+            f"{name:20} {min(cpu):10.3f} {statistics.median(cpu):9.3f} {min(wall):12.3f} {statistics.median(wall):9.3f} "
             f"{1e6 / min(cpu):16,.0f}"
         )
     print("\ntimes as fast as, CPU at min")
-    print(f"{'':18} " + " ".join(f"{name:>18}" for name in runs))
+    print(f"{'':20} " + " ".join(f"{name:>20}" for name in runs))
     for name in runs:
-        print(f"{name:18} " + " ".join(f"{least[other] / least[name]:18.2f}" for other in runs))
+        print(f"{name:20} " + " ".join(f"{least[other] / least[name]:20.2f}" for other in runs))
     if LIBRARY in runs:
         words = runs[LIBRARY][0].words
         print(f"\nthe library: {words['passes']} passes and {words['calls']} calls of loss models per point")
