@@ -1,6 +1,7 @@
 """Holds the peers to the program: losses at the corners, edges and middle of the map, and with other inputs, to 1e-6 of each.
 
-Usage: python3 check.py [path of gearloss], else GEARLOSS names it, else target/release/gearloss. Ends with an error where one differs.
+Usage: python3 check.py [path of gearloss], else GEARLOSS names it, else target/release/gearloss. Ends with an error where one
+differs.
 """
 
 import json

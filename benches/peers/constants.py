@@ -1,8 +1,8 @@
 """What does not depend on the operating point of the two-speed example in first gear under the set `joint`: joint_first.json.
 
 The figures of the gearbox are those of examples/two-speed-ev/gearbox.yaml, those of its bearings as
-`gearloss check --resolved examples/two-speed-ev/gearbox.yaml` prints them. Geometry after ISO 21771, loads by statics of shafts on two
-bearings, constants of bearings after SKF and ISO/TR 14179-2. SI, but for what the bearing formulas want in mm.
+`gearloss check --resolved examples/two-speed-ev/gearbox.yaml` prints them. Geometry after ISO 21771, loads by statics of shafts on
+two bearings, constants of bearings after SKF and ISO/TR 14179-2. SI, but for what the bearing formulas want in mm.
 
 Usage: python3 constants.py, which writes joint_first.json beside itself. check.py holds the result to the program.
 """

@@ -1,8 +1,8 @@
 """Inputs found from the rig's points in first gear: SciPy's least_squares over the NumPy model, and `gearloss run`.
 
-Both search in the same coordinates between the same bounds from the same start for the least sum of squares of the differences of
-efficiency under the set `joint`, all points with one weight. Each has its own solver and its own differences; the program then tells
-intervals and checks and writes a report.
+Both search in the same coordinates between the same bounds from the same start for the least sum of squares of the differences
+of efficiency under the set `joint`, all points with one weight. Each has its own solver and its own differences; the program then
+tells intervals and checks and writes a report.
 
 Usage: python3 fit.py [path of gearloss]. Checks the model and that both end at the same cost.
 """

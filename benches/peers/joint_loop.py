@@ -1,8 +1,8 @@
 """The joint model of the two-speed example in first gear, point by point in plain Python: see README.md.
 
 What is the same at every point is prepared once, what hangs on the speed alone once for each point. The two ways are those of
-joint_map.py: `passes` walks from the input to the output with all laws in every pass until the losses stand still to 1e-9 of the power,
-`cascade` iterates only what hangs on itself in this gear state.
+joint_map.py: `passes` walks from the input to the output with all laws in every pass until the losses stand still to 1e-9 of the
+power, `cascade` iterates only what hangs on itself in this gear state.
 """
 
 from math import cbrt, exp, log, log10, pi, sin, sqrt

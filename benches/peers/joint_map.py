@@ -1,10 +1,11 @@
 """The joint model of the two-speed example in first gear as NumPy over all points at once: see README.md.
 
-Torques are a column and speeds a row, so that what hangs on the speed alone is computed once for each speed and broadcast. Points go in
-chunks that stay in the cache; the path of contact adds an axis in front. Two ways to the same losses, both to 1e-9 of the power:
+Torques are a column and speeds a row, so that what hangs on the speed alone is computed once for each speed and broadcast. Points
+go in chunks that stay in the cache; the path of contact adds an axis in front. Two ways to the same losses, both to 1e-9 of the
+power:
 
-`passes`   walks from the input to the output with the newest torques, all laws in every pass, until the losses stand still: the iteration
-           that a program for any gearbox needs, and that fits any change of this one.
+`passes`   walks from the input to the output with the newest torques, all laws in every pass, until the losses stand still: the
+           iteration that a program for any gearbox needs, and that fits any change of this one.
 `cascade`  uses that in this gear state nothing upstream hangs on what is downstream: the few laws that do hang on each other are
            iterated alone, the idle branch is solved in closed form, and each mesh is evaluated once.
 """
@@ -324,7 +325,8 @@ def check_points(points, method="cascade", **inputs):
 
 def grid(size):
     """Torques and speeds of a square map."""
-    return np.linspace(0.02, 20.0, size)[:, None], np.linspace(22.0, 22000.0, size)
+    steps = np.arange(1, size + 1) / size
+    return 20.0 * steps[:, None], 22000.0 * steps
 
 
 def main():

@@ -1,7 +1,7 @@
 """The joint map by all peers alternately on one core, one thread each: seconds, points per second, ratios. See README.md.
 
-Usage: python3 run.py [path of gearloss] [--core N] [--rounds N] [--size N]. GEARLOSS_PEERS names the program of the folder `program`,
-else it is where cargo builds it; without it the library alone is left out, and that is said.
+Usage: python3 run.py [path of gearloss] [--core N] [--rounds N] [--size N]. GEARLOSS_PEERS names the program of the folder
+`program`, else it is where cargo builds it; without it the library alone is left out, and that is said.
 """
 
 import argparse
@@ -158,7 +158,7 @@ def main():
             for name, (work, _) in runs.items():
                 seconds[name].append(work())
 
-    print(f"\nmap of {size} x {size} points (Python loop {LOOP} x {LOOP}), {arguments.rounds} rounds, one thread on core {arguments.core}")
+    print(f"\nmap of {size} x {size} points (Python loop {LOOP} x {LOOP}), {arguments.rounds} rounds, core {arguments.core}")
     print(f"{'':20} {'us/point of CPU':>20} {'us/point by the clock':>22} {'points/s of CPU':>16}")
     print(f"{'':20} {'min':>10} {'median':>9} {'min':>12} {'median':>9} {'at min':>16}")
     least = {}
