@@ -55,6 +55,8 @@ pub struct Resolved {
     pub came: BTreeMap<String, Came>,
     /// Models of the set in use that no component took, because each has its own or there is none.
     pub unreached: Vec<String>,
+    /// Components that nobody chose a model for, not even `none`: they count no loss. One line for each section.
+    pub without: Vec<String>,
 }
 
 impl Resolved {
@@ -86,7 +88,7 @@ pub fn resolve(
     let mut found = Vec::new();
     let mut value = walked.clone();
     let mut came = BTreeMap::new();
-    let mut unreached = Vec::new();
+    let (mut unreached, mut without) = (Vec::new(), Vec::new());
 
     let (first, later): (Vec<_>, Vec<_>) = own_overrides(&value)
         .into_iter()
@@ -101,7 +103,7 @@ pub fn resolve(
         Some(name) => choice::find(language, &value, &choice.sets, name, &mut found).map(|set| (name.clone(), set)),
         None => None,
     };
-    give_models(language, &mut value, &own, set.as_ref(), &mut came, &mut unreached);
+    without.extend(give_models(language, &mut value, &own, set.as_ref(), &mut came, &mut unreached));
     if let Some(document) = value.as_object_mut() {
         for key in ["models", "model_sets", "extends", "set"] {
             document.shift_remove(key);
@@ -114,7 +116,12 @@ pub fn resolve(
         apply(language, &mut value, &inside, &mut came, &mut found);
     }
     if found.is_empty() {
-        Ok(Resolved { value, came, unreached })
+        Ok(Resolved {
+            value,
+            came,
+            unreached,
+            without,
+        })
     } else {
         Err(found)
     }
@@ -158,7 +165,7 @@ fn absent(entry: &Map<String, Value>, key: &str) -> bool {
 }
 
 /// Gives every component its model: its own, the set's where the set names the component, the set's default, the
-/// gearbox's default, or `none`.
+/// gearbox's default, or `none`. Says which have none that anybody chose.
 fn give_models(
     language: &Language,
     value: &mut Value,
@@ -166,7 +173,8 @@ fn give_models(
     set: Option<&(String, ModelSet)>,
     came: &mut BTreeMap<String, Came>,
     unreached: &mut Vec<String>,
-) {
+) -> Vec<String> {
+    let mut without = Vec::new();
     let named = |path: &str| set.and_then(|(name, s)| s.named(path).map(|model| (name, model)));
     let default_of = |key: &str| -> Option<(Value, Came)> {
         match set {
@@ -177,7 +185,7 @@ fn give_models(
     for (section, key) in language.sections() {
         let default = default_of(key);
         let mut taken = 0;
-        let mut kept = Vec::new();
+        let (mut kept, mut bare) = (Vec::new(), Vec::new());
         for (id, entry) in entries_mut(value, section) {
             let path = format!("{section}.{id}.model");
             if let Some((name, model)) = named(&path) {
@@ -185,12 +193,18 @@ fn give_models(
                 came.insert(path, Came::Set(name.clone()));
             } else if absent(entry, "model") {
                 taken += 1;
+                if default.is_none() {
+                    bare.push(id.clone());
+                }
                 let (model, from) = default.clone().unwrap_or((Value::from("none"), Came::Models));
                 entry.insert("model".to_owned(), model);
                 came.insert(path, from);
             } else {
                 kept.push(id.clone());
             }
+        }
+        if !bare.is_empty() {
+            without.push(format!("{section}: no model is chosen for {}, so no loss counts", bare.join(", ")));
         }
         if let Some((name, s)) = set {
             if s.models.contains_key(key) && !kept.is_empty() {
@@ -272,6 +286,7 @@ fn give_models(
             entry.insert("drag".to_owned(), Value::Object(slots));
         }
     }
+    without
 }
 
 /// Writes overrides into the resolved document, each checked against the schema at its place.

@@ -101,7 +101,7 @@ fn gearbox(
         transmission.parts().len(),
         states.join(", ")
     ));
-    for line in &resolved.unreached {
+    for line in resolved.unreached.iter().chain(&resolved.without) {
         text.push_str(&format!("  note: {line}\n"));
     }
     if let Some(weak) = known.first() {

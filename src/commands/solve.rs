@@ -64,7 +64,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             out.text(&as_table(&transmission, &solution, &prepared, &at))?;
             out.text(&of_warmth(&transmission, &warm))?;
             out.text(&outside(&seen))?;
-            for line in &resolved.unreached {
+            for line in resolved.unreached.iter().chain(&resolved.without) {
                 out.line(format!("note: {line}"))?;
             }
             if let Some(weak) = known.first() {
