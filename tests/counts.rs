@@ -57,12 +57,14 @@ fn a_point_takes_few_passes() {
         let choice = study.choice(Some(set));
         work(&two_speed(&language).transmission(&language, &choice).unwrap())
     };
-    assert_eq!(of_set("iso"), [(0, 0); 4]);
-    assert_eq!(of_set("joint"), [(0, 0); 4]);
+    assert_eq!(
+        [of_set("iso"), of_set("joint")],
+        [[(3, 34); 4], [(3, 37), (4, 47), (3, 37), (4, 47)]]
+    );
 }
 
-/// Ways along a path are few because bodies settle from the friction of the way before; passes at a place because each begins
-/// with the temperature of its neighbour. The third mesh turns idly. Both grow with a narrower limit of either.
+/// Ways along the path, passes over its places, and places, of each mesh; the third one turns idly. Ways change with the limit
+/// within which bodies count as settled and with the friction that the first way starts from, passes also with the solver of a place.
 #[test]
 fn bodies_and_films_settle_in_few_passes() {
     let language = language();
@@ -82,11 +84,17 @@ fn bodies_and_films_settle_in_few_passes() {
         let solution = t.evaluate(&case, &point(&[speed * RPM], &[torque]), &[60.0], &mut scratch);
         contact_work::work(&laws, &solution)
     });
-    assert_eq!(found, POINTS.map(|_| vec![(0, 0, 0); 3]));
+    let expected = [
+        [(3, 137, 20), (3, 117, 20), (1, 41, 20)],
+        [(2, 101, 20), (2, 91, 20), (1, 44, 20)],
+        [(3, 117, 20), (3, 109, 20), (1, 40, 20)],
+        [(3, 137, 20), (3, 117, 20), (1, 41, 20)],
+    ];
+    assert_eq!(found, expected.map(Vec::from));
 }
 
-/// Accelerated substitution takes as many evaluations for 64 nodes as for a few; more only where losses fall more steeply with
-/// temperature, or for a narrower limit. A step takes two: at the temperatures before, and at those that they lead to.
+/// At rest: more evaluations where losses fall more steeply with temperature, or for a narrower limit; how many nodes there are
+/// only makes each solution of the network longer. A step takes two: at the temperatures before, and at those that they lead to.
 #[test]
 fn a_network_of_64_nodes_takes_few_evaluations() {
     let language = language();
@@ -104,27 +112,26 @@ fn a_network_of_64_nodes_takes_few_evaluations() {
         around: &Surroundings::default(),
     };
     let steady = t.steady(&moment, &mut scratch).unwrap();
-    assert_eq!((steady.outcome, steady.evaluations), (Outcome::Converged, 0));
+    assert_eq!(steady.outcome, Outcome::Converged);
     let oil = steady.temperatures[network.oil()];
     assert!((40.0..120.0).contains(&oil), "{oil}");
     let start = network.start(Some(40.0), moment.around);
     let mut march = March::new(&t, network, start, Scheme::Implicit, StepSize::Fixed(1.0));
     march.advance(&moment, 1.0, &mut scratch).unwrap();
-    assert_eq!((march.evaluations, march.steps), (0, [1, 0]));
+    assert_eq!(march.steps, [1, 0]);
+    assert_eq!((steady.evaluations, march.evaluations), (6, 2));
 }
 
-/// Calls of the residuals, each over all measured points, and steps: calls hang on where the search begins and on what the set
-/// makes of the measurement, steps on both; two calls in each step are for derivatives, and at the end they are taken by
-/// central differences for the intervals.
+/// Calls of the residuals, each over all measured points, and steps. Both hang on where the search begins, on what the set makes
+/// of the measurement, and on when what remains counts as nothing; every step calls for forward differences, the end of the search
+/// for central ones.
 #[test]
 fn a_fit_of_two_parameters_takes_few_calls() {
     let prepared = Prepared::read(&file(STUDY), "two_inputs").unwrap();
     let calls = ["iso", "joint"].map(|set| {
         let mut identification = prepared.identification(set).unwrap();
         let fitted = identification.fit(&Settings::default()).unwrap();
-        let counts = fitted.fit().counts;
-        assert_eq!(fitted.minima.evaluations, counts.evaluations);
-        (counts.evaluations, counts.steps)
+        (fitted.minima.evaluations, fitted.fit().counts.steps)
     });
-    assert_eq!(calls, [(0, 0); 2]);
+    assert_eq!(calls, [(17, 3), (11, 1)]);
 }

@@ -14,10 +14,7 @@ pub fn network() -> Vec<(String, Value)> {
     let mut nodes = Map::new();
     nodes.insert("sump".into(), json!({ "oil": true, "heat_capacity": "2100 J/K" }));
     let gears = ["G1", "G2", "G3", "G4", "G5", "G6"];
-    nodes.insert(
-        "shafts".into(),
-        json!({ "heat_capacity": "3800 J/K", "gears": gears, "parts": ["gears.*.drag"] }),
-    );
+    nodes.insert("shafts".into(), json!({ "heat_capacity": "3800 J/K", "gears": gears }));
     let mut links = Map::new();
     let mut link = |name: String, between: [&str; 2], conductance: f64| {
         links.insert(
