@@ -5,6 +5,8 @@
 
 #[path = "../benches/common/identification.rs"]
 mod identification;
+#[path = "../benches/common/long.rs"]
+mod long;
 #[path = "../benches/common/plate.rs"]
 mod plate;
 
@@ -13,6 +15,7 @@ mod common;
 use common::{RPM, contact_work, file, language, two_speed, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::identify::Settings;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::Study;
@@ -134,4 +137,17 @@ fn a_fit_of_two_parameters_takes_few_calls() {
         (fitted.minima.evaluations, fitted.fit().counts.steps)
     });
     assert_eq!(calls, [(17, 3), (11, 1)]);
+}
+
+/// What the benches read is a document as a user would write it: nothing in it is refused, and all of it arrives.
+#[test]
+fn the_long_document_of_the_benches_resolves() {
+    let language = language();
+    let text = long::yaml();
+    assert_eq!(text.lines().count(), long::LINES);
+    let read = Gearbox::of_text(&language, &text, "long.yaml", file("tests"));
+    let resolved = read.and_then(|gearbox| gearbox.resolve(&language, &Choice::default()));
+    let resolved = resolved.unwrap_or_else(|f| panic!("{}", f.render()));
+    assert_eq!(resolved.value["gears"].as_object().unwrap().len(), long::SHAFTS);
+    assert_eq!(resolved.value["bearings"].as_object().unwrap().len(), 2 * long::SHAFTS);
 }
