@@ -2,19 +2,16 @@
 //! seventeen temperatures, losses and temperatures in agreement at the end of every second. One thread.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use std::path::Path;
+mod common;
 
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use common::{build, gearbox, language, with};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use gearloss_framework::analysis::{OilTemperature, Ride, drive};
 use gearloss_framework::duty::{CycleEntry, Interval, ShippedCycleEntry, Vehicle, VehicleEntry};
 use gearloss_framework::evaluate::PowerFlow;
-use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::Language;
-use gearloss_framework::registry::Registry;
 use gearloss_framework::resolve::{Choice, lookup};
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
-use gearloss_plugins as _;
 use serde_json::json;
 
 /// Loss over the whole cycle. \[J\]
@@ -37,9 +34,8 @@ fn wltc(t: &Transmission, vehicle: &Vehicle, intervals: &[Interval], scheme: Sch
 }
 
 fn cycle(c: &mut Criterion) {
-    let language = Language::new(Registry::linked().unwrap()).unwrap();
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/electric-drive-unit/gearbox.yaml");
-    let gearbox = Gearbox::read(&language, &file).unwrap_or_else(|f| panic!("{}", f.render()));
+    let language = language();
+    let gearbox = gearbox(&language, "electric-drive-unit");
     let own = gearbox.resolve(&language, &Choice::default()).unwrap();
     let table = |mesh: &str, torques: [&str; 2]| {
         let model = lookup(&own.value, &format!("meshes.{mesh}.model")).unwrap();
@@ -52,15 +48,11 @@ fn cycle(c: &mut Criterion) {
             json!({ "type": "tabulated", "of": of, "torques": torques }),
         )
     };
-    let tabulated = Choice {
-        overrides: vec![table("M1", ["0.3 Nm", "350 Nm"]), table("M2", ["0.8 Nm", "950 Nm"])],
-        ..Choice::default()
-    };
-    let build = |choice: &Choice| {
-        gearbox
-            .transmission(&language, choice)
-            .unwrap_or_else(|f| panic!("{}", f.render()))
-    };
+    let tabulated = with(vec![
+        table("M1", ["0.3 Nm", "350 Nm"]),
+        table("M2", ["0.8 Nm", "950 Nm"]),
+    ]);
+    let build = |choice: &Choice| build(&language, &gearbox, choice);
     let (full, fast) = (build(&Choice::default()), build(&tabulated));
     let vehicle: VehicleEntry = serde_json::from_value(json!({
         "mass": 1928.0, "coast_down": { "a": 165.34, "b": 0.46767, "c": 0.32052 }, "tyre_radius": 0.3357,
@@ -80,30 +72,31 @@ fn cycle(c: &mut Criterion) {
     let (exact, looked_up) = (run(&full, Scheme::Implicit), run(&fast, Scheme::Implicit));
     // The tables are as good as what they stand for.
     assert!((looked_up / exact - 1.0).abs() < 1e-3, "{looked_up} {exact}");
-    c.bench_function("WLTC, friction settled", |b| {
+    let mut group = c.benchmark_group("cycle");
+    group
+        .sample_size(10)
+        .throughput(Throughput::Elements(intervals.len() as u64));
+    group.bench_function("WLTC, friction settled", |b| {
         b.iter(|| run(&full, Scheme::Implicit));
     });
-    c.bench_function("WLTC, friction settled, lagged", |b| {
+    group.bench_function("WLTC, friction settled, lagged", |b| {
         b.iter(|| run(&full, Scheme::Lagged));
     });
-    c.bench_function("WLTC, friction from tables", |b| {
+    group.bench_function("WLTC, friction from tables", |b| {
         b.iter(|| run(&fast, Scheme::Implicit));
     });
-    c.bench_function("WLTC, friction from tables, lagged", |b| {
+    group.bench_function("WLTC, friction from tables, lagged", |b| {
         b.iter(|| run(&fast, Scheme::Lagged));
     });
-    c.bench_function("WLTC, friction from tables, with building them", |b| {
+    group.bench_function("WLTC, friction from tables, with building them", |b| {
         b.iter_batched(
             || build(&tabulated),
             |t| run(&t, Scheme::Implicit),
             BatchSize::PerIteration,
         );
     });
+    group.finish();
 }
 
-criterion_group! {
-    name = benches;
-    config = Criterion::default().sample_size(10);
-    targets = cycle
-}
+criterion_group!(benches, cycle);
 criterion_main!(benches);

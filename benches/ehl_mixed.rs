@@ -2,13 +2,13 @@
 //! of 1800 points over both meshes of the two-speed example; both once more by tables, the cycle with building them.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod common;
+
 use std::hint::black_box;
-use std::path::Path;
 use std::sync::Arc;
 
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use common::{RPM, build, language, point, set, with};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::language::Language;
@@ -16,13 +16,11 @@ use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::ToothFriction;
-use gearloss_framework::registry::{Build, Files, Registry};
+use gearloss_framework::registry::{Build, Files};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::{Case, Transmission};
 use gearloss_plugins::path;
 use serde_json::{Value, json};
-
-const RPM: f64 = std::f64::consts::PI / 30.0;
 
 fn friction() -> Value {
     json!({ "type": "ehl_mixed", "tau0": "5 MPa", "limiting_slope": 0.055, "mu_b": 0.13 })
@@ -37,35 +35,28 @@ fn tabulated() -> Value {
     json!({ "type": "tabulated", "of": mesh(), "torques": ["0.3 Nm", "400 Nm"] })
 }
 
-/// The example with a model in all meshes.
-fn gearbox(language: &Language, model: &Value) -> (Gearbox, Choice) {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/two-speed-ev/gearbox.yaml");
-    let gearbox = Gearbox::read(language, &file).unwrap_or_else(|f| panic!("{}", f.render()));
-    let overrides = ["M1", "M2", "M3"].map(|id| (format!("meshes.{id}.model"), model.clone()));
-    let choice = Choice {
-        overrides: overrides.into(),
-        ..Choice::default()
-    };
-    (gearbox, choice)
+/// A model in all meshes.
+fn in_all(model: &Value) -> Vec<(String, Value)> {
+    let meshes = ["M1", "M2", "M3"];
+    meshes.map(|id| (format!("meshes.{id}.model"), model.clone())).into()
 }
 
-fn one_mesh(c: &mut Criterion, language: &Language) {
-    let (gearbox, choice) = gearbox(language, &tabulated());
+fn one_mesh(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
+    let mut group = c.benchmark_group("ehl_mixed");
+    let choice = with(in_all(&tabulated()));
     let resolved = gearbox
         .resolve(language, &choice)
         .unwrap_or_else(|f| panic!("{}", f.render()));
-    let t = gearbox
-        .transmission(language, &choice)
-        .unwrap_or_else(|f| panic!("{}", f.render()));
+    let t = build(language, gearbox, &choice);
     let (_, part) = t.meshes().next().unwrap();
     let part: Arc<MeshPart> = Arc::new(part.clone());
-    let (registry, files) = (Registry::linked().unwrap(), Files::default());
-    let mut build = Build::new(&registry, &files);
+    let files = Files::default();
+    let mut made = Build::new(language.registry(), &files);
     let tabulated = &resolved.value["meshes"]["M1"]["model"];
     let model = &tabulated["of"];
-    let table = build.slot_at::<GearMesh>("table", &part, tabulated).unwrap();
-    let mesh = build.slot_at::<GearMesh>("model", &part, model).unwrap();
-    let law = build
+    let table = made.slot_at::<GearMesh>("table", &part, tabulated).unwrap();
+    let mesh = made.slot_at::<GearMesh>("model", &part, model).unwrap();
+    let law = made
         .slot_beside::<ToothFriction, _>("law", &part, &model["tooth_friction"])
         .unwrap();
     let oil = part.oil.as_ref().unwrap().lubricant.at(60.0);
@@ -80,73 +71,83 @@ fn one_mesh(c: &mut Criterion, language: &Language) {
         to.beta = oil.beta;
         to.conductivity = oil.conductivity;
     });
-    c.bench_function("one mesh with ehl_mixed", |b| {
+    group.bench_function("one mesh at one point", |b| {
         b.iter(|| mesh.loss(black_box(&at)).unwrap().sum());
     });
-    c.bench_function("one mesh with ehl_mixed, tabulated", |b| {
+    group.bench_function("one mesh at one point, tabulated", |b| {
         b.iter(|| table.loss(black_box(&at)).unwrap().sum());
     });
     let mean = MeanFrictionAt::of(&at, Notes::MUTED);
     let fine = path::Path::even(&part.pair, LoadSharing::Ramp, 200);
     let mut mu = vec![0.0; 200];
-    c.bench_function("ehl_mixed on 200 places", |b| {
+    group.throughput(Throughput::Elements(200));
+    group.bench_function("one mesh, 200 places", |b| {
         b.iter(|| law.along(black_box(&fine.at(&mean, Notes::MUTED)), &mut mu).unwrap());
     });
+    group.finish();
 }
 
+/// The set `joint` with this friction in its meshes, at one point.
+fn one_point(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
+    let mut choice = set(language, "joint");
+    choice.overrides.extend(in_all(&mesh()));
+    let t = build(language, gearbox, &choice);
+    let case = t.case("first", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let (speeds, torques) = ([8000.0 * RPM], [10.0]);
+    let mut group = c.benchmark_group("ehl_mixed");
+    group.bench_function("two-speed example, set joint, one point", |b| {
+        b.iter(|| {
+            let point = point(black_box(&speeds), black_box(&torques));
+            t.evaluate(&case, &point, &[100.0], &mut scratch).loss()
+        });
+    });
+    group.finish();
+}
+
+/// Points of the cycle.
+const POINTS: u32 = 1800;
+
 /// Loss summed over a cycle whose torque changes its sign.
-fn run(t: &Transmission, case: &Case) -> f64 {
-    let mut scratch = t.scratch(case);
+fn run((t, case): (Transmission, Case)) -> f64 {
+    let mut scratch = t.scratch(&case);
     let mut sum = 0.0;
-    for i in 0..1800_u32 {
+    for i in 0..POINTS {
         let phase = f64::from(i) * 0.013;
-        let point = Point {
-            speeds: &[(4000.0 + 3900.0 * phase.sin()) * RPM],
-            torques: &[60.0 * (3.1 * phase).cos()],
-            flow: PowerFlow::Real,
-            tolerance: Tolerance::default(),
-        };
-        sum += t
-            .evaluate(case, &point, black_box(&[60.0]), &mut scratch)
-            .loss()
-            .unwrap_or(0.0);
+        let (speeds, torques) = ([(4000.0 + 3900.0 * phase.sin()) * RPM], [60.0 * (3.1 * phase).cos()]);
+        let solution = t.evaluate(&case, &point(&speeds, &torques), black_box(&[60.0]), &mut scratch);
+        sum += solution.loss().unwrap_or(0.0);
     }
     sum
 }
 
-fn cycle(c: &mut Criterion, language: &Language) {
-    for (name, model) in [
-        ("1800 points with ehl_mixed, one thread", mesh()),
-        (
-            "1800 points with ehl_mixed, tabulated, with building the tables",
-            tabulated(),
-        ),
-    ] {
-        let (gearbox, choice) = gearbox(language, &model);
-        let transmission = || {
-            gearbox
-                .transmission(language, &choice)
-                .unwrap_or_else(|f| panic!("{}", f.render()))
-        };
-        c.bench_function(name, |b| {
-            b.iter_batched(
-                || {
-                    let t = transmission();
-                    let case = t.case("first", &[], &["input"]).unwrap();
-                    (t, case)
-                },
-                |(t, case)| run(&t, &case),
-                BatchSize::LargeInput,
-            );
-        });
-    }
+fn cycle(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
+    let made = |choice: &Choice| {
+        let t = build(language, gearbox, choice);
+        let case = t.case("first", &[], &["input"]).unwrap();
+        (t, case)
+    };
+    let (settled, looked_up) = (with(in_all(&mesh())), with(in_all(&tabulated())));
+    let mut group = c.benchmark_group("ehl_mixed");
+    group
+        .sample_size(20)
+        .throughput(Throughput::Elements(u64::from(POINTS)));
+    group.bench_function("1800 points, one thread", |b| {
+        b.iter_batched(|| made(&settled), run, BatchSize::LargeInput);
+    });
+    group.bench_function("1800 points, tabulated, with building the tables", |b| {
+        b.iter_batched(|| made(&looked_up), run, BatchSize::LargeInput);
+    });
+    group.finish();
 }
 
 fn all(c: &mut Criterion) {
-    let language = Language::new(Registry::linked().unwrap()).unwrap_or_else(|f| panic!("{f:#?}"));
-    one_mesh(c, &language);
-    cycle(c, &language);
+    let language = language();
+    let gearbox = common::gearbox(&language, "two-speed-ev");
+    one_mesh(c, &language, &gearbox);
+    one_point(c, &language, &gearbox);
+    cycle(c, &language, &gearbox);
 }
 
-criterion_group! { name = benches; config = Criterion::default().sample_size(20); targets = all }
+criterion_group!(benches, all);
 criterion_main!(benches);

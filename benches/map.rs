@@ -1,14 +1,17 @@
 //! A map of 100 x 100 points under both sets of the two-speed example, report included: the program as a whole, and its memory.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod common;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use common::example;
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// The study of the example with a fine grid and a map of the sets `iso` and `joint` in place of its analyses.
 fn study(folder: &Path) -> PathBuf {
-    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/two-speed-ev");
+    let example = example("two-speed-ev");
     let text = std::fs::read_to_string(example.join("study.yaml")).unwrap();
     let (head, _) = text.split_once("\ngrids:").unwrap();
     let head = head.replace("gearbox.yaml", example.join("gearbox.yaml").to_str().unwrap());
@@ -48,9 +51,9 @@ fn map(c: &mut Criterion) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bench-map");
     std::fs::create_dir_all(&folder).unwrap();
     let study = study(&folder);
-    let mut group = c.benchmark_group("map of 100 x 100 points");
-    group.sample_size(10);
-    group.bench_function("two sets, CSV, JSON and report", |b| {
+    let mut group = c.benchmark_group("map");
+    group.sample_size(10).throughput(Throughput::Elements(2 * 100 * 100));
+    group.bench_function("100 x 100 points of two sets, with CSV, JSON and report", |b| {
         b.iter(|| assert!(command(&study).status().unwrap().success()));
     });
     group.finish();

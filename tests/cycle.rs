@@ -6,21 +6,18 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::{file, language};
+use common::{contact_work, file, language};
 use gearloss_framework::analysis::{Driven, OilTemperature, Ride, Stretch, drive};
 use gearloss_framework::duty::{CycleEntry, Duty, FileCycleEntry, ShippedCycleEntry, Vehicle, VehicleEntry};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
-use gearloss_framework::loss::Notes;
-use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::registry::{Build, Files};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
 use gearloss_plugins::path::Path as ContactPath;
-use gearloss_plugins::tooth_friction::ehl_mixed::{EhlMixed, Params};
+use gearloss_plugins::tooth_friction::ehl_mixed::EhlMixed;
 use serde_json::json;
 
 const UNIT: &str = "examples/electric-drive-unit/gearbox.yaml";
@@ -130,8 +127,8 @@ fn shorter_steps_and_adaptive_ones_agree() {
     assert!((loss(&adaptive) / loss(&fine) - 1.0).abs() < 2e-4);
 }
 
-/// Passes of the inner loop of both meshes at a second of a drive.
-fn passes(t: &Transmission, laws: &[(EhlMixed, ContactPath)], s: &Stretch) -> (u32, u32, usize) {
+/// Ways, passes of the inner loop and places of both meshes at a second of a drive.
+fn work(t: &Transmission, laws: &[(EhlMixed, ContactPath)], s: &Stretch) -> Vec<(u32, u32, usize)> {
     let case = t.case(&t.states()[0].name, &[], &["input"]).unwrap();
     let mut scratch = t.scratch(&case);
     let point = Point {
@@ -141,21 +138,7 @@ fn passes(t: &Transmission, laws: &[(EhlMixed, ContactPath)], s: &Stretch) -> (u
         tolerance: Tolerance::default(),
     };
     let solution = t.evaluate(&case, &point, &s.temperatures, &mut scratch);
-    let (mut runs, mut passes, mut places) = (0, 0, 0);
-    for (i, (law, path)) in laws.iter().enumerate() {
-        let at = solution.mesh_at(i);
-        if at.torque == 0.0 || at.speed == 0.0 {
-            continue;
-        }
-        let mean = MeanFrictionAt::of(&at, Notes::MUTED);
-        let along = path.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
-        let mut mu = vec![0.0; path.len()];
-        let (tally, _) = law.settle(&along, &mut mu, |_, _| {});
-        runs += tally.runs;
-        passes += tally.passes;
-        places += path.len();
-    }
-    (runs, passes, places)
+    contact_work::work(laws, &solution)
 }
 
 /// Counts are the same on every machine; they grow only with a reason.
@@ -169,25 +152,12 @@ fn a_wltc_takes_few_evaluations_and_few_passes() {
     assert_eq!((driven.stretches.len(), driven.steps), (1800, [1800, 0]));
     // Two evaluations a second: at the temperatures before, and at those that they lead to.
     assert_eq!(driven.evaluations, 3555);
-    let files = Files::default();
-    let build = Build::new(language.registry(), &files);
-    let laws: Vec<(EhlMixed, ContactPath)> = t
-        .meshes()
-        .map(|(path, part)| {
-            let model = gearloss_framework::resolve::lookup(&resolved.value, &format!("{path}.model")).unwrap();
-            let mut friction = model["tooth_friction"].clone();
-            friction.as_object_mut().unwrap().remove("type");
-            let params: Params = serde_json::from_value(friction).unwrap();
-            let factor = params.inlet_heating.factor();
-            let law = EhlMixed::of_part(&params, factor, part.clone(), &build).unwrap();
-            let sharing = serde_json::from_value(model["load_sharing"].clone()).unwrap();
-            (law, ContactPath::new(&part.pair, sharing, 5).unwrap())
-        })
-        .collect();
+    let laws = contact_work::laws(&language, &resolved, &t);
     let mut sum = (0, 0, 0);
     for s in driven.stretches.iter().step_by(10) {
-        let (runs, passes, places) = passes(&t, &laws, s);
-        sum = (sum.0 + runs, sum.1 + passes, sum.2 + places);
+        for (runs, passes, places) in work(&t, &laws, s) {
+            sum = (sum.0 + runs, sum.1 + passes, sum.2 + places);
+        }
     }
     // With the bodies known there is one way along each path, and some three passes at each of its places.
     assert_eq!((sum.0 as usize) * laws[0].1.len(), sum.2);

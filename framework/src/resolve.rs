@@ -88,7 +88,7 @@ pub fn resolve(
     let mut found = Vec::new();
     let mut value = walked.clone();
     let mut came = BTreeMap::new();
-    let (mut unreached, mut without) = (Vec::new(), Vec::new());
+    let mut unreached = Vec::new();
 
     let (first, later): (Vec<_>, Vec<_>) = own_overrides(&value)
         .into_iter()
@@ -103,7 +103,7 @@ pub fn resolve(
         Some(name) => choice::find(language, &value, &choice.sets, name, &mut found).map(|set| (name.clone(), set)),
         None => None,
     };
-    without.extend(give_models(language, &mut value, &own, set.as_ref(), &mut came, &mut unreached));
+    let without = give_models(language, &mut value, &own, set.as_ref(), &mut came, &mut unreached);
     if let Some(document) = value.as_object_mut() {
         for key in ["models", "model_sets", "extends", "set"] {
             document.shift_remove(key);
@@ -204,7 +204,10 @@ fn give_models(
             }
         }
         if !bare.is_empty() {
-            without.push(format!("{section}: no model is chosen for {}, so no loss counts", bare.join(", ")));
+            without.push(format!(
+                "{section}: no model is chosen for {}, so no loss counts",
+                bare.join(", ")
+            ));
         }
         if let Some((name, s)) = set {
             if s.models.contains_key(key) && !kept.is_empty() {

@@ -1,6 +1,7 @@
 //! What several tests share.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod contact_work;
 pub mod rig;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,49 @@
+//! One point: the two-speed example under each set of models, the planetary one at a given temperature, and its equilibrium.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+
+use std::hint::black_box;
+
+use common::{RPM, build, gearbox, language, point, set};
+use criterion::{Criterion, criterion_group, criterion_main};
+use gearloss_framework::resolve::Choice;
+use gearloss_framework::transmission::Transmission;
+
+/// A point of the two-speed example in first gear.
+fn two_speed(t: &Transmission) -> impl FnMut() -> Option<f64> {
+    let case = t.case("first", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    move || {
+        let (speeds, torques) = ([8000.0 * RPM], [10.0]);
+        let point = point(black_box(&speeds), black_box(&torques));
+        t.evaluate(&case, &point, &[100.0], &mut scratch).loss()
+    }
+}
+
+fn points(c: &mut Criterion) {
+    let language = language();
+    let mut group = c.benchmark_group("point");
+    let example = gearbox(&language, "two-speed-ev");
+    let of_set = |name: &str| build(&language, &example, &set(&language, name));
+    let (iso, joint) = (of_set("iso"), of_set("joint"));
+    group.bench_function("two-speed example, set iso", |b| b.iter(two_speed(&iso)));
+    group.bench_function("two-speed example, set joint", |b| b.iter(two_speed(&joint)));
+
+    let t = build(&language, &gearbox(&language, "planetary-reducer"), &Choice::default());
+    let case = t.case("reducing", &["input"], &["output"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let (speeds, torques) = ([3000.0 * RPM], [-16.0]);
+    group.bench_function("planetary example", |b| {
+        let point = || point(black_box(&speeds), black_box(&torques));
+        b.iter(|| t.evaluate(&case, &point(), black_box(&[50.0]), &mut scratch).loss());
+    });
+    group.bench_function("planetary example, equilibrium of losses and heat", |b| {
+        let point = || point(black_box(&speeds), black_box(&torques));
+        b.iter(|| t.equilibrium(&case, &point(), &mut scratch).oil());
+    });
+    group.finish();
+}
+
+criterion_group!(benches, points);
+criterion_main!(benches);

@@ -1,0 +1,170 @@
+//! The page of times: that it names the benches that exist, and how it is written from a run of them. No bench runs here: with
+//! `BENCHED=2026-01-31`, the date of the run, the figures of the last `cargo bench` go into the page.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::Command;
+
+use common::file;
+use serde_json::Value;
+
+const PAGE: &str = "docs/performance.md";
+const BEGIN: &str = "<!-- figures: BENCHED=DATE cargo test --test performance -->\n";
+const END: &str = "<!-- end of figures -->\n";
+
+/// The benches of each file, in the order in which they stand there: their group has the name of the file.
+fn benches() -> Vec<(String, Vec<String>)> {
+    let mut files: Vec<_> = std::fs::read_dir(file("benches"))
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .filter(|p| p.extension().is_some_and(|e| e == "rs"))
+        .collect();
+    files.sort();
+    let names = |path: &Path| {
+        let text = std::fs::read_to_string(path).unwrap();
+        let group = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        assert!(
+            text.contains(&format!("benchmark_group(\"{group}\")")),
+            "{group}: the group has the name of the file"
+        );
+        let named = text.split("bench_function(").skip(1).map(|rest| {
+            let name = rest.trim_start().strip_prefix('"').and_then(|r| r.split_once('"'));
+            name.unwrap_or_else(|| panic!("{group}: a bench without its name in quotes where it is made"))
+                .0
+                .to_owned()
+        });
+        let named: Vec<String> = named.collect();
+        assert!(!named.is_empty(), "{group}: no bench");
+        (group, named)
+    };
+    files.iter().map(|path| names(path)).collect()
+}
+
+/// A time of nanoseconds with three digits, in the unit that suits it.
+fn time(ns: f64) -> String {
+    let (value, unit) = match ns {
+        ns if ns < 1e3 => (ns, "ns"),
+        ns if ns < 1e6 => (ns / 1e3, "us"),
+        ns if ns < 1e9 => (ns / 1e6, "ms"),
+        ns => (ns / 1e9, "s"),
+    };
+    let digits = 2 - (value.log10().floor() as i32).clamp(0, 2);
+    format!("{value:.*} {unit}", digits as usize)
+}
+
+/// What Criterion has kept of the last run of every bench, by group and name: the estimates, and how many elements one run has.
+fn measured(folder: &Path, found: &mut BTreeMap<String, (Value, Option<u64>)>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.map(|e| e.unwrap().path()).filter(|p| p.is_dir()) {
+        measured(&entry, found);
+    }
+    let read = |name: &str| {
+        let text = std::fs::read_to_string(folder.join(name)).ok()?;
+        Some(serde_json::from_str::<Value>(&text).unwrap())
+    };
+    if folder.ends_with("new")
+        && let (Some(bench), Some(estimates)) = (read("benchmark.json"), read("estimates.json"))
+    {
+        let elements = bench["throughput"]["Elements"].as_u64();
+        found.insert(bench["full_id"].as_str().unwrap().to_owned(), (estimates, elements));
+    }
+}
+
+/// A line of a file of the system, or that it is not told.
+fn told(line: Option<&str>) -> String {
+    line.map_or_else(|| "not told".to_owned(), |line| line.trim().to_owned())
+}
+
+/// Machine, versions and table.
+fn figures(date: &str) -> String {
+    let mut found = BTreeMap::new();
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    measured(&target.join("criterion"), &mut found);
+    let read = |path: &str| std::fs::read_to_string(path).unwrap_or_default();
+    let (cpu, load) = (read("/proc/cpuinfo"), read("/proc/loadavg"));
+    let model = cpu.lines().find_map(|l| l.strip_prefix("model name")?.split_once(':'));
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let rustc = Command::new("rustc").arg("--version").output();
+    let rustc = rustc.map(|o| String::from_utf8_lossy(&o.stdout).into_owned()).ok();
+    let load: Vec<&str> = load.split(' ').take(3).collect();
+    let mut out = format!(
+        "Figures of {date}: gearloss {}, {}, release profile. Processor {}, {cores} cores; load average {}\nover the last 1, 5 and 15 \
+         minutes, told right after the benches: what is beyond the number of threads of a bench was other work.\n\n\
+         | bench | median | 95 % interval | for one of |\n|---|---|---|---|\n",
+        env!("CARGO_PKG_VERSION"),
+        told(rustc.as_deref()),
+        told(model.map(|m| m.1)),
+        told(Some(load.join(", ").as_str()).filter(|l| !l.is_empty())),
+    );
+    for (group, names) in benches() {
+        for name in names {
+            let (estimates, elements) = found
+                .get(&format!("{group}/{name}"))
+                .unwrap_or_else(|| panic!("`{name}` was not run: cargo bench --bench {group}"));
+            let median = &estimates["median"];
+            let [value, low, high] = [
+                &median["point_estimate"],
+                &median["confidence_interval"]["lower_bound"],
+                &median["confidence_interval"]["upper_bound"],
+            ]
+            .map(|v| v.as_f64().unwrap());
+            let one = elements.map_or(String::new(), |n| format!("{} of {n}", time(value / n as f64)));
+            let _ = writeln!(
+                out,
+                "| `{group}`: {name} | {} | {} to {} | {one} |",
+                time(value),
+                time(low),
+                time(high)
+            );
+        }
+    }
+    out
+}
+
+#[test]
+fn the_page_names_the_benches_that_exist() {
+    let page = std::fs::read_to_string(file(PAGE)).unwrap();
+    let (head, rest) = page.split_once(BEGIN).unwrap();
+    let (old, tail) = rest.split_once(END).unwrap();
+    let shown = match std::env::var("BENCHED") {
+        Ok(date) => {
+            let new = figures(&date);
+            std::fs::write(file(PAGE), format!("{head}{BEGIN}{new}{END}{tail}")).unwrap();
+            new
+        }
+        Err(_) => old.to_owned(),
+    };
+    let rows = shown
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split(" | ").next());
+    let exist: Vec<String> = benches()
+        .iter()
+        .flat_map(|(group, names)| names.iter().map(move |name| format!("{group}`: {name}")))
+        .collect();
+    let rows: Vec<&str> = rows.collect();
+    assert_eq!(
+        rows, exist,
+        "{PAGE} is stale: run the benches, then `BENCHED=DATE cargo test --test performance`"
+    );
+    // Cargo runs what it is told of.
+    let manifest = std::fs::read_to_string(file("Cargo.toml")).unwrap();
+    for (group, _) in benches() {
+        assert!(
+            manifest.contains(&format!("[[bench]]\nname = \"{group}\"\nharness = false")),
+            "{group}"
+        );
+    }
+}
+
+#[test]
+fn times_have_three_digits() {
+    let shown = [0.5, 12.34, 999.4, 4821.0, 48210.0, 482_100.0, 2.5e6, 1.234e9, 6.1e10].map(time);
+    let expected = [
+        "0.50 ns", "12.3 ns", "999 ns", "4.82 us", "48.2 us", "482 us", "2.50 ms", "1.23 s", "61.0 s",
+    ];
+    assert_eq!(shown, expected);
+}
