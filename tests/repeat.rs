@@ -6,7 +6,7 @@ mod common;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{RPM, language, two_speed_with};
-use gearloss_framework::analysis::{Field, MOST_HELD, OilTemperature, Points, pieces, run_grid, solve_pieces};
+use gearloss_framework::analysis::{Field, MOST_HELD, OilTemperature, Points, run_grid, solve_pieces};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use serde_json::json;
@@ -89,8 +89,8 @@ fn one_thread_and_many_give_the_same_bits() {
 fn few_points_of_a_large_field_are_held_at_once() {
     let language = language();
     let t = two_speed_with(&language, Some("joint"), &[]);
-    let torques: Vec<f64> = (0..400).map(|i| 0.05 * f64::from(i)).collect();
-    let speeds: Vec<f64> = (0..320).map(|i| f64::from(i) * 60.0 * RPM).collect();
+    let torques: Vec<f64> = (0..500).map(|i| 0.04 * f64::from(i)).collect();
+    let speeds: Vec<f64> = (0..400).map(|i| f64::from(i) * 60.0 * RPM).collect();
     let count = torques.len() * speeds.len();
     assert!(count > 3 * MOST_HELD);
     let points = Points {
@@ -102,7 +102,7 @@ fn few_points_of_a_large_field_are_held_at_once() {
         flow: PowerFlow::Real,
         terms: false,
     };
-    let numbers: Vec<usize> = (0..pieces(count)).collect();
+    let numbers: Vec<usize> = (0..points.field.pieces()).collect();
     for threads in [1, 3] {
         let (held, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let solved = |more: usize| {
@@ -138,7 +138,7 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
         torque_at: vec!["input".to_owned()],
         speed_at: vec!["input".to_owned()],
         field: Field::Grid {
-            torques: (0..50).map(|i| 0.4 * f64::from(i)).collect(),
+            torques: (0..120).map(|i| 0.15 * f64::from(i)).collect(),
             speeds: (0..70).map(|i| f64::from(i) * 300.0 * RPM).collect(),
         },
         oil: OilTemperature::Fixed(100.0),
@@ -146,7 +146,8 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
         terms: false,
     };
     let whole = run_grid(&t, &points, &|_| true).unwrap().unwrap();
-    assert_eq!(pieces(points.field.len()), 4);
+    // Lines of 32 torques at 70 speeds.
+    assert_eq!(points.field.pieces(), 4);
     let mut start = 0;
     let mut seen = Vec::new();
     for number in 0..4 {
@@ -161,7 +162,7 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
         gearloss_framework::analysis::merge(&mut seen, &alone[0].seen);
         start = end;
     }
-    assert_eq!((start, seen), (3500, whole.seen));
+    assert_eq!((start, seen), (8400, whole.seen));
     let stopped = solve_pieces(&t, &points, &[0, 1, 2, 3], &|_| true, &mut |piece| piece.number < 1);
     assert!(!stopped.unwrap(), "who takes no more is handed no more");
 }

@@ -1,11 +1,13 @@
 //! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
 
 mod readings;
+mod row;
 mod scratch;
 mod solution;
 
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
+pub use row::{Block, Row, RowScratch};
 pub use scratch::Scratch;
 pub use solution::{PartLoss, Solution};
 
@@ -118,8 +120,8 @@ impl Transmission {
         }
     }
 
-    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, noting_as: Noting) {
-        let quiet = noting_as == Noting::Muted;
+    /// Speeds, oils and what does not hang on torque; true where nothing turns.
+    fn settle(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, quiet: bool) -> bool {
         assert_eq!(
             point.speeds.len(),
             case.speed_ports.len(),
@@ -190,7 +192,12 @@ impl Transmission {
                 self.brake_gears(i, loss, &s.speeds, &mut s.idle_drags);
             }
         }
+        standing
+    }
 
+    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, noting_as: Noting) {
+        let quiet = noting_as == Noting::Muted;
+        let standing = self.settle(case, point, temperatures, s, quiet);
         let Scratch {
             speeds,
             given,

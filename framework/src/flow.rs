@@ -4,12 +4,14 @@
 //! from the driven gear in the carrier's frame, and the carrier takes the reaction; hence the balance of power holds to
 //! rounding for whatever multipliers solve the linear system.
 
+mod abreast;
 mod equilibrium;
 mod linear;
 mod solve;
 mod system;
 mod work;
 
+pub use abreast::{FlowLanes, WorkLanes};
 pub use system::{Flow, FlowFault, MeshRow, Share};
 pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
 
@@ -35,6 +37,11 @@ impl Balance {
             }
         }
         Self { input, output }
+    }
+
+    /// The quotient of both as it is; absent where nothing comes out or nothing goes in.
+    pub(crate) fn efficiency_as_is(&self) -> Option<f64> {
+        (self.output > 0.0 && self.input > 0.0).then(|| self.output / self.input)
     }
 
     /// Power out over power in; absent where nothing comes out.

@@ -19,6 +19,7 @@ pub mod identify;
 pub mod immersion;
 pub mod inference;
 pub mod kinematics;
+pub mod lanes;
 pub mod language;
 pub mod least_squares;
 pub mod loads;

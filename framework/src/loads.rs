@@ -3,12 +3,14 @@
 //! Radial reactions are linear in the tangential force of each mesh and in its magnitude, so unit cases are solved once;
 //! a point costs a few multiplications. Thrust switches with its sense and is distributed at every point.
 
+mod abreast;
 mod beam;
 mod layout;
 mod shaft_loads;
 mod statics;
 mod thrust;
 
+pub use abreast::LoadLanes;
 pub use beam::{Beam, BeamFault, BeamLoad, BeamSupport};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
 pub use shaft_loads::ShaftLoads;

@@ -289,6 +289,31 @@ impl Extent {
         }
     }
 
+    /// One point, with the least and the greatest value that it has.
+    #[inline]
+    pub(crate) fn point(least: f64, greatest: f64, outside: bool) -> Self {
+        Self::EMPTY.add(least, false).add(greatest, false).once_if(outside)
+    }
+
+    #[inline]
+    fn once_if(self, outside: bool) -> Self {
+        Self {
+            seen: 1,
+            outside: u32::from(outside),
+            ..self
+        }
+    }
+
+    /// Counts as many operating points as said: seen at all, outside at all.
+    #[inline]
+    pub(crate) fn times(self, points: u32) -> Self {
+        Self {
+            seen: self.seen.min(1) * points,
+            outside: self.outside.min(1) * points,
+            ..self
+        }
+    }
+
     /// Both together.
     #[inline]
     pub fn merge(self, other: Self) -> Self {
@@ -445,6 +470,11 @@ impl<'a> Notes<'a> {
         }
     }
 
+    /// The same instance, noting into other cells.
+    pub(crate) fn into(self, cells: &'a [Cell<Extent>]) -> Self {
+        Self { cells, ..self }
+    }
+
     /// The same notes, with a place for what the instance computes [`once`](Self::once); not a number where nothing was yet.
     #[inline]
     pub fn keeping(self, kept: &'a [Cell<f64>; MOST_KEPT]) -> Self {
@@ -466,6 +496,12 @@ impl<'a> Notes<'a> {
             }
         }
         std::array::from_fn(|i| kept[i].get())
+    }
+
+    /// True where nobody reads what is noted.
+    #[inline]
+    pub fn is_muted(&self) -> bool {
+        self.cells.is_empty() && self.trace.is_none()
     }
 
     /// True when the steps are written down.

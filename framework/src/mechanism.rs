@@ -25,6 +25,8 @@ use serde::de::DeserializeOwned;
 use crate::attach::Attach;
 use crate::document::Unit;
 use crate::generic::Scalar;
+use crate::lanes::{LaneNotes, LossLanes};
+use crate::loads::LoadLanes;
 use crate::loss::{Loss, Notes, Term, Undefined};
 
 /// A physical cause of loss. Implemented by an empty marker type, once per mechanism.
@@ -86,6 +88,15 @@ pub trait Component: Mechanism<Answer = Loss> {
     type Attachment: Attach;
     /// The context of a part at its site.
     fn at<'a>(part: &'a Self::Part, site: <Self::Attachment as Attach>::Site<'a>, notes: Notes<'a>) -> Self::At<'a>;
+    /// Losses at several loads of the support side by side, where all else is as at `at`; false where the mechanism has no way
+    /// of its own, so that its models are asked once for each load.
+    fn losses(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _losses: &mut LossLanes) -> bool {
+        false
+    }
+    /// Notes what models note at these loads; false where [`losses`](Self::losses) has no way of its own.
+    fn note(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {
+        false
+    }
 }
 
 /// The part of a mechanism that has none.

@@ -23,7 +23,7 @@ pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, Plane
 pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealModel, SealPart};
 pub use crate::mechanism::synchronizer::{CouplingKind, CouplingPart, Synchronizer, SynchronizerAt, SynchronizerModel};
 pub use crate::mechanism::tooth_friction::{
-    Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionModel,
+    Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionModel, WeightedFriction,
 };
 pub use crate::mechanism::{Component, Mechanism, NoPart, Quantity, ShopUnits};
 pub use crate::registry::{

@@ -9,7 +9,6 @@ pub mod clutch;
 pub mod contact;
 pub mod convection;
 pub mod cycles;
-pub mod exponential;
 pub mod gear_drag;
 pub mod gear_mesh;
 pub mod heat_dissipation;

@@ -1,6 +1,7 @@
 //! The path of contact of one mesh, prepared for laws of local friction.
 
 use gearloss_framework::geometry::{LoadSharing, Pair, PathPoint};
+use gearloss_framework::lanes::Lane;
 use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::{PathAt, PathExtent, PathNode};
@@ -108,6 +109,15 @@ impl Path {
         } else {
             run(&mut [0.0; Self::MOST][..self.len()])
         }
+    }
+
+    /// As [`Path::with_space`] for all lanes; absent for a path of many points, which are walked one by one.
+    pub fn with_lanes<R>(&self, run: impl FnOnce(&mut [Lane]) -> Option<R>) -> Option<R> {
+        const FEW: usize = 24;
+        if self.len() > FEW {
+            return None;
+        }
+        run(&mut [Lane::ZERO; FEW][..self.len()])
     }
 
     /// Sliding power per normal force and speed of the first gear, for friction at each point. \[m\]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{OilTemperature, Piece, pieces, solve_pieces};
+use super::{OilTemperature, Piece, solve_pieces};
 use crate::document::Diagnostic;
 use crate::evaluate::PowerFlow;
 use crate::flow::Status;
@@ -219,8 +219,7 @@ pub fn run_grid(
     points: &Points,
     progress: &(dyn Fn(usize) -> bool + Sync),
 ) -> Result<Option<GridResult>, Vec<Diagnostic>> {
-    let count = points.field.len();
-    let numbers: Vec<usize> = (0..pieces(count)).collect();
+    let numbers: Vec<usize> = (0..points.field.pieces()).collect();
     let mut all = GridResult::default();
     let whole = solve_pieces(transmission, points, &numbers, progress, &mut |piece| {
         all.add(piece);

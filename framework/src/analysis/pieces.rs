@@ -5,24 +5,24 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use super::{Given, OilTemperature, PointResult, Points, merge, sums};
+use super::solve::{Solver, Space};
+use super::{Field, PointResult, Points, merge};
 use crate::document::Diagnostic;
-use crate::evaluate::Point;
-use crate::flow::Tolerance;
+use crate::lanes::LANES;
 use crate::loss::Extent;
-use crate::transmission::{Case, Transmission};
+use crate::transmission::Transmission;
 
-/// Points per task; fixed, so that the bits do not hang on the number of threads.
-const CHUNK: usize = 64;
+/// Points of a piece that is no part of a grid.
+const PIECE: usize = 1024;
 
-/// Points of a piece; a multiple of those of a task.
-const PIECE: usize = 16 * CHUNK;
-
-/// Pieces that are solved together.
-const TOGETHER: usize = 16;
+/// Points that are solved at once: at least one piece, at most as many pieces as make this number.
+const TOGETHER: usize = LANES * 1024;
 
 /// The most solved points that are held while a field is solved piece by piece.
-pub const MOST_HELD: usize = 2 * TOGETHER * PIECE;
+pub const MOST_HELD: usize = 2 * TOGETHER;
+
+/// Points of a task, where a piece has more of them.
+const TASK: usize = 1024;
 
 /// Some points of a field that follow each other, solved.
 #[derive(Debug, Clone)]
@@ -35,14 +35,46 @@ pub struct Piece {
     pub seen: Vec<Extent>,
 }
 
-/// Number of pieces of as many points.
-pub fn pieces(points: usize) -> usize {
-    points.div_ceil(PIECE)
-}
+impl Field {
+    /// Points of a piece. On a grid a piece is made of whole lines of one torque, so many that blocks of one speed are full
+    /// where memory allows it.
+    fn piece(&self) -> usize {
+        match self {
+            Self::Grid { speeds, .. } if (1..=TOGETHER).contains(&speeds.len()) => {
+                speeds.len() * (TOGETHER / speeds.len()).min(LANES)
+            }
+            _ => PIECE,
+        }
+    }
 
-/// Numbers of the points of a piece, of as many points.
-fn of_piece(number: usize, count: usize) -> Range<usize> {
-    number * PIECE..((number + 1) * PIECE).min(count)
+    /// Number of pieces.
+    pub fn pieces(&self) -> usize {
+        self.len().div_ceil(self.piece())
+    }
+
+    /// Numbers of the points of a piece.
+    fn of_piece(&self, number: usize) -> Range<usize> {
+        let piece = self.piece();
+        number * piece..((number + 1) * piece).min(self.len())
+    }
+
+    /// The points of a piece in the order in which they are solved: those of one speed and oil one after the other.
+    fn in_order(&self, number: usize) -> Vec<usize> {
+        let own = self.of_piece(number);
+        if let Self::Grid { speeds, .. } = self {
+            let columns = own.start..(own.start + speeds.len()).min(own.end);
+            return columns
+                .flat_map(|first| (first..own.end).step_by(speeds.len()))
+                .collect();
+        }
+        let mut numbers: Vec<usize> = own.collect();
+        numbers.sort_by(|a, b| {
+            let (a, b) = (self.at(*a), self.at(*b));
+            let oil = |oil: Option<f64>| oil.unwrap_or(f64::NEG_INFINITY);
+            a.speed.total_cmp(&b.speed).then(oil(a.oil).total_cmp(&oil(b.oil)))
+        });
+        numbers
+    }
 }
 
 /// Solves the pieces of given numbers and hands them over in this order, so that no more points are held than
@@ -59,44 +91,44 @@ pub fn solve_pieces(
     take: &mut dyn FnMut(Piece) -> bool,
 ) -> Result<bool, Vec<Diagnostic>> {
     let case = points.case(transmission)?;
+    let solver = Solver::new(transmission, &case, points);
     let going = AtomicBool::new(true);
-    let solve = |chunk: Range<usize>| {
+    let solve = |space: &mut Space, task: &[usize]| {
         if !going.load(Ordering::Relaxed) {
             return (Vec::new(), Vec::new());
         }
-        let solved = solve_chunk(transmission, &case, points, chunk);
-        if !progress(solved.0.len()) {
+        let solved = solver.solve(task, space);
+        if !progress(solved.len()) {
             going.store(false, Ordering::Relaxed);
         }
-        solved
+        (solved, space.take_seen())
     };
     let solve_all = |numbers: &[usize]| -> Vec<Piece> {
-        let count = points.field.len();
-        let chunks = |number: &usize| {
-            let own = of_piece(*number, count);
-            let end = own.end;
-            own.step_by(CHUNK).map(move |start| start..(start + CHUNK).min(end))
-        };
-        let chunks: Vec<Range<usize>> = numbers.iter().flat_map(chunks).collect();
-        let mut solved: Vec<(Vec<PointResult>, Vec<Extent>)> = chunks.into_par_iter().map(solve).collect();
+        let orders: Vec<Vec<usize>> = numbers.iter().map(|number| points.field.in_order(*number)).collect();
+        let tasks: Vec<&[usize]> = orders.iter().flat_map(|order| order.chunks(TASK)).collect();
+        let mut solved: Vec<(Vec<PointResult>, Vec<Extent>)> =
+            tasks.into_par_iter().map_init(|| solver.space(), solve).collect();
         let mut solved = solved.drain(..);
-        let piece = |number: &usize| {
-            let own = of_piece(*number, count);
-            let mut piece = Piece {
-                number: *number,
-                points: Vec::with_capacity(own.len()),
-                seen: Vec::new(),
-            };
-            for (points, totals) in solved.by_ref().take(own.len().div_ceil(CHUNK)) {
-                merge(&mut piece.seen, &totals);
-                piece.points.extend(points);
+        let piece = |(number, order): (&usize, &Vec<usize>)| {
+            let first = points.field.of_piece(*number).start;
+            let mut seen = Vec::new();
+            let mut places: Vec<Option<PointResult>> = vec![None; order.len()];
+            for (task, (solved, totals)) in order.chunks(TASK).zip(solved.by_ref()) {
+                merge(&mut seen, &totals);
+                for (place, point) in task.iter().zip(solved) {
+                    places[place - first] = Some(point);
+                }
             }
-            piece
+            Piece {
+                number: *number,
+                points: places.into_iter().flatten().collect(),
+                seen,
+            }
         };
-        numbers.iter().map(piece).collect()
+        numbers.iter().zip(&orders).map(piece).collect()
     };
     let mut ready: Vec<Piece> = Vec::new();
-    let mut groups = numbers.chunks(TOGETHER);
+    let mut groups = numbers.chunks((TOGETHER / points.field.piece()).max(1));
     loop {
         let next = groups.next();
         let mut solved = Vec::new();
@@ -116,86 +148,4 @@ pub fn solve_pieces(
         }
         ready = solved;
     }
-}
-
-/// Solves points that follow each other, with what was seen over them.
-fn solve_chunk(
-    transmission: &Transmission,
-    case: &Case,
-    points: &Points,
-    chunk: Range<usize>,
-) -> (Vec<PointResult>, Vec<Extent>) {
-    let mut scratch = transmission.scratch(case);
-    let member = |port: usize| transmission.ports()[port].member;
-    let at_torque = case.torque_ports.first().map(|port| member(*port));
-    let reference = member(transmission.reference_port());
-    let other = match transmission.ports() {
-        [_, _] => Some(member(1 - transmission.reference_port())),
-        _ => None,
-    };
-    let at_reference = case.torque_ports.first() == Some(&transmission.reference_port());
-    let mut torques = vec![0.0; case.torque_ports.len()];
-    let mut speeds = vec![0.0; case.speed_ports.len()];
-    let results = chunk
-        .map(|i| {
-            let Given { torque, speed, oil } = points.field.at(i);
-            for (value, first) in [(torque, torques.first_mut()), (speed, speeds.first_mut())] {
-                if let Some(first) = first {
-                    *first = value;
-                }
-            }
-            let point = Point {
-                speeds: &speeds,
-                torques: &torques,
-                flow: points.flow,
-                tolerance: Tolerance::default(),
-            };
-            let wanted = oil.map_or(points.oil, OilTemperature::Fixed);
-            let warm = wanted.find(transmission, case, &point, &mut scratch);
-            let solution = transmission.evaluate(case, &point, warm.temperatures(), &mut scratch);
-            let mut totals = [0.0; 6];
-            let mut terms = Vec::new();
-            for (part, loss) in solution.parts() {
-                sums::add(&mut totals, transmission, part, &loss);
-                if points.terms {
-                    terms.push(std::array::from_fn(|k| loss.term_watts(k)));
-                }
-            }
-            let result = PointResult {
-                torque,
-                speed,
-                torque_speed: at_torque.map_or(0.0, |member| solution.speed(member)),
-                reference_speed: solution.speed(reference),
-                output_speed: other.map(|member| solution.speed(member)),
-                at_reference,
-                oil: Some(warm.oil),
-                surface: warm.balance.as_ref().and_then(|b| b.surface),
-                balance: warm.outcome(),
-                evaluations: warm.evaluations(),
-                nodes: warm
-                    .network
-                    .as_ref()
-                    .map(|n| n.temperatures.clone())
-                    .unwrap_or_default(),
-                status: solution.status(),
-                efficiency: solution.efficiency(),
-                loss: solution.loss(),
-                loss_torque: solution.loss_torque(),
-                input: solution.input_power(),
-                output: solution.output_power(),
-                sums: totals,
-                parts: solution.watts().to_vec(),
-                terms,
-                outside: solution.extents().iter().any(|e| e.outside > 0),
-                undefined: solution.undefined_part(),
-                passes: solution.passes(),
-            };
-            if warm.is_sound() {
-                result
-            } else {
-                result.without_temperature()
-            }
-        })
-        .collect();
-    (results, scratch.totals)
 }

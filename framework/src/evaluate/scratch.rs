@@ -59,6 +59,12 @@ impl Scratch {
         self.asked.get()
     }
 
+    /// What was seen since the scratch was made or this was asked last.
+    pub(crate) fn take_totals(&mut self) -> Vec<Extent> {
+        let empty = vec![Extent::EMPTY; self.totals.len()];
+        std::mem::replace(&mut self.totals, empty)
+    }
+
     /// Losses of all parts at the point that was evaluated last, in their order; zero where undefined. \[W\]
     pub(crate) fn watts(&self) -> &[f64] {
         &self.watts

@@ -50,8 +50,13 @@ impl Flow {
         }
         work.applied.fill(0.0);
         work.applied[..self.columns].copy_from_slice(&work.ports);
+        self.relative(speeds, &mut work.relative);
+    }
+
+    /// Speeds of second and first gear of each mesh in the carrier's frame; zero where they are rounding.
+    pub(super) fn relative(&self, speeds: &[f64], relative: &mut [[f64; 2]]) {
         let still = STILL * speeds.iter().fold(0.0, |most, w| larger(most, w.abs()));
-        for (relative, mesh) in work.relative.iter_mut().zip(&self.meshes) {
+        for (relative, mesh) in relative.iter_mut().zip(&self.meshes) {
             *relative = [mesh.second, mesh.first].map(|gear| relative_speed(gear, mesh, speeds, still));
         }
     }

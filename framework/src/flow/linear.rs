@@ -94,6 +94,22 @@ impl Panels {
             .collect();
         Self { parts, columns: n }
     }
+
+    /// Row, column and value of what is not zero, row by row.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        let panels = self.parts.chunks_exact(self.columns.max(1)).enumerate();
+        panels.flat_map(|(panel, columns)| {
+            (0..4).flat_map(move |row| {
+                let entries = columns
+                    .iter()
+                    .enumerate()
+                    .map(move |(column, part)| (column, part[row]));
+                entries
+                    .filter(|(_, x)| *x != 0.0)
+                    .map(move |(column, x)| (4 * panel + row, column, x))
+            })
+        })
+    }
 }
 
 /// The larger of two numbers; the first where the second is no number. Cheaper than `max`, which cares for both.

@@ -9,11 +9,11 @@ const NO_POWER: f64 = 1e-13;
 /// A driver that turns more often than this belongs to a train that may lock itself.
 const TURNS: u8 = 4;
 /// Passes without progress after which steps are halved.
-const PATIENCE: usize = 10;
+pub(super) const PATIENCE: usize = 10;
 /// The error to come is an estimate from two steps.
-const SAFETY: f64 = 0.5;
+pub(super) const SAFETY: f64 = 0.5;
 /// Farthest extrapolation, in steps back and forth.
-const REACH: (f64, f64) = (-9.0, 0.9);
+pub(super) const REACH: (f64, f64) = (-9.0, 0.9);
 
 impl Flow {
     /// The flow without losses. Speeds of all columns; torques of the given ports in their order.
@@ -300,7 +300,7 @@ fn secant(work: &Work) -> f64 {
     }
 }
 
-fn drive(rolling: f64, largest: f64) -> Drive {
+pub(super) fn drive(rolling: f64, largest: f64) -> Drive {
     if rolling.abs() <= NO_POWER * largest {
         Drive::Neither
     } else if rolling > 0.0 {

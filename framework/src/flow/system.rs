@@ -1,5 +1,6 @@
 //! The square system of equilibrium: multipliers of rows and torques of ports.
 
+use super::abreast::SparseFlow;
 use super::linear::{Panels, inverse, padded, product};
 use crate::kinematics::Train;
 
@@ -79,6 +80,8 @@ pub struct Flow {
     pub(super) base: Panels,
     /// Its inverse.
     pub(super) inverse: Panels,
+    /// The same and the effects of friction without their zeros, for blocks of points.
+    pub(super) sparse: SparseFlow,
     /// Scale of each row: the unknown is the multiplier over its scale.
     pub(super) scale: Vec<f64>,
     pub(super) meshes: Vec<MeshRow>,
@@ -142,7 +145,7 @@ impl Flow {
             base[row * size + equation] = part * base[row * size + member];
         }
         let inverse = Panels::new(&inverse(base.clone(), size).ok_or(FlowFault::Singular)?, size);
-        let friction = meshes
+        let friction: Vec<Friction> = meshes
             .iter()
             .map(|mesh| Friction {
                 row: mesh.row,
@@ -168,11 +171,13 @@ impl Flow {
                 }),
             })
             .collect();
+        let base = Panels::new(&base, size);
         Ok(Self {
             columns: n,
             rows: m,
             size,
-            base: Panels::new(&base, size),
+            sparse: SparseFlow::new(&base, &inverse, size, &friction),
+            base,
             inverse,
             scale,
             meshes,

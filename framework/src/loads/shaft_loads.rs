@@ -8,29 +8,63 @@ use super::thrust::Taking;
 /// Loads of all supports as a function of the tangential force of each mesh.
 #[derive(Debug, Clone)]
 pub struct ShaftLoads {
-    supports: usize,
+    pub(super) supports: usize,
     /// Reactions by support.
-    cases: Vec<Cases>,
+    pub(super) cases: Vec<Cases>,
     /// Members from the carried to the carrying.
-    order: Vec<Axially>,
+    pub(super) order: Vec<Axially>,
 }
 
 /// Reactions of one support, those that are nothing left out.
 #[derive(Debug, Clone, Default)]
-struct Cases {
+pub(super) struct Cases {
     /// To what always acts.
     always: Reaction,
     /// To one newton of the tangential force of a mesh, and of its magnitude.
     meshes: Vec<(usize, [Reaction; 2])>,
     /// To the centrifugal force of a planet body per squared speed of its carrier.
     planets: Vec<(usize, Reaction)>,
+    /// The same for force and couple in y and z each, what is nothing left out: meshes with signed and magnitude, carriers.
+    pub components: [Component; 4],
+}
+
+/// One component of the reactions of a support.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Component {
+    pub always: f64,
+    pub meshes: Vec<(usize, f64, f64)>,
+    pub planets: Vec<(usize, f64)>,
+}
+
+impl Component {
+    /// True where there is never anything.
+    pub fn is_nothing(&self) -> bool {
+        self.always == 0.0 && self.meshes.is_empty() && self.planets.is_empty()
+    }
 }
 
 impl Cases {
     fn new(reactions: &[Reaction], meshes: usize, carriers: &[usize]) -> Self {
         let nothing = Reaction::default();
         let (pairs, planets) = reactions[1..].split_at(2 * meshes);
+        let part = |r: &Reaction, k: usize| if k < 2 { r.force[k] } else { r.couple[k - 2] };
+        let component = |k: usize| Component {
+            always: part(&reactions[0], k),
+            meshes: pairs
+                .chunks_exact(2)
+                .enumerate()
+                .map(|(mesh, pair)| (mesh, part(&pair[0], k), part(&pair[1], k)))
+                .filter(|(_, signed, magnitude)| *signed != 0.0 || *magnitude != 0.0)
+                .collect(),
+            planets: carriers
+                .iter()
+                .zip(planets)
+                .map(|(carrier, reaction)| (*carrier, part(reaction, k)))
+                .filter(|(_, part)| *part != 0.0)
+                .collect(),
+        };
         Self {
+            components: std::array::from_fn(component),
             always: reactions[0],
             meshes: pairs
                 .chunks_exact(2)
@@ -61,16 +95,16 @@ impl Cases {
 }
 
 #[derive(Debug, Clone)]
-struct Axially {
+pub(super) struct Axially {
     /// Thrust that always acts. \[N\]
-    always: f64,
+    pub always: f64,
     /// Mesh and thrust per newton of its tangential force.
-    meshes: Vec<(usize, f64)>,
-    taking: Taking,
+    pub meshes: Vec<(usize, f64)>,
+    pub taking: Taking,
     /// True where one support without thrust face lets the thrust through to the member that carries it.
-    passes: bool,
+    pub passes: bool,
     /// Place in the order of the member that takes a thrust which passes through, with the number of copies.
-    carrier: Option<(usize, f64)>,
+    pub carrier: Option<(usize, f64)>,
 }
 
 impl ShaftLoads {

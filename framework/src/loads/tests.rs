@@ -1,4 +1,5 @@
 #![allow(clippy::unwrap_used)]
+use super::abreast::tests::assert_abreast;
 use super::layout::Section;
 use super::*;
 use crate::attach::Axial;
@@ -112,6 +113,7 @@ fn two_speed() -> Layout {
 
 fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64; 2]>) {
     let solved = ShaftLoads::new(layout).unwrap();
+    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let mut loads = vec![SupportLoad::default(); layout.supports.len()];
     let mut passed = vec![0.0; solved.scratch_len()];
     solved.evaluate(tangential, &vec![0.0; layout.members.len()], &mut passed, &mut loads);
@@ -467,6 +469,7 @@ fn g_planet_bearing() {
         meshes: vec![sun, ring],
     };
     let solved = ShaftLoads::new(&layout).unwrap();
+    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     // The most loaded planet carries 1.1 times its share of 60 N m; the carrier turns at 750 rpm.
     let share = 1.1 * 60.0 / 3.0;
     let speeds = [0.0, 750.0 * std::f64::consts::PI / 30.0, 0.0, 0.0];
@@ -690,7 +693,8 @@ fn axial_case(a: SupportLayout, b: SupportLayout, thrust: f64) -> Result<(f64, f
         supports: vec![a, b],
         meshes: Vec::new(),
     };
-    ShaftLoads::new(&layout)?;
+    let solved = ShaftLoads::new(&layout)?;
+    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let (loads, _) = loads_of(&layout, &[]);
     Ok((loads[0].axial, loads[1].axial, loads[0].untaken))
 }

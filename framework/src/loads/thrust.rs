@@ -7,14 +7,14 @@ use crate::attach::Axial;
 /// The thrust arrangement of one member, over its own supports.
 #[derive(Debug, Clone)]
 pub struct Taking {
-    supports: Vec<usize>,
+    pub(super) supports: Vec<usize>,
     /// The two supports with a contact angle that push each other, which take thrust towards +x and -x, with their induced
     /// thrust per radial load.
-    pair: Option<[(usize, f64); 2]>,
+    pub(super) pair: Option<[(usize, f64); 2]>,
     /// Supports with a spring and its force. \[N\]
-    springs: Vec<(usize, f64)>,
+    pub(super) springs: Vec<(usize, f64)>,
     /// Supports that take a thrust towards -x and towards +x, with their shares of it.
-    takers: [Vec<(usize, f64)>; 2],
+    pub(super) takers: [Vec<(usize, f64)>; 2],
 }
 
 impl Taking {

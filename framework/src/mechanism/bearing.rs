@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::attach::{Support, SupportSite};
 use crate::context;
 use crate::generic::Scalar;
+use crate::lanes::{LANES, LaneNotes, LossLanes};
+use crate::loads::LoadLanes;
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::mechanism::{Component, Mechanism, Quantity};
 
@@ -23,6 +25,27 @@ pub trait BearingModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate. What hangs on speed and oil alone may go into
     /// [`BearingAt::once`], which spares it in all passes of a point but the first.
     fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined>;
+
+    /// The same at several loads side by side, where all else is as at `at`; muted. What it answers must have the bits of
+    /// [`loss`](Self::loss), which the suite of the framework compares. Without code of its own it asks once for each lane.
+    fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
+        one_by_one(self, at, loads, losses);
+    }
+
+    /// Notes what [`loss`](Self::loss) notes at these loads.
+    fn note(&self, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
+        for lane in 0..LANES {
+            // An answer that is no number leaves the lane to its point alone.
+            let _ = self.loss(&at.under(loads, lane, notes.lane(lane)));
+        }
+    }
+}
+
+/// Asks a model once for each lane: [`BearingModel::losses`] where nothing spares that.
+pub fn one_by_one<M: BearingModel + ?Sized>(model: &M, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
+    for lane in 0..LANES {
+        losses.put(lane, model.loss(&at.under(loads, lane, at.notes)));
+    }
 }
 
 /// Kind of a rolling bearing.
@@ -264,6 +287,19 @@ context! {
     }
 }
 
+impl<'a> BearingAt<'a> {
+    /// The same under the load of one lane.
+    #[inline]
+    fn under(&self, loads: &LoadLanes, lane: usize, notes: Notes<'a>) -> Self {
+        self.with(|to| {
+            to.radial = loads.radial[lane];
+            to.axial = loads.axial[lane];
+            to.tilting = loads.tilting[lane];
+            to.notes = notes;
+        })
+    }
+}
+
 impl Mechanism for Bearing {
     const KEY: &'static str = "bearing";
     const MEANING: &'static str = "Friction of a rolling bearing.";
@@ -311,6 +347,16 @@ impl Component for Bearing {
             mu_ehl: oil.mu_ehl,
             notes,
         }
+    }
+
+    fn losses(model: &Self::Model, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) -> bool {
+        model.losses(at, loads, losses);
+        true
+    }
+
+    fn note(model: &Self::Model, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
+        model.note(at, loads, notes);
+        true
     }
 }
 

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::context;
 use crate::generic::Scalar;
 use crate::geometry::{Pair, PairFault, PairSpec};
+use crate::lanes::{Lane, LaneNotes, LossLanes};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::lubricant::Lubricant;
 use crate::mechanism::{Mechanism, Quantity};
@@ -23,6 +24,40 @@ pub enum GearMesh {}
 pub trait GearMeshModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined>;
+
+    /// The same at several torques side by side, where all else is as at `at`; muted. What it answers must have the bits of
+    /// [`loss`](Self::loss), which the suite of the framework compares. Without code of its own it asks once for each lane.
+    fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
+        one_by_one(self, at, torques, losses);
+    }
+
+    /// Notes what [`loss`](Self::loss) notes at these torques.
+    fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, notes: LaneNotes<'_>) {
+        note_one_by_one(self, at, torques, notes);
+    }
+}
+
+/// Asks a model once for each lane: [`GearMeshModel::losses`] where nothing spares that.
+pub fn one_by_one<M: GearMeshModel + ?Sized>(model: &M, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
+    for (lane, torque) in torques.iter().enumerate() {
+        losses.put(lane, model.loss(&at.with(|to| to.torque = *torque)));
+    }
+}
+
+/// Asks a model once for each lane for its notes: [`GearMeshModel::note`] where nothing spares that.
+pub fn note_one_by_one<M: GearMeshModel + ?Sized>(
+    model: &M,
+    at: &GearMeshAt<'_>,
+    torques: &Lane,
+    notes: LaneNotes<'_>,
+) {
+    for (lane, torque) in torques.iter().enumerate() {
+        // An answer that is no number leaves the lane to its point alone.
+        let _ = model.loss(&at.with(|to| {
+            to.torque = *torque;
+            to.notes = notes.lane(lane);
+        }));
+    }
 }
 
 /// A pair of gears as written for a model alone; in a gearbox the framework fills it from `gears` and `meshes`.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::context;
 use crate::generic::Scalar;
+use crate::lanes::{Lane, LaneNotes};
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::mean_friction::MeanFrictionAt;
 use crate::mechanism::{Mechanism, NoPart, Quantity};
@@ -33,6 +34,36 @@ pub trait ToothFrictionModel: Send + Sync {
             *mu = self.mu(&path.contact(node))?;
         }
         Ok(Along::default())
+    }
+
+    /// Coefficients at all nodes of a path for several line loads (N/m) side by side, where all else is as at `path`; muted. They
+    /// must have the bits of [`along`](Self::along), the heat must go into both bodies alike, and what is undefined is no number.
+    /// False where the law has no code of its own for it: it is then asked once for each load.
+    fn along_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &mut [Lane]) -> bool {
+        false
+    }
+
+    /// The sum of the coefficients over the nodes of a path with given weights, prepared where the law knows a shorter way to it
+    /// than node by node.
+    fn weighted(&self, _nodes: &[PathNode], _weights: &[f64]) -> Option<Box<dyn WeightedFriction>> {
+        None
+    }
+
+    /// Notes what [`along`](Self::along) notes, from the coefficients of [`along_lanes`](Self::along_lanes).
+    fn note_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &[Lane], _notes: LaneNotes<'_>) {}
+}
+
+/// A sum of coefficients of friction over the nodes of a path with given weights, prepared by a law.
+pub trait WeightedFriction: Send + Sync {
+    /// The sum for one line load; no number where the nodes have to be asked.
+    fn sum(&self, path: &PathAt<'_>) -> f64;
+
+    /// The same for several line loads (N/m) side by side, to the bit.
+    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane) -> Lane;
+
+    /// Notes what the law notes along the path. False where that takes the coefficients at all nodes.
+    fn note(&self, _path: &PathAt<'_>, _line_loads: &Lane, _notes: LaneNotes<'_>) -> bool {
+        false
     }
 }
 

@@ -11,6 +11,8 @@ use super::{Slot, from_resolved};
 use crate::attach::{Attach, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
+use crate::lanes::{LaneNotes, LossLanes};
+use crate::loads::LoadLanes;
 use crate::loss::{Loss, NoteBase, Notes, Undefined};
 use crate::mechanism::Component;
 
@@ -50,6 +52,15 @@ pub(crate) mod sealed {
 pub trait Placed: sealed::Sealed + Send + Sync {
     /// Loss of one copy, with the notes of its model.
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined>;
+    /// Losses of one copy at several loads of its support, where all else is as in the state; false where its mechanism has no
+    /// way for that.
+    fn losses(&self, _state: &State<'_>, _loads: &LoadLanes, _notes: Notes<'_>, _losses: &mut LossLanes) -> bool {
+        false
+    }
+    /// Notes of its model at these loads; false where [`Placed::losses`] has no way.
+    fn note(&self, _state: &State<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {
+        false
+    }
     /// What the model sees at a state, one copy.
     fn readings(&self, state: &State<'_>) -> Vec<Reading>;
     /// The two members that feel the reaction; absent for the housing.
@@ -77,6 +88,14 @@ impl<C: Component> Placed for PlacedAs<C> {
     fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
         C::answer(&self.model, &C::at(&self.part, site, notes))
+    }
+    fn losses(&self, state: &State<'_>, loads: &LoadLanes, notes: Notes<'_>, losses: &mut LossLanes) -> bool {
+        let site = C::Attachment::site(self.seat, &self.spot, state);
+        C::losses(&self.model, &C::at(&self.part, site, notes), loads, losses)
+    }
+    fn note(&self, state: &State<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
+        let site = C::Attachment::site(self.seat, &self.spot, state);
+        C::note(&self.model, &C::at(&self.part, site, notes.all()), loads, notes)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);

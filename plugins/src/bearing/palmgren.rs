@@ -3,6 +3,8 @@
 //! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is kept); M1 = f1 P1^a dm^b with
 //! f1 = z (P0/C0)^y; M2 = f2 Fa dm of cylindrical rollers under axial load.
 
+use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, each, exp, ln, wide};
+use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::bearing::{BearingAt, BearingKind, BearingModel, BearingPart};
@@ -109,6 +111,33 @@ fn ratio(load: f64, other: f64) -> f64 {
 }
 
 impl Palmgren {
+    /// f1 from P0. \[-\]
+    #[inline(always)]
+    fn f1(&self, p0: f64) -> f64 {
+        if self.law.exponent == 0.0 {
+            self.law.z
+        } else {
+            self.law.z * exp(self.law.exponent * ln(p0 / self.c0))
+        }
+    }
+
+    /// M1 from f1 and P1. \[N mm\]
+    #[inline(always)]
+    fn m1(&self, f1: f64, p1: f64) -> f64 {
+        let power = if self.law.a == 1.0 {
+            p1
+        } else {
+            exp(self.law.a * ln(p1))
+        };
+        f1 * power * self.d_m_b
+    }
+
+    /// M2 from the axial load. \[N mm\]
+    #[inline(always)]
+    fn m2(&self, fa: f64) -> f64 {
+        self.f2 * fa * self.d_m
+    }
+
     /// The load-independent moment. \[N mm\]
     fn no_load(&self, at: &BearingAt<'_>) -> f64 {
         let f0 = match self.f0 {
@@ -134,32 +163,56 @@ impl Palmgren {
 impl BearingModel for Palmgren {
     fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
         let (fr, fa) = (at.show("Fr", "N", at.radial), at.show("Fa", "N", at.axial));
-        let law = &self.law;
-        let (p0, p1) = law.rule.equivalent(fr, fa);
-        let f1 = if law.exponent == 0.0 {
-            law.z
-        } else {
-            law.z * (at.show("P0", "N", p0) / self.c0).powf(law.exponent)
-        };
-        let f1 = at.show("f1", "-", f1);
+        let (p0, p1) = self.law.rule.equivalent(fr, fa);
+        if self.law.exponent != 0.0 {
+            at.show("P0", "N", p0);
+        }
+        let f1 = at.show("f1", "-", self.f1(p0));
         let p1 = at.observe(&P1, p1);
         if self.spherical_thrust {
             at.check(&RADIAL_RATIO, ratio(fr, fa));
         }
         let [m0] = at.once(|| [self.no_load(at)]);
-        let m1 = at.show(
-            "M1",
-            "N mm",
-            f1 * if law.a == 1.0 { p1 } else { p1.powf(law.a) } * self.d_m_b,
-        );
+        let m1 = at.show("M1", "N mm", self.m1(f1, p1));
         let m2 = if self.flanged && fa > 0.0 {
             at.check(&AXIAL_RATIO, ratio(fa, fr));
-            at.show("M2", "N mm", self.f2 * fa * self.d_m)
+            at.show("M2", "N mm", self.m2(fa))
         } else {
             0.0
         };
         Ok(Loss::MOMENTS
             .with(&LOAD, (m1 + m2).nmm_in_nm())
             .with(&NO_LOAD, m0.nmm_in_nm()))
+    }
+
+    fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
+        let [m0] = at.once(|| [self.no_load(at)]);
+        wide(
+            #[inline(always)]
+            || {
+                let load = each(|i| {
+                    let (fr, fa) = (loads.radial[i], loads.axial[i]);
+                    let (p0, p1) = self.law.rule.equivalent(fr, fa);
+                    let m2 = if self.flanged && fa > 0.0 { self.m2(fa) } else { 0.0 };
+                    (self.m1(self.f1(p0), p1) + m2).nmm_in_nm()
+                });
+                losses.begin(&Loss::MOMENTS);
+                losses.add(&LOAD, &load);
+                losses.add(&NO_LOAD, &Lane::all(m0.nmm_in_nm()));
+            },
+        );
+    }
+
+    fn note(&self, _at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
+        let p1 = each(|i| self.law.rule.equivalent(loads.radial[i], loads.axial[i]).1);
+        notes.observe(&P1, &p1, &p1);
+        if self.spherical_thrust {
+            let ratios = each(|i| ratio(loads.radial[i], loads.axial[i]));
+            notes.check(&RADIAL_RATIO, &ratios, &ratios);
+        }
+        if self.flanged {
+            let ratios = each(|i| ratio(loads.axial[i], loads.radial[i]));
+            notes.check_where(&AXIAL_RATIO, &ratios, &loads.axial.map(|fa| fa > 0.0));
+        }
     }
 }

@@ -47,6 +47,7 @@ pub enum Rule {
 
 impl Rule {
     /// P0 and P1 from radial and axial load; P1 is at least the radial load. \[N\]
+    #[inline(always)]
     pub fn equivalent(self, fr: f64, fa: f64) -> (f64, f64) {
         let (p0, p1) = match self {
             Self::DeepGroove { k } => (fr.max(0.6 * fr + 0.5 * fa), k * fa - 0.1 * fr),

@@ -14,9 +14,11 @@ mod rows;
 
 use drag::{Bath, Body, Depth, Drag};
 use gearloss_framework::document::Diagnostic;
+use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, over, wide};
+use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingModel, BearingPart, Lubrication};
+use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingModel, BearingPart, Lubrication, one_by_one};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use rows::{Lack, Variables};
@@ -261,6 +263,36 @@ fn drag_of(params: &Skf, part: &BearingPart, row: &rows::Row) -> Result<Option<D
     Ok(Some(Drag::new(&body, bath, v_m)))
 }
 
+impl Model {
+    /// What hangs on speed and oil alone; the speed in 1/min, not zero.
+    fn moments(&self, at: &BearingAt<'_>, n: f64) -> Moments {
+        let nu = at.nu.mm2_s();
+        let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(|| {
+            let (ln_n, ln_nu) = (n.ln(), nu.ln());
+            let drag = self.drag.as_ref();
+            [
+                1.0 / (1.0 + 1.84e-9 * (1.28 * (ln_n + self.ln_d_m) + 0.64 * ln_nu).exp()),
+                (-self.starvation * nu * n).max(-700.0).exp(),
+                (-2.6e-8 * (1.4 * (ln_n + ln_nu)).exp() * self.d_m).max(-700.0).exp(),
+                (0.6 * (ln_n + ln_nu)).exp(),
+                drag.map_or(0.0, |drag| drag.moment(at.oil_height.mm(), n.min(self.fastest), nu)),
+            ]
+        });
+        let mu_bl = self
+            .mu_bl
+            .unwrap_or(if at.mu_bl > 0.0 { at.mu_bl } else { self.edition_mu_bl });
+        let mu_ehl = self.mu_ehl.unwrap_or(at.mu_ehl);
+        Moments {
+            phi_ish,
+            phi_rs,
+            phi_bl,
+            viscous,
+            mu_sl: phi_bl * mu_bl + (1.0 - phi_bl) * mu_ehl,
+            drag,
+        }
+    }
+}
+
 fn prepare(params: Skf, cx: &mut Build<'_>) -> Result<Model, Diagnostic> {
     let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
     Model::new(&params, part).map_err(|(message, mend)| cx.error(message).mend(mend))
@@ -292,26 +324,13 @@ impl BearingModel for Model {
                 .with(&SEAL, seals));
         }
         let height = at.oil_height.mm();
-        let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(|| {
-            let (ln_n, ln_nu) = (n.ln(), nu.ln());
-            let drag = self.drag.as_ref();
-            [
-                1.0 / (1.0 + 1.84e-9 * (1.28 * (ln_n + self.ln_d_m) + 0.64 * ln_nu).exp()),
-                (-self.starvation * nu * n).max(-700.0).exp(),
-                (-2.6e-8 * (1.4 * (ln_n + ln_nu)).exp() * self.d_m).max(-700.0).exp(),
-                (0.6 * (ln_n + ln_nu)).exp(),
-                drag.map_or(0.0, |drag| drag.moment(height, n.min(self.fastest), nu)),
-            ]
-        });
-        let mu_bl = self
-            .mu_bl
-            .unwrap_or(if at.mu_bl > 0.0 { at.mu_bl } else { self.edition_mu_bl });
-        let mu_ehl = self.mu_ehl.unwrap_or(at.mu_ehl);
-        let mu_sl = at.observe(&MU_SL, at.observe(&PHI_BL, phi_bl) * mu_bl + (1.0 - phi_bl) * mu_ehl);
-        at.show("phi_ish", "-", phi_ish);
-        at.show("phi_rs", "-", phi_rs);
-        let m_rr = at.show("M_rr", "N mm", phi_ish * phi_rs * g_rr * viscous);
-        let m_sl = at.show("M_sl", "N mm", g_sl * mu_sl);
+        let moments = self.moments(at, n);
+        at.observe(&PHI_BL, moments.phi_bl);
+        at.observe(&MU_SL, moments.mu_sl);
+        at.show("phi_ish", "-", moments.phi_ish);
+        at.show("phi_rs", "-", moments.phi_rs);
+        let m_rr = at.show("M_rr", "N mm", moments.rolling(g_rr));
+        let m_sl = at.show("M_sl", "N mm", moments.sliding(g_sl));
         let loss = Loss::MOMENTS
             .with(&ROLLING, m_rr.nmm_in_nm())
             .with(&SLIDING, m_sl.nmm_in_nm())
@@ -327,10 +346,72 @@ impl BearingModel for Model {
                 if n > self.fastest {
                     at.branch("n d_m above 0.5e6: the speed of the drag is held there");
                 }
-                loss.with(&DRAG, at.show("M_drag", "N mm", drag).nmm_in_nm())
+                loss.with(&DRAG, at.show("M_drag", "N mm", moments.drag).nmm_in_nm())
             }
             None => loss,
         })
+    }
+
+    fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
+        let n = at.speed.abs().rpm();
+        let variables = if n == 0.0 {
+            None
+        } else {
+            wide(
+                #[inline(always)]
+                || self.variables.lanes(&loads.radial, &loads.axial, self.blend),
+            )
+        };
+        let Some((g_rr, g_sl)) = variables else {
+            return one_by_one(self, at, loads, losses);
+        };
+        let moments = self.moments(at, n);
+        wide(
+            #[inline(always)]
+            || {
+                losses.begin(&Loss::MOMENTS);
+                losses.add(&ROLLING, &over(&g_rr, |g| moments.rolling(g).nmm_in_nm()));
+                losses.add(&SLIDING, &over(&g_sl, |g| moments.sliding(g).nmm_in_nm()));
+                losses.add(&SEAL, &Lane::all(self.seals.nmm_in_nm()));
+                if self.drag.is_some() {
+                    losses.add(&DRAG, &Lane::all(moments.drag.nmm_in_nm()));
+                }
+            },
+        );
+        for (lane, fa) in loads.axial.iter().enumerate() {
+            if *fa > self.axial {
+                losses.leave(lane);
+            }
+        }
+    }
+
+    fn note(&self, at: &BearingAt<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) {
+        // Nothing that is noted hangs on the load.
+        let _ = self.loss(at);
+    }
+}
+
+/// What the moments have in common under all loads.
+#[derive(Debug, Clone, Copy)]
+struct Moments {
+    phi_ish: f64,
+    phi_rs: f64,
+    phi_bl: f64,
+    viscous: f64,
+    mu_sl: f64,
+    /// \[N mm\]
+    drag: f64,
+}
+
+impl Moments {
+    #[inline(always)]
+    fn rolling(&self, g_rr: f64) -> f64 {
+        self.phi_ish * self.phi_rs * g_rr * self.viscous
+    }
+
+    #[inline(always)]
+    fn sliding(&self, g_sl: f64) -> f64 {
+        g_sl * self.mu_sl
     }
 }
 

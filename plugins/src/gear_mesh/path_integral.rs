@@ -14,10 +14,11 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
-use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, each, over, wide};
+use gearloss_framework::loss::{Loss, Notes, Observed, Term, Undefined};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel, note_one_by_one, one_by_one};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::ToothFriction;
+use gearloss_framework::mechanism::tooth_friction::{Along, PathAt, ToothFriction, WeightedFriction};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use schemars::JsonSchema;
@@ -101,6 +102,8 @@ struct Integral {
     rolling_weights: Vec<f64>,
     loss_factor: f64,
     friction: Slot<ToothFriction>,
+    /// The sum of friction by `weights`, where the law knows a short way.
+    short: Option<Box<dyn WeightedFriction>>,
     rolling: Rolling,
     rolling_speed: f64,
 }
@@ -128,6 +131,7 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
     Ok(Integral {
         rolling_weights,
         weight: weights.iter().sum(),
+        short: friction.weighted(path.nodes(), &weights),
         weights,
         loss_factor: pair.loss_factor_local(params.load_sharing),
         path,
@@ -172,11 +176,16 @@ impl GearMeshModel for Integral {
             .at(&mean, at.notes.of(self.friction.notes))
             .with(|to| to.bodies = at.bodies());
         let line_load = at.show("F_bn/b", "N/m", path.line_load);
-        let (sum, along) = self.path.with_space(|mu| {
-            let along = self.friction.along(&path, mu)?;
-            let sum: f64 = self.weights.iter().zip(&*mu).map(|(weight, mu)| weight * mu).sum();
-            Ok((sum, along))
-        })?;
+        let short = self.short.as_ref().map_or(f64::NAN, |short| short.sum(&path));
+        let (sum, along) = if short.is_finite() && at.notes.is_muted() {
+            (short, Along::default())
+        } else {
+            self.path.with_space(|mu| {
+                let along = self.friction.along(&path, mu)?;
+                let sum: f64 = self.weights.iter().zip(&*mu).map(|(weight, mu)| weight * mu).sum();
+                Ok((if short.is_finite() { short } else { sum }, along))
+            })?
+        };
         at.observe(&MU_MEAN, sum / self.weight);
         at.observe(&LOSS_FACTOR, self.loss_factor);
         let loss = Loss::POWERS
@@ -205,6 +214,88 @@ impl GearMeshModel for Integral {
             })
             .sum();
         Ok(loss.with(&ROLLING, at.show("P_r", "W", rolling)))
+    }
+
+    fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
+        let speed = at.speed.abs();
+        let sliding = self.in_lanes(at, torques, |path, forces, line_loads| {
+            let sums = self.sums(path, line_loads)?;
+            Some(each(|i| sums[i] * forces[i] * speed))
+        });
+        let Some(sliding) = sliding else {
+            return one_by_one(self, at, torques, losses);
+        };
+        losses.begin(&Loss::POWERS);
+        losses.add(&SLIDING, &sliding);
+        for (lane, sliding) in sliding.iter().enumerate() {
+            if sliding.is_nan() {
+                losses.leave(lane);
+            }
+        }
+    }
+
+    fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, notes: LaneNotes<'_>) {
+        let noted = self.in_lanes(at, torques, |path, _, line_loads| {
+            let sums = self.sums(path, line_loads)?;
+            let path = path.with(|to| to.notes = notes.all()).nested(&self.friction);
+            let own = notes.of(self.friction.notes);
+            let short = self.short.as_ref();
+            if !short.is_some_and(|short| short.note(&path, line_loads, own)) {
+                let noted = self.path.with_lanes(|mu| {
+                    let wide = self.friction.along_lanes(&path, line_loads, mu);
+                    wide.then(|| self.friction.note_lanes(&path, line_loads, mu, own))
+                });
+                noted?;
+            }
+            let mean = over(&sums, |sum| sum / self.weight);
+            notes.observe(&MU_MEAN, &mean, &mean);
+            at.observe(&LOSS_FACTOR, self.loss_factor);
+            Some(())
+        });
+        if noted.is_none() {
+            note_one_by_one(self, at, torques, notes);
+        }
+    }
+}
+
+impl Integral {
+    /// Sums of friction over the nodes, weighted by sliding power; absent where the law of friction is asked one by one.
+    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane) -> Option<Lane> {
+        if let Some(short) = &self.short {
+            return Some(short.sums(path, line_loads));
+        }
+        self.path.with_lanes(|mu| {
+            self.friction.along_lanes(path, line_loads, mu).then(|| {
+                wide(
+                    #[inline(always)]
+                    || {
+                        let mut sum = Lane::all(0.0);
+                        for (weight, mu) in self.weights.iter().zip(&*mu) {
+                            sum = each(|i| sum[i] + weight * mu[i]);
+                        }
+                        sum
+                    },
+                )
+            })
+        })
+    }
+
+    /// Does something with the path, the normal forces (N) and line loads (N/m) of all lanes; absent where that has no way.
+    fn in_lanes<R>(
+        &self,
+        at: &GearMeshAt<'_>,
+        torques: &Lane,
+        then: impl FnOnce(&PathAt<'_>, &Lane, &Lane) -> Option<R>,
+    ) -> Option<R> {
+        if self.rolling != Rolling::None || at.speed == 0.0 || torques.contains(&0.0) {
+            return None;
+        }
+        let pair = &at.part.pair;
+        let forces = over(torques, |torque| torque / pair.base_radius[0] / pair.cos_base_helix);
+        let line_loads = over(&forces, |force| force / pair.facewidth);
+        let mean = MeanFrictionAt::of(at, Notes::MUTED);
+        let path = self.path.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
+        then(&path, &forces, &line_loads)
     }
 }
 

@@ -6,17 +6,22 @@
 //! Fitted for a 75W-90 gear oil; it has no parameter for the kind of oil.
 //! Not for S above about 1 um, where exp(S) runs away, nor for oils near 1 mPa s, where lg nu0 vanishes.
 
+mod series;
+
 use std::f64::consts::LOG10_E;
 
+use gearloss_framework::lanes::{LANES, Lane, LaneNotes, each, exp, ln, over, wide};
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{
+    Along, ContactAt, PathAt, PathNode, ToothFriction, ToothFrictionModel, WeightedFriction,
+};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::exponential::exponentials;
+use series::Series;
 
 const B: [f64; 9] = [
     -8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958, 0.620305,
@@ -51,11 +56,12 @@ pub struct Xu {
     pub roughness: Roughness,
 }
 
-impl Xu {
-    fn roughness(&self, ra: f64, rq: f64) -> f64 {
-        match self.roughness {
-            Roughness::CompositeRms => rq.um(),
-            Roughness::Ra => ra.um(),
+impl Roughness {
+    /// S of the regression. \[um\]
+    fn of(self, ra: f64, rq: f64) -> f64 {
+        match self {
+            Self::CompositeRms => rq.um(),
+            Self::Ra => ra.um(),
         }
     }
 }
@@ -76,7 +82,7 @@ fn check_oil(notes: Notes<'_>, eta: f64, s: f64) -> Result<f64, Undefined> {
 
 impl ToothFrictionModel for Xu {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        let s = self.roughness(at.ra, at.rq);
+        let s = self.roughness.of(at.ra, at.rq);
         let nu0 = check_oil(at.notes, at.eta, s)?;
         let p = at.check(&PRESSURE, at.pressure.gpa());
         let sr = at.check(&SLIDE_ROLL, at.slide_roll());
@@ -100,28 +106,33 @@ impl ToothFrictionModel for Xu {
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
-        let s = self.roughness(path.ra, path.rq);
+        let s = self.roughness.of(path.ra, path.rq);
         let nu0 = check_oil(path.notes, path.eta, s)?;
-        let unit = path.unit_pressure().gpa();
+        let unit = unit_pressure(path.line_load, path.modulus);
         if unit == 0.0 {
             mu.fill(0.0);
             return Ok(Along::default());
         }
-        let ln_nu0 = nu0.ln();
-        // Everything that is the same along the path, once.
-        let common = B[0] + B[8] * s.exp() + B[1] * unit.ln() + B[5] * path.speed.ln() + B[6] * ln_nu0;
-        let fall = -unit * ln_nu0 * LOG10_E;
-        for (node, mu) in path.nodes.iter().zip(&mut *mu) {
-            *mu = fall * node.slide_roll * node.root_load;
-        }
-        exponentials(mu);
-        for (node, mu) in path.nodes.iter().zip(&mut *mu) {
-            let x = fall * node.slide_roll * node.root_load;
-            let geometry =
-                B[1] * node.ln_root_load + B[2] * node.ln_slide_roll + B[5] * node.ln_rolling + B[7] * node.ln_radius;
-            *mu = common + geometry - B[3] * x + B[4] * *mu;
-        }
-        exponentials(mu);
+        let along = Common::new(path, s, nu0);
+        let (common, fall) = (along.common(unit), along.fall(unit));
+        wide(
+            #[inline(always)]
+            || {
+                for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+                    *mu = fall * node.slide_roll * node.root_load;
+                }
+                for mu in &mut *mu {
+                    *mu = exp(*mu);
+                }
+                for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+                    let x = fall * node.slide_roll * node.root_load;
+                    *mu = common + geometry(node) - B[3] * x + B[4] * *mu;
+                }
+                for mu in &mut *mu {
+                    *mu = exp(*mu);
+                }
+            },
+        );
         let least = mu.iter().fold(f64::INFINITY, |least, mu| least.min(*mu));
         let most = mu.iter().fold(0.0, |most: f64, mu| most.max(*mu));
         for end in 0..2 {
@@ -142,6 +153,192 @@ impl ToothFrictionModel for Xu {
             })
         }
     }
+
+    fn along_lanes(&self, path: &PathAt<'_>, line_loads: &Lane, mu: &mut [Lane]) -> bool {
+        let s = self.roughness.of(path.ra, path.rq);
+        let Ok(nu0) = check_oil(Notes::MUTED, path.eta, s) else {
+            return false;
+        };
+        let along = Common::new(path, s, nu0);
+        wide(
+            #[inline(always)]
+            || {
+                let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
+                let commons = over(
+                    &units,
+                    #[inline(always)]
+                    |unit| along.common(unit),
+                );
+                let falls = over(&units, |unit| along.fall(unit));
+                for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+                    let geometry = geometry(node);
+                    *mu = each(
+                        #[inline(always)]
+                        |i| {
+                            let x = falls[i] * node.slide_roll * node.root_load;
+                            exp(commons[i] + geometry - B[3] * x + B[4] * exp(x))
+                        },
+                    );
+                }
+            },
+        );
+        true
+    }
+
+    fn weighted(&self, nodes: &[PathNode], weights: &[f64]) -> Option<Box<dyn WeightedFriction>> {
+        Some(Box::new(Weighted {
+            roughness: self.roughness,
+            series: Series::new(nodes, weights),
+        }))
+    }
+
+    fn note_lanes(&self, path: &PathAt<'_>, line_loads: &Lane, mu: &[Lane], notes: LaneNotes<'_>) {
+        note_ranges(self.roughness, path, line_loads, notes);
+        let (mut least, mut greatest) = (Lane::all(f64::INFINITY), Lane::all(0.0));
+        wide(
+            #[inline(always)]
+            || {
+                for mu in mu {
+                    least = each(|i| if mu[i] < least[i] { mu[i] } else { least[i] });
+                    greatest = each(|i| if mu[i] > greatest[i] { mu[i] } else { greatest[i] });
+                }
+            },
+        );
+        notes.observe(&MU, &least, &greatest);
+    }
+}
+
+/// Notes all limits, which need no walk along the path.
+fn note_ranges(roughness: Roughness, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) {
+    let _ = check_oil(path.notes, path.eta, roughness.of(path.ra, path.rq));
+    let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
+    let [least, greatest] = path.extent.root_load;
+    let [least, greatest] = [over(&units, |unit| unit * least), over(&units, |unit| unit * greatest)];
+    notes.check(&PRESSURE, &least, &greatest);
+    for end in 0..2 {
+        path.notes.check(&SLIDE_ROLL, path.extent.slide_roll[end]);
+        path.notes
+            .check(&ROLLING, 0.5 * path.extent.sum_speed[end] * path.speed);
+        path.notes.check(&RADIUS, path.extent.radius[end].mm());
+    }
+}
+
+/// The law summed along one path.
+struct Weighted {
+    roughness: Roughness,
+    series: Series,
+}
+
+impl Weighted {
+    fn common(&self, path: &PathAt<'_>) -> Option<Common> {
+        let s = self.roughness.of(path.ra, path.rq);
+        let nu0 = check_oil(Notes::MUTED, path.eta, s).ok()?;
+        Some(Common::new(path, s, nu0))
+    }
+}
+
+impl WeightedFriction for Weighted {
+    fn sum(&self, path: &PathAt<'_>) -> f64 {
+        let unit = unit_pressure(path.line_load, path.modulus);
+        let along = self.common(path);
+        along.map_or(f64::NAN, |along| {
+            self.series.at(-along.fall(unit)) * exp(along.common(unit))
+        })
+    }
+
+    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane) -> Lane {
+        let Some(along) = self.common(path) else {
+            return Lane::all(f64::NAN);
+        };
+        let (factors, at) = wide(
+            #[inline(always)]
+            || {
+                let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
+                (
+                    over(
+                        &units,
+                        #[inline(always)]
+                        |unit| exp(along.common(unit)),
+                    ),
+                    over(&units, |unit| -along.fall(unit)),
+                )
+            },
+        );
+        // Each lane looks up a piece of its own, so that nothing is won by wide instructions.
+        each(|i| self.series.at(at[i]) * factors[i])
+    }
+
+    fn note(&self, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) -> bool {
+        let Some(along) = self.common(path) else { return false };
+        let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
+        let (mut below, mut above) = (Lane::all(0.0), Lane::all(0.0));
+        for i in 0..LANES {
+            let Some(bounds) = self.series.bounds(-along.fall(units[i])) else {
+                return false;
+            };
+            [below[i], above[i]] = bounds;
+        }
+        let (least, greatest) = wide(
+            #[inline(always)]
+            || {
+                let (mut least, mut greatest) = (Lane::all(0.0), Lane::all(0.0));
+                for i in 0..LANES {
+                    let common = along.common(units[i]);
+                    least[i] = exp(common + below[i]);
+                    greatest[i] = exp(common + above[i]);
+                }
+                (least, greatest)
+            },
+        );
+        // Where friction was seen above and below already, this path adds nothing.
+        if notes.widens(&MU, &least, &greatest) {
+            return false;
+        }
+        notes.observe(&MU, &least, &greatest);
+        note_ranges(self.roughness, path, line_loads, notes);
+        true
+    }
+}
+
+/// Hertz pressure per `root_load` of a node. \[GPa m^0.5\]
+#[inline(always)]
+fn unit_pressure(line_load: f64, modulus: f64) -> f64 {
+    (line_load * modulus / (2.0 * std::f64::consts::PI)).sqrt() * 1e-9
+}
+
+/// What a node adds to the exponent.
+#[inline(always)]
+fn geometry(node: &PathNode) -> f64 {
+    B[1] * node.ln_root_load + B[2] * node.ln_slide_roll + B[5] * node.ln_rolling + B[7] * node.ln_radius
+}
+
+/// What is the same along a path under every load.
+struct Common {
+    rough: f64,
+    speed: f64,
+    ln_nu0: f64,
+}
+
+impl Common {
+    fn new(path: &PathAt<'_>, s: f64, nu0: f64) -> Self {
+        Self {
+            rough: B[0] + B[8] * s.exp(),
+            speed: B[5] * path.speed.ln(),
+            ln_nu0: nu0.ln(),
+        }
+    }
+
+    /// The part of the exponent that is the same along the path, from the unit of pressure in GPa.
+    #[inline(always)]
+    fn common(&self, unit: f64) -> f64 {
+        self.rough + B[1] * ln(unit) + self.speed + B[6] * self.ln_nu0
+    }
+
+    /// -P lg nu0 per slide-roll ratio and `root_load`.
+    #[inline(always)]
+    fn fall(&self, unit: f64) -> f64 {
+        -unit * self.ln_nu0 * LOG10_E
+    }
 }
 
 register!(ToothFriction, "xu", Xu,
@@ -160,7 +357,7 @@ mod tests {
     use crate::gear_mesh::path_integral::tests::fzg_c14;
     use gearloss_framework::mechanism::NoPart;
     use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-    use gearloss_framework::mechanism::tooth_friction::{PathExtent, PathNode};
+    use gearloss_framework::mechanism::tooth_friction::PathExtent;
 
     const LAW: Xu = Xu {
         roughness: Roughness::CompositeRms,

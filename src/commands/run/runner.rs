@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::path::PathBuf;
 
-use gearloss_framework::analysis::{Field, Given, GridResult, Piece, Points, merge, notes, pieces, solve_pieces};
+use gearloss_framework::analysis::{Field, Given, GridResult, Piece, Points, merge, notes, solve_pieces};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
@@ -207,7 +207,7 @@ impl Runner<'_> {
         if let Some(mut solved) = solved {
             solved.try_for_each(|piece| counted(piece?))?;
         } else {
-            let numbers: Vec<usize> = (0..pieces(points.field.len())).collect();
+            let numbers: Vec<usize> = (0..points.field.pieces()).collect();
             self.evaluate(built, points, &numbers, &mut counted)?;
         }
         self.seen(&built.transmission, &seen);
@@ -223,7 +223,7 @@ impl Runner<'_> {
         take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let count = points.field.len();
-        let own = count * numbers.len() / pieces(count).max(1);
+        let own = count * numbers.len() / points.field.pieces().max(1);
         let bar = self.bar(own as u64, &built.name);
         let going = |n: usize| {
             bar.inc(n as u64);

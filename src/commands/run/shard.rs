@@ -4,7 +4,6 @@ use std::fmt;
 use std::fs;
 use std::str::FromStr;
 
-use gearloss_framework::analysis::pieces;
 use gearloss_framework::language::Language;
 use gearloss_framework::study::{Analysis, Study};
 use serde::{Deserialize, Serialize};
@@ -82,7 +81,7 @@ pub struct Pieces<'a> {
 impl Pieces<'_> {
     /// How many there are.
     pub fn pieces(&self) -> usize {
-        pieces(self.plan.points.field.len())
+        self.plan.points.field.pieces()
     }
 }
 

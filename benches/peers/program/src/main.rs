@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::lanes::LANES;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_plugins as _;
@@ -34,26 +35,34 @@ fn main() -> Result<(), Box<dyn Error>> {
     let case = transmission
         .case("first", &[], &["input"])
         .map_err(|found| format!("{found:#?}"))?;
-    let mut scratch = transmission.scratch(&case);
+    let share = |i: u32| f64::from(i) / f64::from(size);
+    let torques: Vec<f64> = (1..=size).map(|i| MOST.0 * share(i)).collect();
     let mut losses = vec![0.0; (size * size) as usize];
     let (mut passes, mut calls) = (0, 0);
     let mut out = std::io::stdout().lock();
     for _ in 0..repeats {
         let begun = Instant::now();
-        (passes, calls) = (0, 0);
-        for (place, loss) in (0..size * size).zip(&mut losses) {
-            let (row, column) = (place / size + 1, place % size + 1);
+        passes = 0;
+        let mut scratch = transmission.row_scratch(&case);
+        for (speed, losses) in (1..=size).zip(losses.chunks_mut(size as usize)) {
             let point = Point {
-                speeds: &[MOST.1 * f64::from(column) / f64::from(size) * std::f64::consts::PI / 30.0],
-                torques: &[MOST.0 * f64::from(row) / f64::from(size)],
+                speeds: &[MOST.1 * share(speed) * std::f64::consts::PI / 30.0],
+                torques: &[0.0],
                 flow: PowerFlow::Real,
                 ..Point::default()
             };
-            let solution = transmission.evaluate(&case, &point, &[100.0], &mut scratch);
-            *loss = solution.loss().ok_or("a point has no loss")?;
-            passes += solution.passes();
-            calls += scratch.calls();
+            let mut row = transmission.row(&case, &point, &[100.0], &mut scratch);
+            for (torques, losses) in torques.chunks(LANES).zip(losses.chunks_mut(LANES)) {
+                let block = row.solve(torques);
+                let alone = (0..torques.len()).any(|lane| block.alone(lane));
+                if alone {
+                    return Err("a point has to be evaluated alone".into());
+                }
+                losses.copy_from_slice(&block.losses()[..torques.len()]);
+                passes += (0..torques.len()).map(|lane| block.passes(lane)).sum::<usize>();
+            }
         }
+        calls = scratch.calls();
         writeln!(out, "seconds {}", begun.elapsed().as_secs_f64())?;
     }
     let points = f64::from(size * size);

@@ -1,5 +1,6 @@
 //! Constants of the SKF model by kind and series of a bearing.
 
+use gearloss_framework::lanes::{LANES, Lane, cube_root, exp, ln, sine};
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart};
 
 /// What is missing, and what the user can write.
@@ -346,7 +347,72 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
     })
 }
 
+/// G_rr and G_sl of deep groove ball bearings under radial load: one logarithm for both powers; no load has minus infinity,
+/// whose exponential is zero.
+#[inline(always)]
+fn radial(fr: f64, rolling: f64, sliding: f64) -> (f64, f64) {
+    let ln = ln(fr);
+    (rolling * exp(0.54 * ln), sliding * exp(5.0 / 3.0 * ln))
+}
+
+/// The same under both loads.
+#[inline(always)]
+fn combined(fr: f64, fa: f64, c0: f64, (rolling, r2): (f64, f64), (sliding, s2): (f64, f64)) -> (f64, f64) {
+    let sin = sine((24.6 * exp(0.24 * ln(fa / c0))).to_radians());
+    let (fr_2, pushed) = (fr * fr, fa / sin);
+    (
+        rolling * exp(0.54 * ln(fr + r2 * pushed)),
+        sliding * cube_root(fr_2 * fr_2 * fr + s2 * (fa * fa * fa) * pushed),
+    )
+}
+
+/// From the radial to the combined form, without a step, for a share from zero to one.
+#[inline(always)]
+fn blended(share: f64, radial: (f64, f64), combined: (f64, f64)) -> (f64, f64) {
+    let weight = share * share * (3.0 - 2.0 * share);
+    (
+        radial.0 + weight * (combined.0 - radial.0),
+        radial.1 + weight * (combined.1 - radial.1),
+    )
+}
+
 impl Variables {
+    /// As [`Variables::at`] in all lanes; absent for kinds that are asked one by one.
+    #[inline(always)]
+    pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>) -> Option<(Lane, Lane)> {
+        let Self::DeepGroove {
+            rolling,
+            r2,
+            sliding,
+            s2,
+            c0,
+        } = *self
+        else {
+            return None;
+        };
+        let (mut g_rr, mut g_sl) = (Lane::all(0.0), Lane::all(0.0));
+        let pushed = fa.iter().any(|fa| fa / c0 != 0.0);
+        if !pushed || blend.is_some() || fa.iter().any(|fa| fa / c0 == 0.0) {
+            for i in 0..LANES {
+                (g_rr[i], g_sl[i]) = radial(fr[i], rolling, sliding[0]);
+            }
+        }
+        if !pushed {
+            return Some((g_rr, g_sl));
+        }
+        // No blending is blending up to an axial load below all.
+        let to = blend.unwrap_or(0.0);
+        for i in 0..LANES {
+            let radial = (g_rr[i], g_sl[i]);
+            let combined = combined(fr[i], fa[i], c0, (rolling, r2), (sliding[1], s2));
+            let limit = to * fr[i];
+            let blended = blended(fa[i] / limit, radial, combined);
+            let both = if fa[i] < limit { blended } else { combined };
+            (g_rr[i], g_sl[i]) = if fa[i] / c0 == 0.0 { radial } else { both };
+        }
+        Some((g_rr, g_sl))
+    }
+
     /// G_rr and G_sl from radial and axial load in N, speed in 1/min and viscosity in mm2/s; `blend` is the share Fa/Fr of deep
     /// groove ball bearings up to which the radial form passes into the combined one.
     pub fn at(&self, fr: f64, fa: f64, n: f64, nu: f64, blend: Option<f64>) -> (f64, f64) {
@@ -358,31 +424,13 @@ impl Variables {
                 s2,
                 c0,
             } => {
-                // One logarithm for both powers; no load has minus infinity, whose exponential is zero.
-                let radial = || {
-                    let ln = fr.ln();
-                    (rolling * (0.54 * ln).exp(), sliding[0] * (5.0 / 3.0 * ln).exp())
-                };
-                let ratio = fa / c0;
                 // Also where the quotient underflows: an angle of zero has no sine to divide by.
-                if ratio == 0.0 {
-                    return radial();
+                if fa / c0 == 0.0 {
+                    return radial(fr, rolling, sliding[0]);
                 }
-                let sin = (24.6 * ratio.powf(0.24)).to_radians().sin();
-                let combined = (
-                    rolling * (fr + r2 * fa / sin).powf(0.54),
-                    sliding[1] * (fr.powi(5) + s2 * fa.powi(4) / sin).cbrt(),
-                );
+                let combined = combined(fr, fa, c0, (rolling, r2), (sliding[1], s2));
                 match blend {
-                    Some(to) if fa < to * fr => {
-                        let s = fa / (to * fr);
-                        let weight = s * s * (3.0 - 2.0 * s);
-                        let radial = radial();
-                        (
-                            radial.0 + weight * (combined.0 - radial.0),
-                            radial.1 + weight * (combined.1 - radial.1),
-                        )
-                    }
+                    Some(to) if fa < to * fr => blended(fa / (to * fr), radial(fr, rolling, sliding[0]), combined),
                     _ => combined,
                 }
             }

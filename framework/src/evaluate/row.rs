@@ -1,0 +1,578 @@
+//! Many points that differ in one torque, in blocks side by side.
+//!
+//! Speeds, oils and all that hangs on them alone are settled once for the row. The numbers are those of
+//! [`Transmission::evaluate`] to the bit, also for points that have to be evaluated alone: see [`Block::alone`].
+
+use std::cell::Cell;
+
+use super::{Point, PowerFlow, Scratch, Solution};
+use crate::attach::State;
+use crate::flow::{Balance, FlowLanes, Status, WorkLanes};
+use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, each, over, wide};
+use crate::loads::{LoadLanes, SupportLoad};
+use crate::loss::{Extent, NoteBase, Notes};
+use crate::transmission::{Case, PartKind, Transmission};
+
+/// Space for the rows of one case. Everything is allocated here, once.
+#[derive(Debug, Clone)]
+pub struct RowScratch {
+    /// The state of the row.
+    state: Scratch,
+    /// For points that are evaluated alone.
+    alone: Scratch,
+    work: WorkLanes,
+    given: Vec<Lane>,
+    /// Torques of ports that corrections of loads may ask for.
+    ports: Vec<Lane>,
+    tangential: Vec<Lane>,
+    passed: Vec<Lane>,
+    loads: Vec<LoadLanes>,
+    /// Loads and torques of ports of one lane.
+    one: Vec<SupportLoad>,
+    one_ports: Vec<f64>,
+    components: Vec<LossLanes>,
+    meshes: Vec<LossLanes>,
+    /// Ratio of the power used in the balance to the last answer, times copies, by mesh.
+    factors: Vec<Lane>,
+    watts: Vec<Lane>,
+    sum: Lane,
+    alone_lanes: [bool; LANES],
+    outside: [Cell<bool>; LANES],
+    /// Notes that all lanes of a block share, and those of each lane.
+    common: Vec<Extent>,
+    own: Vec<Extent>,
+    totals: Vec<Extent>,
+    called: usize,
+}
+
+impl RowScratch {
+    /// What was seen of every limit and observed quantity since this was asked last, one count for each point.
+    pub fn take_totals(&mut self) -> Vec<Extent> {
+        let pairs = self.totals.iter_mut().zip(self.alone.take_totals());
+        pairs
+            .map(|(row, alone)| std::mem::replace(row, Extent::EMPTY).merge(alone))
+            .collect()
+    }
+
+    /// Calls of loss models for all points so far; a call for a block counts once for each of its points.
+    pub fn calls(&self) -> usize {
+        self.called + self.state.all_calls() + self.alone.all_calls()
+    }
+}
+
+/// Points that differ in the first given torque.
+pub struct Row<'a> {
+    transmission: &'a Transmission,
+    case: &'a Case,
+    point: Point<'a>,
+    temperatures: &'a [f64],
+    /// False where every point has to be evaluated alone.
+    together: bool,
+    s: &'a mut RowScratch,
+}
+
+/// Some solved points of a row.
+pub struct Block<'a> {
+    transmission: &'a Transmission,
+    s: &'a RowScratch,
+}
+
+impl Transmission {
+    /// Space for evaluating the rows of a case; one for each thread.
+    pub fn row_scratch(&self, case: &Case) -> RowScratch {
+        let lanes = |count: usize| vec![Lane::all(0.0); count];
+        let supports = self.supports.len();
+        RowScratch {
+            state: self.scratch(case),
+            alone: self.scratch(case),
+            work: case.flow.work_abreast(),
+            given: lanes(case.torque_ports.len() + case.ruled_torques),
+            ports: lanes(case.flow.columns()),
+            tangential: lanes(self.meshes.len()),
+            passed: lanes(self.loads.scratch_len()),
+            loads: vec![LoadLanes::NONE; supports],
+            one: vec![SupportLoad::default(); supports],
+            one_ports: vec![0.0; case.flow.columns()],
+            components: vec![LossLanes::NONE; self.components.len()],
+            meshes: vec![LossLanes::NONE; self.meshes.len()],
+            factors: lanes(self.meshes.len()),
+            watts: lanes(self.parts.len()),
+            sum: Lane::all(0.0),
+            alone_lanes: [false; LANES],
+            outside: std::array::from_fn(|_| Cell::new(false)),
+            common: vec![Extent::EMPTY; self.cells],
+            own: vec![Extent::EMPTY; LANES * self.cells],
+            totals: vec![Extent::EMPTY; self.cells],
+            called: 0,
+        }
+    }
+
+    /// Settles a row of points at the temperatures of the nodes, or at one for all. \[degC\]
+    ///
+    /// # Panics
+    /// As [`Transmission::evaluate`], and if the case gives no torque: bugs of the caller.
+    pub fn row<'a>(
+        &'a self,
+        case: &'a Case,
+        point: &Point<'a>,
+        temperatures: &'a [f64],
+        scratch: &'a mut RowScratch,
+    ) -> Row<'a> {
+        assert!(!case.torque_ports.is_empty(), "a case that gives a torque");
+        let s = &mut scratch.state;
+        let standing = self.settle(case, point, temperatures, s, false);
+        let sound = |part: &crate::transmission::PartInfo| match part.kind {
+            PartKind::Component(i) => self.components[i].loaded || s.component_losses[i].is_ok(),
+            PartKind::Drag(i) => s.drag_losses[i].is_ok(),
+            PartKind::Mesh(_) => true,
+        };
+        let together = point.flow == PowerFlow::Real && !standing && !self.uneven && self.parts.iter().all(sound);
+        Row {
+            transmission: self,
+            case,
+            point: *point,
+            temperatures,
+            together,
+            s: scratch,
+        }
+    }
+}
+
+impl Row<'_> {
+    /// Solves the points with these first torques, as many as [`LANES`] at most. \[Nm\]
+    ///
+    /// # Panics
+    /// If there are none or more: a bug of the caller.
+    pub fn solve(&mut self, torques: &[f64]) -> Block<'_> {
+        assert!((1..=LANES).contains(&torques.len()), "1 to {LANES} torques");
+        self.s.alone_lanes = [true; LANES];
+        if self.together {
+            self.solve_together(torques);
+        }
+        Block {
+            transmission: self.transmission,
+            s: self.s,
+        }
+    }
+
+    /// Evaluates one point of the row alone.
+    pub fn alone(&mut self, torque: f64) -> Solution<'_> {
+        let count = self.point.torques.len();
+        let torques = &mut self.s.state.given[..count];
+        torques[0] = torque;
+        let point = Point { torques, ..self.point };
+        self.transmission
+            .evaluate(self.case, &point, self.temperatures, &mut self.s.alone)
+    }
+
+    fn solve_together(&mut self, torques: &[f64]) {
+        let (t, case) = (self.transmission, self.case);
+        let RowScratch {
+            state: settled,
+            work,
+            given,
+            ports,
+            tangential,
+            passed,
+            loads,
+            one,
+            one_ports,
+            components,
+            meshes,
+            factors,
+            watts,
+            sum,
+            alone_lanes,
+            outside,
+            common,
+            own,
+            totals,
+            called,
+            ..
+        } = &mut *self.s;
+        given.fill(Lane::all(0.0));
+        for (lane, torque) in given.iter_mut().zip(self.point.torques) {
+            *lane = Lane::all(*torque);
+        }
+        // Lanes without a point repeat the last one; nobody reads them.
+        given[0] = each(|i| torques[i.min(torques.len() - 1)]);
+        *alone_lanes = [false; LANES];
+        let kept = Cell::from_mut(settled.kept.as_mut_slice()).as_slice_of_cells();
+        let state = State {
+            speeds: &settled.speeds,
+            oils: &settled.oils,
+            temperatures: &settled.temperatures,
+            surface: settled.surface,
+            loads: &settled.loads,
+            asked: &settled.asked,
+        };
+        let corrected = t.imported.is_some() || !t.load_factors.is_empty();
+        let braking = &settled.braking;
+        let losses = |flow: &mut FlowLanes<'_>| {
+            for ((mesh, tangential), multiplier) in t.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers) {
+                *tangential = each(|i| {
+                    if flow.done[i] {
+                        tangential[i]
+                    } else {
+                        multiplier[i] * mesh.force_per_multiplier
+                    }
+                });
+            }
+            wide(
+                #[inline(always)]
+                || t.loads.evaluate_abreast(tangential, state.speeds, passed, loads),
+            );
+            if corrected {
+                for (own, flow_ports) in ports.iter_mut().zip(flow.ports) {
+                    *own = each(|i| if flow.done[i] { own[i] } else { flow_ports[i] });
+                }
+                t.correct_lanes(case, ports, (one, one_ports), loads);
+            }
+            for (drags, idle) in flow.drags.iter_mut().zip(&settled.idle_drags) {
+                *drags = Lane::all(*idle);
+            }
+            for &i in braking {
+                let (component, speed) = (&t.components[i], settled.relative[i]);
+                let notes = Notes::MUTED.keeping(kept[i].as_array_of_cells());
+                *called += torques.len();
+                ask(component, &state, loads, one, notes, &mut components[i]);
+                wide(
+                    #[inline(always)]
+                    || brake_lanes(component.between, speed, &components[i], component.count, flow.drags),
+                );
+                leave(alone_lanes, &components[i]);
+            }
+            for (i, mesh) in t.meshes.iter().enumerate() {
+                if mesh.model.off {
+                    continue;
+                }
+                let at = t.mesh_at(i, 0.0, flow.drives[i], &state, Notes::MUTED);
+                let radius = mesh.seat.pair.working_radius[0];
+                let torques_1 = each(|lane| (tangential[i][lane] * radius).abs());
+                *called += torques.len();
+                mesh.model.losses(&at, &torques_1, &mut meshes[i]);
+                wide(
+                    #[inline(always)]
+                    || {
+                        meshes[i].leave_unsound(&Lane::all(0.0));
+                        flow.mesh_loss[i] = if at.speed == 0.0 {
+                            Lane::all(0.0)
+                        } else {
+                            let total = meshes[i].total_watts(at.speed);
+                            each(|lane| total[lane] * mesh.seat.count * mesh.loss_factor)
+                        };
+                    },
+                );
+                leave(alone_lanes, &meshes[i]);
+            }
+        };
+        case.flow.real_abreast(
+            state.speeds,
+            given,
+            &settled.idle_drags,
+            self.point.tolerance,
+            work,
+            losses,
+        );
+        for (own, flow) in alone_lanes.iter_mut().zip(&work.alone) {
+            *own |= flow;
+        }
+        // What carries load and rests brakes nothing, but it may be undefined.
+        let resting = |i: &usize| {
+            let component = &t.components[*i];
+            component.loaded && !component.off && settled.relative[*i] == 0.0
+        };
+        for i in (0..t.components.len()).filter(resting) {
+            *called += torques.len();
+            let notes = Notes::MUTED;
+            ask(&t.components[i], &state, loads, one, notes, &mut components[i]);
+            leave(alone_lanes, &components[i]);
+        }
+
+        // Notes of the last answers, once.
+        let counted: [bool; LANES] = std::array::from_fn(|i| i < torques.len() && !alone_lanes[i]);
+        let points = counted.iter().filter(|counted| **counted).count() as u32;
+        if points == 0 {
+            return;
+        }
+        for flag in &*outside {
+            flag.set(false);
+        }
+        common.copy_from_slice(&settled.cells);
+        {
+            let handed = Cell::new(false);
+            let common = Cell::from_mut(&mut common[..]).as_slice_of_cells();
+            let own = Cell::from_mut(&mut own[..]).as_slice_of_cells();
+            let totals = Cell::from_mut(&mut totals[..]).as_slice_of_cells();
+            let notes = |base: NoteBase| {
+                handed.set(false);
+                LaneNotes {
+                    common: Notes::new(common, base),
+                    own,
+                    totals,
+                    counted: &counted,
+                    outside,
+                    handed: &handed,
+                    base,
+                }
+            };
+            let gather = |base: NoteBase| {
+                if handed.get() {
+                    gather(base, own, totals, &counted, outside);
+                }
+            };
+            for (i, component) in t.components.iter().enumerate() {
+                let Some(support) = component.support.filter(|_| component.loaded && !component.off) else {
+                    continue;
+                };
+                let mut notes = notes(component.notes);
+                if settled.relative[i] != 0.0 {
+                    notes.common = notes.common.keeping(kept[i].as_array_of_cells());
+                }
+                let own_loads = &loads[support as usize];
+                if component.placed.note(&state, own_loads, notes) {
+                    gather(component.notes);
+                    continue;
+                }
+                for lane in 0..LANES {
+                    one[support as usize] = own_loads.lane(lane);
+                    let state = State { loads: one, ..state };
+                    let _ = component.placed.loss(&state, notes.lane(lane));
+                }
+                gather(component.notes);
+            }
+            for (i, mesh) in t.meshes.iter().enumerate() {
+                if mesh.model.off {
+                    continue;
+                }
+                let notes = notes(mesh.model.notes);
+                let at = t.mesh_at(i, 0.0, work.drives[i], &state, notes.all());
+                let radius = mesh.seat.pair.working_radius[0];
+                let torques_1 = each(|lane| (tangential[i][lane] * radius).abs());
+                mesh.model.note(&at, &torques_1, notes);
+                gather(mesh.model.notes);
+            }
+        }
+        for (total, common) in totals.iter_mut().zip(&*common) {
+            if common.seen > 0 {
+                *total = total.merge(common.times(points));
+                if common.outside > 0 {
+                    for flag in &*outside {
+                        flag.set(true);
+                    }
+                }
+            }
+        }
+
+        wide(
+            #[inline(always)]
+            || {
+                for (i, mesh) in t.meshes.iter().enumerate() {
+                    let count = mesh.seat.count * mesh.loss_factor;
+                    let total = meshes[i].total_watts(t.mesh_speed(i, state.speeds));
+                    let used = &work.mesh_loss[i];
+                    factors[i] = each(|lane| {
+                        let asked = total[lane] * count;
+                        count * if asked > 0.0 { used[lane] / asked } else { 1.0 }
+                    });
+                }
+                *sum = Lane::all(0.0);
+                for (part, watts) in t.parts.iter().zip(&mut *watts) {
+                    *watts = match part.kind {
+                        PartKind::Component(i) if !t.components[i].loaded || t.components[i].off => {
+                            Lane::all(t.part_watts(part, settled).unwrap_or(0.0))
+                        }
+                        PartKind::Component(i) if settled.relative[i] == 0.0 => Lane::all(0.0),
+                        PartKind::Component(i) => {
+                            let count = t.components[i].count;
+                            over(&components[i].total_watts(settled.relative[i]), |watts| watts * count)
+                        }
+                        PartKind::Mesh(i) => {
+                            let speed = t.mesh_speed(i, state.speeds);
+                            let total = meshes[i].total_watts(speed);
+                            if speed == 0.0 {
+                                Lane::all(0.0)
+                            } else {
+                                each(|lane| total[lane] * factors[i][lane])
+                            }
+                        }
+                        PartKind::Drag(_) => Lane::all(t.part_watts(part, settled).unwrap_or(0.0)),
+                    };
+                    *sum = each(|lane| sum[lane] + watts[lane]);
+                }
+            },
+        );
+    }
+}
+
+/// Asks the model of a component for its losses in all lanes.
+fn ask(
+    component: &crate::transmission::Component,
+    state: &State<'_>,
+    loads: &[LoadLanes],
+    one: &mut [SupportLoad],
+    notes: Notes<'_>,
+    losses: &mut LossLanes,
+) {
+    let Some(support) = component.support.map(usize::from) else {
+        return;
+    };
+    let own = &loads[support];
+    if !component.placed.losses(state, own, notes, losses) {
+        for lane in 0..LANES {
+            one[support] = own.lane(lane);
+            losses.put(lane, component.placed.loss(&State { loads: one, ..*state }, notes));
+        }
+    }
+    wide(
+        #[inline(always)]
+        || losses.leave_unsound(&own.untaken),
+    );
+}
+
+/// Lanes that a model left alone.
+fn leave(alone: &mut [bool; LANES], losses: &LossLanes) {
+    for (alone, left) in alone.iter_mut().zip(losses.alone()) {
+        *alone |= left;
+    }
+}
+
+/// As [`brake`] in all lanes.
+#[inline(always)]
+fn brake_lanes(between: [Option<u16>; 2], speed: f64, losses: &LossLanes, count: f64, drags: &mut [Lane]) {
+    let moment = losses.total_moment(speed);
+    let signed = over(&moment, |moment| moment * count * speed.signum());
+    if let Some(a) = between[0] {
+        let drags = &mut drags[a as usize];
+        *drags = each(|i| drags[i] - signed[i]);
+    }
+    if let Some(b) = between[1] {
+        let drags = &mut drags[b as usize];
+        *drags = each(|i| drags[i] + signed[i]);
+    }
+}
+
+/// Counts what the lanes noted one by one, and empties their cells.
+fn gather(
+    base: NoteBase,
+    own: &[Cell<Extent>],
+    totals: &[Cell<Extent>],
+    counted: &[bool; LANES],
+    outside: &[Cell<bool>; LANES],
+) {
+    let width = own.len() / LANES;
+    for (lane, counted) in counted.iter().enumerate() {
+        for cell in base.limits..base.end {
+            let seen = own[lane * width + cell].replace(Extent::EMPTY);
+            if *counted && seen.seen > 0 {
+                totals[cell].set(totals[cell].get().merge(seen.once()));
+                if seen.outside > 0 {
+                    outside[lane].set(true);
+                }
+            }
+        }
+    }
+}
+
+impl Transmission {
+    /// As [`Transmission::correct_loads`] in all lanes.
+    fn correct_lanes(
+        &self,
+        case: &Case,
+        ports: &[Lane],
+        (one, one_ports): (&mut [SupportLoad], &mut [f64]),
+        loads: &mut [LoadLanes],
+    ) {
+        for lane in 0..LANES {
+            for (one, port) in one_ports.iter_mut().zip(ports) {
+                *one = port[lane];
+            }
+            for (one, loads) in one.iter_mut().zip(&*loads) {
+                *one = loads.lane(lane);
+            }
+            self.correct_loads(case, one_ports, one);
+            for (one, loads) in one.iter().zip(&mut *loads) {
+                loads.set(lane, *one);
+            }
+        }
+    }
+}
+
+impl Block<'_> {
+    /// True where the point has to be evaluated by [`Row::alone`]; nothing else of the block counts for it.
+    pub fn alone(&self, lane: usize) -> bool {
+        self.s.alone_lanes[lane]
+    }
+
+    fn powers(&self, lane: usize) -> impl Iterator<Item = f64> + Clone + '_ {
+        let ports = self.transmission.ports.iter();
+        ports.map(move |p| self.s.work.ports[p.member][lane] * self.s.state.speeds[p.member])
+    }
+
+    /// What the transmission does.
+    pub fn status(&self, lane: usize) -> Status {
+        Status::of(self.powers(lane), self.transmission.reference_port())
+    }
+
+    /// Power in and out.
+    pub fn balance(&self, lane: usize) -> Balance {
+        Balance::of(self.powers(lane))
+    }
+
+    /// Sums of all losses. \[W\]
+    pub fn losses(&self) -> &Lane {
+        &self.s.sum
+    }
+
+    /// Power in and out, in all lanes. \[W\]
+    pub fn watts(&self) -> &[Lane] {
+        &self.s.watts
+    }
+
+    /// Power of one term of a part, all copies together. \[W\]
+    pub fn term_watts(&self, part: usize, term: usize) -> Lane {
+        let (t, s) = (self.transmission, self.s);
+        let info = &t.parts[part];
+        match info.kind {
+            PartKind::Component(i) if t.components[i].loaded && !t.components[i].off => {
+                let (speed, count) = (s.state.relative[i], t.components[i].count);
+                if speed == 0.0 {
+                    return Lane::all(0.0);
+                }
+                wide(
+                    #[inline(always)]
+                    || over(&s.components[i].watts(term, speed), |watts| watts * count),
+                )
+            }
+            PartKind::Mesh(i) => {
+                let speed = t.mesh_speed(i, &s.state.speeds);
+                if speed == 0.0 {
+                    return Lane::all(0.0);
+                }
+                wide(
+                    #[inline(always)]
+                    || {
+                        let watts = s.meshes[i].watts(term, speed);
+                        each(|lane| watts[lane] * s.factors[i][lane])
+                    },
+                )
+            }
+            _ => Lane::all(t.part_loss(info, &s.state).term_watts(term)),
+        }
+    }
+
+    /// True where a model left its stated range.
+    pub fn outside(&self, lane: usize) -> bool {
+        self.s.outside[lane].get()
+    }
+
+    /// Passes over the loss models.
+    pub fn passes(&self, lane: usize) -> usize {
+        self.s.work.passes[lane]
+    }
+
+    /// Speed of a member by number. \[rad/s\]
+    pub fn speed(&self, member: usize) -> f64 {
+        self.s.state.speeds[member]
+    }
+}

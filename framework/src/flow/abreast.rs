@@ -1,0 +1,564 @@
+//! Torque flow with losses for the points of a block, which share speeds and drivers.
+//!
+//! This is the loop of [`super::solve`] for points that give it no trouble, in the same operations. A lane in which a driver
+//! turns, or that does not settle within a few passes, is left to that loop.
+
+use super::linear::{Panels, larger};
+use super::solve::{PATIENCE, REACH, SAFETY, drive};
+use super::system::{Flow, Friction, Side};
+use super::work::{Drive, Tolerance};
+use crate::lanes::{LANES, Lane, each, over, wide};
+
+/// Passes after which a lane is left alone; before, the loop for single points changes nothing in its pace.
+const FEW: usize = PATIENCE - 2;
+
+const ZERO: Lane = Lane::all(0.0);
+
+/// What one block needs and leaves.
+#[derive(Debug, Clone)]
+pub struct WorkLanes {
+    /// Multipliers of the rows as written.
+    pub multipliers: Vec<Lane>,
+    /// Torques of ports on all columns.
+    pub ports: Vec<Lane>,
+    /// Loss of each mesh as used in the accepted solve. \[W\]
+    pub mesh_loss: Vec<Lane>,
+    /// Which gear drives, by mesh, in all lanes that are not left alone.
+    pub drives: Vec<Drive>,
+    /// Lanes that are left alone.
+    pub alone: [bool; LANES],
+    /// Lanes whose loads and losses agree; what they are asked at no longer changes.
+    pub done: [bool; LANES],
+    /// Passes over the loss models.
+    pub passes: [usize; LANES],
+    rolling: Vec<Lane>,
+    largest: Lane,
+    /// What the models answered for the meshes. \[W\]
+    asked: Vec<Lane>,
+    used: Vec<Lane>,
+    used_before: Vec<Lane>,
+    answer: Vec<Lane>,
+    answer_before: Vec<Lane>,
+    weights: Vec<Lane>,
+    /// Entries of the losses that the last two passes have moved.
+    live: Vec<usize>,
+    applied: Vec<Lane>,
+    relative: Vec<[f64; 2]>,
+    right: Vec<Lane>,
+    residual: Vec<Lane>,
+    unknown: Vec<Lane>,
+    step: Vec<Lane>,
+    active: Vec<usize>,
+    small: Vec<Lane>,
+    shares: Vec<Lane>,
+}
+
+/// Torques at one pass, and where the caller writes the losses that follow from them.
+pub struct FlowLanes<'a> {
+    /// Multipliers of the rows as written. \[Nm per coefficient\]
+    pub multipliers: &'a [Lane],
+    /// Which gear drives, by mesh.
+    pub drives: &'a [Drive],
+    /// Torques on all columns from ports. \[Nm\]
+    pub ports: &'a [Lane],
+    /// Lanes in which torques count no longer.
+    pub done: &'a [bool; LANES],
+    /// Loss of each mesh, all copies together, to be written. \[W\]
+    pub mesh_loss: &'a mut [Lane],
+    /// Torques on all columns from drags, to be written; they oppose motion. \[Nm\]
+    pub drags: &'a mut [Lane],
+}
+
+/// A matrix without its zeros: for each row its columns and entries.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SparseMatrix {
+    /// For each row the end of its entries.
+    ends: Vec<usize>,
+    entries: Vec<(usize, f64)>,
+}
+
+impl SparseMatrix {
+    fn new(panels: &Panels, size: usize) -> Self {
+        let mut matrix = Self::default();
+        for (row, column, x) in panels.entries() {
+            matrix.ends.resize(row, matrix.entries.len());
+            matrix.entries.push((column, x));
+        }
+        matrix.ends.resize(size, matrix.entries.len());
+        matrix
+    }
+
+    #[inline(always)]
+    fn product(&self, x: &[Lane], y: &mut [Lane]) {
+        let mut start = 0;
+        for (y, end) in y.iter_mut().zip(&self.ends) {
+            let mut sum = ZERO;
+            for (column, entry) in &self.entries[start..*end] {
+                let x = &x[*column];
+                sum = each(|i| sum[i] + entry * x[i]);
+            }
+            *y = sum;
+            start = *end;
+        }
+    }
+}
+
+/// A vector without its zeros: places and entries.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SparseVector(Vec<(usize, f64)>);
+
+impl SparseVector {
+    fn new(vector: &[f64]) -> Self {
+        let entries = vector.iter().copied().enumerate().filter(|(_, x)| *x != 0.0);
+        Self(entries.collect())
+    }
+
+    /// Adds the vector times a factor.
+    #[inline(always)]
+    fn add(&self, factor: &Lane, sum: &mut [Lane]) {
+        for (row, entry) in &self.0 {
+            let sum = &mut sum[*row];
+            *sum = each(|i| sum[i] + factor[i] * entry);
+        }
+    }
+}
+
+/// Whether two lanes have the same numbers.
+#[inline(always)]
+fn same(a: &Lane, b: &Lane) -> bool {
+    let mut others = 0.0;
+    for i in 0..LANES {
+        others += if a[i] == b[i] { 0.0 } else { 1.0 };
+    }
+    others == 0.0
+}
+
+/// The parts of a [`Flow`] without zeros.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SparseFlow {
+    base: SparseMatrix,
+    inverse: SparseMatrix,
+    /// Change and response of each mesh and side.
+    sides: Vec<[(SparseVector, SparseVector); 2]>,
+}
+
+impl SparseFlow {
+    pub fn new(base: &Panels, inverse: &Panels, size: usize, friction: &[Friction]) -> Self {
+        let side = |side: &Side| (SparseVector::new(&side.change), SparseVector::new(&side.response));
+        Self {
+            base: SparseMatrix::new(base, size),
+            inverse: SparseMatrix::new(inverse, size),
+            sides: friction
+                .iter()
+                .map(|f| [side(&f.sides[0]), side(&f.sides[1])])
+                .collect(),
+        }
+    }
+}
+
+impl Flow {
+    /// Space for the blocks of this flow.
+    pub fn work_abreast(&self) -> WorkLanes {
+        let (n, k) = (self.columns, self.meshes.len());
+        let lanes = |count: usize| vec![ZERO; count];
+        let size = self.size.max(n);
+        WorkLanes {
+            multipliers: lanes(self.rows),
+            ports: lanes(n),
+            mesh_loss: lanes(k),
+            drives: vec![Drive::Neither; k],
+            alone: [false; LANES],
+            done: [false; LANES],
+            passes: [0; LANES],
+            rolling: lanes(k),
+            largest: ZERO,
+            asked: lanes(k),
+            used: lanes(2 * k + n),
+            used_before: lanes(2 * k + n),
+            answer: lanes(2 * k + n),
+            answer_before: lanes(2 * k + n),
+            weights: lanes(2 * k + n),
+            live: Vec::with_capacity(2 * k + n),
+            applied: lanes(size),
+            relative: vec![[0.0; 2]; k],
+            right: lanes(size),
+            residual: lanes(size),
+            unknown: lanes(size),
+            step: lanes(size),
+            active: Vec::with_capacity(k),
+            small: lanes(k * k),
+            shares: lanes(k),
+        }
+    }
+
+    /// As [`Flow::real`] for the points of a block: `torques` are those of the given ports in their order, in all lanes.
+    pub fn real_abreast(
+        &self,
+        speeds: &[f64],
+        torques: &[Lane],
+        steady: &[f64],
+        tolerance: Tolerance,
+        work: &mut WorkLanes,
+        mut losses: impl FnMut(&mut FlowLanes<'_>),
+    ) {
+        wide(
+            #[inline(always)]
+            || self.begin_abreast(speeds, torques, steady, work),
+        );
+        for pass in 1..=FEW.min(tolerance.passes) {
+            work.asked.fill(ZERO);
+            let drags = 2 * self.meshes.len();
+            work.answer[drags..].fill(ZERO);
+            losses(&mut FlowLanes {
+                multipliers: &work.multipliers,
+                drives: &work.drives,
+                ports: &work.ports,
+                done: &work.done,
+                mesh_loss: &mut work.asked,
+                drags: &mut work.answer[drags..],
+            });
+            wide(
+                #[inline(always)]
+                || self.pass_abreast(speeds, tolerance, work, pass),
+            );
+            if (0..LANES).all(|i| work.done[i] || work.alone[i]) {
+                break;
+            }
+        }
+        for i in 0..LANES {
+            work.alone[i] |= !work.done[i];
+        }
+    }
+
+    #[inline(always)]
+    fn begin_abreast(&self, speeds: &[f64], torques: &[Lane], steady: &[f64], work: &mut WorkLanes) {
+        let k = self.meshes.len();
+        work.alone = [false; LANES];
+        work.done = [false; LANES];
+        work.used.fill(ZERO);
+        // What an earlier block left there may be no number.
+        work.used_before.fill(ZERO);
+        work.answer_before.fill(ZERO);
+        for (e, steady) in (2 * k..).zip(steady) {
+            for losses in [&mut work.used, &mut work.used_before, &mut work.answer_before] {
+                losses[e] = Lane::all(*steady);
+            }
+        }
+        work.ports.fill(ZERO);
+        for (port, torque) in self.given.iter().zip(torques) {
+            work.ports[*port] = each(|i| work.ports[*port][i] + torque[i]);
+        }
+        work.applied.fill(ZERO);
+        work.applied[..self.columns].copy_from_slice(&work.ports);
+        self.relative(speeds, &mut work.relative);
+        work.drives.fill(Drive::Neither);
+        self.solve_abreast(speeds, work, &[false; LANES]);
+        let first = (0..LANES).find(|i| !work.alone[*i]);
+        let Some(first) = first else { return };
+        for mesh in 0..k {
+            let drives = |i: usize| drive(work.rolling[mesh][i], work.largest[i]);
+            work.drives[mesh] = drives(first);
+            for i in 0..LANES {
+                work.alone[i] |= drives(i) != work.drives[mesh];
+            }
+            if work.drives[mesh] == Drive::Neither {
+                work.rolling[mesh] = ZERO;
+            }
+        }
+    }
+
+    /// What follows the answers of the models in one pass.
+    #[inline(always)]
+    fn pass_abreast(&self, speeds: &[f64], tolerance: Tolerance, work: &mut WorkLanes, pass: usize) {
+        let k = self.meshes.len();
+        for mesh in 0..k {
+            let (loss, rolling) = (&work.asked[mesh], &work.rolling[mesh]);
+            let proportional = |i: usize| loss[i] > 0.0 && loss[i] < 0.5 * rolling[i].abs();
+            work.answer[mesh] = each(|i| {
+                if proportional(i) {
+                    loss[i] / rolling[i].abs()
+                } else {
+                    0.0
+                }
+            });
+            work.answer[k + mesh] = each(|i| if proportional(i) { 0.0 } else { loss[i].max(0.0) });
+        }
+        let mut total = ZERO;
+        for answer in work.asked.iter().chain(&work.answer[2 * k..]) {
+            total = each(|i| total[i] + answer[i].abs());
+        }
+        for i in 0..LANES {
+            work.alone[i] |= !total[i].is_finite();
+        }
+        for (weight, rolling) in work.weights.iter_mut().zip(&work.rolling) {
+            *weight = over(rolling, f64::abs);
+        }
+        work.weights[k..2 * k].fill(Lane::all(1.0));
+        for (weight, speed) in work.weights[2 * k..].iter_mut().zip(speeds) {
+            *weight = Lane::all(speed.abs());
+        }
+        work.live.clear();
+        for e in 0..work.used.len() {
+            let (used, answer) = (&work.used[e], &work.answer[e]);
+            let (used_before, answer_before) = (&work.used_before[e], &work.answer_before[e]);
+            if !(same(used, answer) && same(used, used_before) && same(answer, answer_before)) {
+                work.live.push(e);
+            }
+        }
+        let mut mismatch = ZERO;
+        for &e in &work.live {
+            let own = work.mismatch(e);
+            mismatch = each(|i| larger(mismatch[i], own[i].abs()));
+        }
+        let known = pass > 1;
+        let left = if known { work.remaining() } else { mismatch };
+        let last: [bool; LANES] =
+            std::array::from_fn(|i| work.done[i] || known && left[i] <= SAFETY * tolerance.power * work.largest[i]);
+        let back = if known { work.secant() } else { ZERO };
+        let back = each(|i| if last[i] { 0.0 } else { back[i] });
+        work.advance(&back, 2 * k);
+        self.solve_abreast(speeds, work, &last);
+        for mesh in 0..k {
+            let (rolling, pattern) = (&work.rolling[mesh], work.drives[mesh]);
+            for i in 0..LANES {
+                let now = drive(rolling[i], work.largest[i]);
+                work.alone[i] |= now != Drive::Neither && now != pattern;
+            }
+        }
+        for i in 0..LANES {
+            if last[i] && !work.done[i] {
+                work.done[i] = true;
+                work.passes[i] = pass;
+            }
+        }
+    }
+
+    /// As [`Flow::solve`]; `kept` lanes are refined.
+    #[inline(always)]
+    fn solve_abreast(&self, speeds: &[f64], work: &mut WorkLanes, kept: &[bool; LANES]) {
+        let k = self.meshes.len();
+        for (right, applied) in work.right.iter_mut().zip(&work.applied) {
+            *right = over(applied, |x| -x);
+        }
+        for (right, drag) in work.right.iter_mut().zip(&work.used[2 * k..]) {
+            *right = each(|i| right[i] - drag[i]);
+        }
+        for (mesh, row) in self.meshes.iter().enumerate() {
+            let side = usize::from(work.drives[mesh] == Drive::Second);
+            let (loss, relative) = (&work.used[k + mesh], work.relative[mesh][side]);
+            if relative == 0.0 || same(loss, &ZERO) {
+                continue;
+            }
+            let torque = over(loss, |loss| loss / relative);
+            if let Some(driven) = [row.second, row.first][side] {
+                work.right[driven] = each(|i| work.right[driven][i] + torque[i]);
+            }
+            if let Some(carrier) = row.carrier {
+                work.right[carrier] = each(|i| work.right[carrier][i] - torque[i]);
+            }
+        }
+        self.friction_abreast(work);
+        self.step_abreast(work);
+        work.unknown.copy_from_slice(&work.step);
+        if kept.contains(&true) {
+            self.sparse.base.product(&work.unknown, &mut work.residual);
+            for (right, residual) in work.right.iter_mut().zip(&work.residual) {
+                *right = each(|i| right[i] - residual[i]);
+            }
+            for &mesh in &work.active {
+                let (row, side) = (self.friction[mesh].row, usize::from(work.drives[mesh] == Drive::Second));
+                let (share, torque) = (&work.used[mesh], &work.unknown[row]);
+                let lost = each(|i| -(share[i] * torque[i]));
+                self.sparse.sides[mesh][side].0.add(&lost, &mut work.right);
+            }
+            self.step_abreast(work);
+            for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
+                *unknown = each(|i| if kept[i] { unknown[i] + step[i] } else { unknown[i] });
+            }
+        }
+        let mut total = ZERO;
+        for unknown in &work.unknown {
+            total = each(|i| total[i] + unknown[i].abs());
+        }
+        for i in 0..LANES {
+            work.alone[i] |= !total[i].is_finite();
+        }
+        for ((multiplier, x), scale) in work.multipliers.iter_mut().zip(&work.unknown).zip(&self.scale) {
+            *multiplier = over(x, |x| x * scale);
+        }
+        for (port, torque) in self.unknown.iter().zip(&work.unknown[self.rows..]) {
+            work.ports[*port] = *torque;
+        }
+        let mut largest = ZERO;
+        for (mesh, row) in self.meshes.iter().enumerate() {
+            let relative = work.relative[mesh];
+            let rolling = over(&work.multipliers[row.row], |multiplier| {
+                -multiplier * row.z1 * relative[1]
+            });
+            largest = each(|i| larger(largest[i], rolling[i].abs()));
+            let moves = relative[usize::from(work.drives[mesh] == Drive::Second)] != 0.0;
+            let (share, constant) = (&work.used[mesh], &work.used[k + mesh]);
+            work.mesh_loss[mesh] = each(|i| share[i] * rolling[i].abs() + if moves { constant[i] } else { 0.0 });
+            work.rolling[mesh] = rolling;
+        }
+        for (speed, torque) in speeds.iter().zip(&work.ports) {
+            largest = each(|i| larger(largest[i], (speed * torque[i]).abs()));
+        }
+        work.largest = largest;
+    }
+
+    /// Factors the small system of the meshes with friction. It is close to identity, so that no rows change places.
+    #[inline(always)]
+    fn friction_abreast(&self, work: &mut WorkLanes) {
+        work.active.clear();
+        for mesh in 0..self.meshes.len() {
+            if !same(&work.used[mesh], &ZERO) {
+                work.active.push(mesh);
+            }
+        }
+        let n = work.active.len();
+        for (j, &mesh) in work.active.iter().enumerate() {
+            let side = usize::from(work.drives[mesh] == Drive::Second);
+            let coupling = &self.friction[mesh].sides[side].coupling;
+            let share = &work.used[mesh];
+            for (i, &other) in work.active.iter().enumerate() {
+                let one = if i == j { 1.0 } else { 0.0 };
+                work.small[j * n + i] = over(share, |share| coupling[other] * share + one);
+            }
+        }
+        for column in 0..n {
+            let pivot = work.small[column * n + column];
+            for row in column + 1..n {
+                let other = &work.small[column * n + row];
+                for i in 0..LANES {
+                    work.alone[i] |= other[i].abs() > pivot[i].abs();
+                }
+            }
+            for i in 0..LANES {
+                work.alone[i] |= pivot[i].abs() < 1e-13;
+            }
+            let inverse = over(&pivot, |pivot| 1.0 / pivot);
+            work.small[column * n + column] = inverse;
+            for row in column + 1..n {
+                let own = &mut work.small[column * n + row];
+                *own = each(|i| own[i] * inverse[i]);
+            }
+            for later in column + 1..n {
+                let upper = work.small[later * n + column];
+                for row in column + 1..n {
+                    let lower = work.small[column * n + row];
+                    let entry = &mut work.small[later * n + row];
+                    *entry = each(|i| entry[i] - lower[i] * upper[i]);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn step_abreast(&self, work: &mut WorkLanes) {
+        self.sparse.inverse.product(&work.right, &mut work.step);
+        let n = work.active.len();
+        for (share, &mesh) in work.shares.iter_mut().zip(&work.active) {
+            *share = work.step[self.friction[mesh].row];
+        }
+        let (factors, x) = (&work.small, &mut work.shares);
+        for column in 0..n {
+            let own = x[column];
+            for row in column + 1..n {
+                let factor = &factors[column * n + row];
+                x[row] = each(|i| x[row][i] - factor[i] * own[i]);
+            }
+        }
+        for column in (0..n).rev() {
+            let inverse = &factors[column * n + column];
+            x[column] = each(|i| x[column][i] * inverse[i]);
+            let own = x[column];
+            for row in 0..column {
+                let factor = &factors[column * n + row];
+                x[row] = each(|i| x[row][i] - factor[i] * own[i]);
+            }
+        }
+        for (j, &mesh) in work.active.iter().enumerate() {
+            let side = usize::from(work.drives[mesh] == Drive::Second);
+            let (share, used) = (&work.shares[j], &work.used[mesh]);
+            let lost = each(|i| -(share[i] * used[i]));
+            self.sparse.sides[mesh][side].1.add(&lost, &mut work.step);
+        }
+    }
+}
+
+impl WorkLanes {
+    #[inline(always)]
+    fn mismatch(&self, e: usize) -> Lane {
+        let (answer, used, weight) = (&self.answer[e], &self.used[e], &self.weights[e]);
+        each(|i| (answer[i] - used[i]) * weight[i])
+    }
+
+    /// As `remaining` of the loop for single points.
+    #[inline(always)]
+    fn remaining(&self) -> Lane {
+        let (mut moved, mut followed) = (ZERO, ZERO);
+        for &e in &self.live {
+            let (used, before, weight) = (&self.used[e], &self.used_before[e], &self.weights[e]);
+            moved = each(|i| larger(moved[i], ((used[i] - before[i]) * weight[i]).abs()));
+            let (answer, before) = (&self.answer[e], &self.answer_before[e]);
+            followed = each(|i| larger(followed[i], ((answer[i] - before[i]) * weight[i]).abs()));
+        }
+        let common = each(|i| if moved[i] > 0.0 { followed[i] / moved[i] } else { 1.0 });
+        let mut most = ZERO;
+        for &e in &self.live {
+            let mismatch = self.mismatch(e);
+            let (used, used_before) = (&self.used[e], &self.used_before[e]);
+            let (answer, answer_before) = (&self.answer[e], &self.answer_before[e]);
+            most = each(|i| {
+                let mismatch = mismatch[i].abs();
+                let (moved, followed) = ((used[i] - used_before[i]).abs(), (answer[i] - answer_before[i]).abs());
+                let own = if followed < moved { followed / moved } else { 1.0 };
+                let falls = larger(common[i], own);
+                let left = mismatch * falls / larger(1e-3, 1.0 - falls);
+                if mismatch == 0.0 {
+                    most[i]
+                } else {
+                    larger(most[i], left)
+                }
+            });
+        }
+        most
+    }
+
+    /// As `secant` of the loop for single points.
+    #[inline(always)]
+    fn secant(&self) -> Lane {
+        let (mut product, mut square) = (ZERO, ZERO);
+        for &e in &self.live {
+            let now = self.mismatch(e);
+            let (answer, used, weight) = (&self.answer_before[e], &self.used_before[e], &self.weights[e]);
+            let before = each(|i| (answer[i] - used[i]) * weight[i]);
+            product = each(|i| product[i] + now[i] * (now[i] - before[i]));
+            square = each(|i| square[i] + (now[i] - before[i]) * (now[i] - before[i]));
+        }
+        each(|i| {
+            let back = product[i] / square[i];
+            let back = if back < REACH.0 { REACH.0 } else { back };
+            let back = if back > REACH.1 { REACH.1 } else { back };
+            if square[i] > 0.0 { back } else { 0.0 }
+        })
+    }
+
+    /// The losses of the next solve; those of lanes that are done stay.
+    #[inline(always)]
+    fn advance(&mut self, back: &Lane, magnitudes: usize) {
+        for &e in &self.live {
+            let (answer, answer_before, used) = (&self.answer[e], &self.answer_before[e], &self.used[e]);
+            let next = each(|i| used[i] + (answer[i] - back[i] * (answer[i] - answer_before[i]) - used[i]));
+            let next = if e < magnitudes {
+                over(&next, |x| x.max(0.0))
+            } else {
+                next
+            };
+            self.used_before[e] = *used;
+            self.used[e] = each(|i| if self.done[i] { used[i] } else { next[i] });
+            self.answer_before[e] = self.answer[e];
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Exponential, logarithm and what follows from them, without tables, branches or calls.
+//!
+//! The ways are the usual ones: e^x = 2^k e^r with whole k and |r| at most ln 2 / 2, and the series of e^r; ln x = k ln 2 + ln m
+//! with m between the roots of one half and of two, and the series of the inverse hyperbolic tangent. Where the standard library
+//! answers one number by a call, the compiler computes several of these in one instruction.
+
+use std::f64::consts::LOG2_E;
+
+/// ln 2 in two parts, the first so short that its products with whole numbers are exact.
+const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
+/// Added to a number and taken away again it rounds to a whole one, which is then in the lowest bits of the sum.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+/// The range in which 2^k is a normal number.
+const RANGE: (f64, f64) = (-708.0, 709.0);
+/// 1/n! up to n = 13; the next term is below 1e-17.
+const SERIES: [f64; 14] = [
+    1.0,
+    1.0,
+    0.5,
+    1.0 / 6.0,
+    1.0 / 24.0,
+    1.0 / 120.0,
+    1.0 / 720.0,
+    1.0 / 5_040.0,
+    1.0 / 40_320.0,
+    1.0 / 362_880.0,
+    1.0 / 3_628_800.0,
+    1.0 / 39_916_800.0,
+    1.0 / 479_001_600.0,
+    1.0 / 6_227_020_800.0,
+];
+/// Bits of the root of one half.
+const ROOT_HALF: u64 = 0x3FE6_A09E_667F_3BCD;
+/// 2^54, which makes the smallest numbers normal.
+const LIFT: f64 = 18_014_398_509_481_984.0;
+
+/// The exponential, to about 1e-15 of it; zero below 1e-307, infinity above 1e308.
+#[inline(always)]
+pub fn exp(x: f64) -> f64 {
+    let shifted = x * LOG2_E + ROUNDER;
+    let k = shifted - ROUNDER;
+    let r = x - k * LN_2[0] - k * LN_2[1];
+    // Summed in pairs, pairs of pairs and so on, which do not wait for each other.
+    let r_2 = r * r;
+    let r_4 = r_2 * r_2;
+    let two = |n: usize| SERIES[n] + SERIES[n + 1] * r;
+    let four = |n: usize| two(n) + two(n + 2) * r_2;
+    let series = four(0) + four(4) * r_4 + (four(8) + two(12) * r_4) * (r_4 * r_4);
+    // 2^k: the whole number in the lowest bits goes to the place of the exponent.
+    let power = f64::from_bits(shifted.to_bits().wrapping_add(1023) << 52);
+    let value = series * power;
+    let value = if x < RANGE.0 { 0.0 } else { value };
+    if x > RANGE.1 { f64::INFINITY } else { value }
+}
+
+/// The natural logarithm, to about 5e-16 of it; minus infinity at zero.
+#[inline(always)]
+pub fn ln(x: f64) -> f64 {
+    let tiny = x < f64::MIN_POSITIVE;
+    let y = if tiny { x * LIFT } else { x };
+    let from = if tiny { -1078.0 } else { -1024.0 };
+    // The whole number k, with 1024 added, and the rest m = y 2^-k.
+    let whole = y.to_bits().wrapping_sub(ROOT_HALF).wrapping_add(1024 << 52) >> 52;
+    let k = f64::from_bits(whole.wrapping_add(ROUNDER.to_bits())) - ROUNDER + from;
+    let m = f64::from_bits(y.to_bits().wrapping_sub(whole.wrapping_sub(1024) << 52));
+    let s = (m - 1.0) / (m + 1.0);
+    let z = s * s;
+    let z_2 = z * z;
+    let two = |n: f64| 1.0 / n + z * (1.0 / (n + 2.0));
+    let four = |n: f64| two(n) + z_2 * two(n + 4.0);
+    // |s| is at most 0.172, so that the terms left out are below 1e-18.
+    let series = four(3.0) + z_2 * z_2 * (four(11.0) + z_2 * z_2 * two(19.0));
+    let double = s + s;
+    let value = k * LN_2[0] + (double + (double * z * series + k * LN_2[1]));
+    let value = if x == 0.0 { f64::NEG_INFINITY } else { value };
+    let value = if x < 0.0 { f64::NAN } else { value };
+    if x < f64::INFINITY { value } else { x }
+}
+
+/// The cube root of a number that is not negative, to about 1e-14 of it where it is of a size that occurs: the error grows with
+/// the logarithm.
+#[inline(always)]
+pub fn cube_root(x: f64) -> f64 {
+    exp(ln(x) * (1.0 / 3.0))
+}
+
+/// The sine of an angle of at most one right angle to either side, to about 3e-16.
+#[inline(always)]
+pub fn sine(x: f64) -> f64 {
+    // (-1)^n/(2n + 1)! for n = 9 down to 1.
+    const TERMS: [f64; 9] = [
+        -1.0 / 121_645_100_408_832_000.0,
+        1.0 / 355_687_428_096_000.0,
+        -1.0 / 1_307_674_368_000.0,
+        1.0 / 6_227_020_800.0,
+        -1.0 / 39_916_800.0,
+        1.0 / 362_880.0,
+        -1.0 / 5_040.0,
+        1.0 / 120.0,
+        -1.0 / 6.0,
+    ];
+    let square = x * x;
+    let mut series = TERMS[0];
+    let mut n = 1;
+    while n < TERMS.len() {
+        series = series * square + TERMS[n];
+        n += 1;
+    }
+    x + x * (square * series)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::{LANES, each, wide};
+
+    #[test]
+    fn the_exponential_agrees_with_the_standard_library() {
+        for i in -70_700..=70_800 {
+            let x = f64::from(i) * 0.010_007;
+            assert!(
+                (exp(x) / x.exp() - 1.0).abs() < 1e-15,
+                "{x}: {} against {}",
+                exp(x),
+                x.exp()
+            );
+        }
+        assert_eq!(
+            [0.0, -0.0, f64::NEG_INFINITY, -1e5, 1e5, f64::INFINITY].map(exp),
+            [1.0, 1.0, 0.0, 0.0, f64::INFINITY, f64::INFINITY]
+        );
+        assert!(exp(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn the_logarithm_agrees_with_the_standard_library() {
+        for i in -10_740..=10_230 {
+            let x = 2.0_f64.powf(f64::from(i) * 0.100_07);
+            let (own, std) = (ln(x), x.ln());
+            assert!((own - std).abs() <= 5e-16 * std.abs(), "{x:e}: {own} against {std}");
+        }
+        for i in 1..100_000 {
+            let x = 0.5 + f64::from(i) * 1.5e-5;
+            let (own, std) = (ln(x), x.ln());
+            assert!((own - std).abs() <= 5e-16 * std.abs(), "{x}: {own} against {std}");
+        }
+        assert_eq!(
+            [1.0, 0.0, -0.0, f64::INFINITY].map(ln),
+            [0.0, f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY]
+        );
+        assert!(ln(-1.0).is_nan() && ln(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn the_cube_root_and_the_sine_agree_with_the_standard_library() {
+        for i in -900..=900 {
+            let x = 10.0_f64.powf(f64::from(i) / 3.1);
+            assert!(
+                (cube_root(x) / x.cbrt() - 1.0).abs() < 1e-15 + 3e-16 * x.ln().abs(),
+                "{x:e}"
+            );
+            let angle = f64::from(i) * 1.745e-3;
+            assert!((sine(angle) - angle.sin()).abs() <= 3e-16, "{angle}");
+        }
+        assert_eq!((cube_root(0.0), cube_root(f64::INFINITY)), (0.0, f64::INFINITY));
+    }
+
+    #[test]
+    fn wide_instructions_have_the_bits_of_single_numbers() {
+        let x = each(|i| 0.37 + 11.3 * i as f64);
+        let together = wide(
+            #[inline(always)]
+            || [x.map(exp), x.map(ln), x.map(cube_root), x.map(|x| sine(x * 0.007))],
+        );
+        for i in 0..LANES {
+            let alone = [exp(x[i]), ln(x[i]), cube_root(x[i]), sine(x[i] * 0.007)];
+            assert_eq!(together.map(|lane| lane[i].to_bits()), alone.map(f64::to_bits));
+        }
+    }
+}

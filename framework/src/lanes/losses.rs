@@ -1,0 +1,185 @@
+//! The losses of one part in all lanes.
+
+use super::{LANES, Lane, each, over};
+use crate::loss::{Loss, MOST_TERMS, Measure, Term, Undefined};
+
+/// The losses of one part in all lanes: what [`Loss`] is for a point.
+#[derive(Debug, Clone)]
+pub struct LossLanes {
+    measure: Measure,
+    /// False while no answer has said the measure.
+    measured: bool,
+    values: [Lane; MOST_TERMS],
+    terms: usize,
+    alone: [bool; LANES],
+}
+
+impl LossLanes {
+    /// No loss, in any lane.
+    pub const NONE: Self = Self {
+        measure: Measure::Power,
+        measured: false,
+        values: [Lane::all(0.0); MOST_TERMS],
+        terms: 0,
+        alone: [false; LANES],
+    };
+
+    /// Begins an answer as [`Loss::MOMENTS`] or [`Loss::POWERS`] do; every term is zero.
+    #[inline]
+    pub fn begin(&mut self, like: &Loss) {
+        self.measure = like.measure();
+        self.measured = true;
+        self.values[..self.terms].fill(Lane::all(0.0));
+        self.terms = 0;
+        self.alone = [false; LANES];
+    }
+
+    /// Adds to a term: N m for moments, W for powers.
+    #[inline(always)]
+    pub fn add(&mut self, term: &Term, value: &Lane) {
+        self.terms = self.terms.max(term.index + 1);
+        for (sum, value) in self.values[term.index].iter_mut().zip(value.iter()) {
+            *sum += value;
+        }
+    }
+
+    /// Takes over the answer for one lane, the first lane first. What is undefined, or in another measure than that of the lanes
+    /// before, is left to an evaluation of that point alone, which says why.
+    pub fn put(&mut self, lane: usize, answer: Result<Loss, Undefined>) {
+        if lane == 0 {
+            self.begin(&Loss::POWERS);
+            self.measured = false;
+        }
+        let Ok(loss) = answer else {
+            self.leave(lane);
+            return;
+        };
+        if !self.measured {
+            (self.measure, self.measured) = (loss.measure(), true);
+        }
+        self.alone[lane] |= loss.measure() != self.measure;
+        for term in 0..MOST_TERMS {
+            let value = loss.value(term);
+            if value != 0.0 {
+                self.terms = self.terms.max(term + 1);
+            }
+            self.values[term][lane] = value;
+        }
+    }
+
+    /// Leaves a lane to an evaluation of its point alone.
+    pub fn leave(&mut self, lane: usize) {
+        self.alone[lane] = true;
+    }
+
+    /// Lanes that are left to an evaluation of their point alone.
+    pub(crate) fn alone(&self) -> &[bool; LANES] {
+        &self.alone
+    }
+
+    /// Powers of one term at a relative speed in rad/s. \[W\]
+    #[inline(always)]
+    pub fn watts(&self, term: usize, speed: f64) -> Lane {
+        let factor = match self.measure {
+            Measure::Moment => speed.abs(),
+            Measure::Power => 1.0,
+        };
+        over(&self.values[term], |value| value * factor)
+    }
+
+    /// Powers of all terms at a relative speed in rad/s. \[W\]
+    #[inline(always)]
+    pub(crate) fn total_watts(&self, speed: f64) -> Lane {
+        let mut total = Lane::all(0.0);
+        for term in 0..self.terms {
+            let watts = self.watts(term, speed);
+            total = each(|i| total[i] + watts[i]);
+        }
+        total
+    }
+
+    /// Moments of all terms about the relative speed in rad/s, which is not zero. \[Nm\]
+    #[inline(always)]
+    pub(crate) fn total_moment(&self, speed: f64) -> Lane {
+        let sum = self.sum();
+        match self.measure {
+            Measure::Moment => sum,
+            Measure::Power => over(&sum, |sum| sum / speed.abs()),
+        }
+    }
+
+    #[inline(always)]
+    fn sum(&self) -> Lane {
+        let mut total = Lane::all(0.0);
+        for values in &self.values[..self.terms] {
+            total = each(|i| total[i] + values[i]);
+        }
+        total
+    }
+
+    /// Leaves the lanes whose answer counts for nothing: negative, no number, or beside a thrust that nothing takes.
+    #[inline(always)]
+    pub(crate) fn leave_unsound(&mut self, untaken: &Lane) {
+        let sum = self.sum();
+        let mut least = Lane::all(0.0_f64);
+        for values in &self.values[..self.terms] {
+            // What is no number passes by here and stands in the sum.
+            least = each(|i| if values[i] < least[i] { values[i] } else { least[i] });
+        }
+        for i in 0..LANES {
+            let sound = least[i] >= 0.0 && sum[i] < f64::INFINITY && (untaken[i] == 0.0 || sum[i] <= 0.0);
+            self.alone[i] |= !sound;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FIRST: Term = Term::load(0, "first");
+    const SECOND: Term = Term::no_load(1, "second");
+
+    #[test]
+    fn lanes_have_the_bits_of_single_losses() {
+        let speed = -7.3;
+        let loss = |i: usize| {
+            Loss::MOMENTS
+                .with(&FIRST, 0.1 * i as f64)
+                .with(&SECOND, 0.3 / (1.0 + i as f64))
+        };
+        let mut lanes = LossLanes::NONE;
+        for i in 0..LANES {
+            lanes.put(i, Ok(loss(i)));
+        }
+        for i in 0..LANES {
+            assert_eq!(lanes.total_watts(speed)[i], loss(i).total_watts(speed));
+            assert_eq!(lanes.total_moment(speed)[i], loss(i).total_moment(speed));
+            assert_eq!(lanes.watts(1, speed)[i], loss(i).watts(1, speed));
+        }
+    }
+
+    #[test]
+    fn what_is_no_sound_number_is_left_alone() {
+        let mut lanes = LossLanes::NONE;
+        for i in 0..LANES {
+            lanes.put(i, Ok(Loss::POWERS.with(&FIRST, 1.0)));
+        }
+        let undefined = Undefined {
+            what: "nothing",
+            value: 0.0,
+        };
+        lanes.put(1, Ok(Loss::POWERS.with(&FIRST, -1.0)));
+        lanes.put(2, Ok(Loss::POWERS.with(&FIRST, f64::NAN)));
+        lanes.put(3, Ok(Loss::POWERS.with(&FIRST, f64::INFINITY)));
+        lanes.put(4, Ok(Loss::MOMENTS.with(&FIRST, 1.0)));
+        lanes.put(5, Err(undefined));
+        let mut untaken = Lane::all(0.0);
+        untaken[6] = 3.0;
+        lanes.leave_unsound(&untaken);
+        let left: Vec<usize> = (0..LANES).filter(|i| lanes.alone()[*i]).collect();
+        assert_eq!(left, [1, 2, 3, 4, 5, 6]);
+        lanes.begin(&Loss::POWERS);
+        assert_eq!(lanes.total_watts(1.0), Lane::all(0.0));
+    }
+}

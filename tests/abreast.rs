@@ -1,0 +1,154 @@
+//! Points side by side have the bits of points alone: losses, terms, torques, notes, whatever the gearbox and its models.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{RPM, file, language};
+use gearloss_framework::evaluate::Point;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::lanes::LANES;
+use gearloss_framework::language::Language;
+use gearloss_framework::loss::Extent;
+use gearloss_framework::resolve::Choice;
+use gearloss_framework::transmission::Transmission;
+
+/// How many points were solved side by side, and how many had to be evaluated alone.
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
+struct Count {
+    together: usize,
+    alone: usize,
+}
+
+fn bits(numbers: impl IntoIterator<Item = f64>) -> Vec<u64> {
+    // Zero has two signs; a sum that starts in another place may have the other one.
+    numbers.into_iter().map(|x| (x + 0.0).to_bits()).collect()
+}
+
+/// Compares rows of torques at some speeds and temperatures in every gear state that takes one speed and one torque.
+fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f64], count: &mut Count) {
+    for state in t.states() {
+        let needed = t.torques_needed(t.state(&state.name).unwrap());
+        let names: Vec<&str> = t.ports().iter().map(|p| p.name.as_str()).take(needed).collect();
+        let Ok(case) = t.case(&state.name, &[], &names) else {
+            continue;
+        };
+        if case.torque_ports.is_empty() {
+            continue;
+        }
+        let mut scratch = t.scratch(&case);
+        let mut rows = t.row_scratch(&case);
+        for speed in speeds {
+            for temperature in temperatures {
+                let own_speeds = vec![*speed; case.speed_ports.len()];
+                let mut own_torques = vec![0.0; case.torque_ports.len()];
+                let start = own_torques.clone();
+                let point = Point {
+                    speeds: &own_speeds,
+                    torques: &start,
+                    ..Point::default()
+                };
+                let temperature = [*temperature];
+                // Those of one sense first, then a few of both and none.
+                let blocks = torques.chunk_by(|a, b| a * b > 0.0).flat_map(|own| own.chunks(LANES));
+                for some in blocks.chain([&torques[12..25]]) {
+                    let mut row = t.row(&case, &point, &temperature, &mut rows);
+                    let block = row.solve(some);
+                    let mut alone = Vec::new();
+                    for (lane, torque) in some.iter().enumerate() {
+                        own_torques[0] = *torque;
+                        let point = Point {
+                            torques: &own_torques,
+                            ..point
+                        };
+                        let solution = t.evaluate(&case, &point, &temperature, &mut scratch);
+                        if block.alone(lane) {
+                            alone.push((*torque, solution.loss()));
+                            count.alone += usize::from(*speed != 0.0);
+                            continue;
+                        }
+                        count.together += 1;
+                        let at = format!("{} {} {speed} {torque}", t.title(), state.name);
+                        assert_eq!(block.status(lane), solution.status(), "{at}");
+                        assert_eq!(block.passes(lane), solution.passes(), "{at}");
+                        assert_eq!(
+                            bits(block.watts().iter().map(|w| w[lane])),
+                            bits(solution.watts().iter().copied()),
+                            "{at}"
+                        );
+                        assert_eq!(bits([block.losses()[lane]]), bits(solution.loss()), "{at}");
+                        let balance = block.balance(lane);
+                        assert_eq!(
+                            bits([balance.input, balance.output]),
+                            bits([solution.input_power().unwrap(), solution.output_power().unwrap()]),
+                            "{at}"
+                        );
+                        for (number, (part, loss)) in solution.parts().enumerate() {
+                            for term in 0..3 {
+                                assert_eq!(
+                                    bits([block.term_watts(number, term)[lane]]),
+                                    bits([loss.term_watts(term)]),
+                                    "{at} {} {term}",
+                                    part.path
+                                );
+                            }
+                        }
+                        let outside = solution.extents().iter().any(|e| e.outside > 0);
+                        assert_eq!(block.outside(lane), outside, "{at}");
+                    }
+                    for (torque, loss) in alone {
+                        assert_eq!(row.alone(torque).loss(), loss);
+                    }
+                }
+            }
+        }
+        let totals: Vec<Extent> = rows.take_totals();
+        for (instance, (row, single)) in totals.iter().zip(&scratch.totals).enumerate() {
+            assert_eq!(row, single, "{} {} cell {instance}", t.title(), state.name);
+        }
+    }
+}
+
+fn transmission(language: &Language, path: &str, set: Option<&str>) -> Transmission {
+    let choice = Choice {
+        set: set.map(str::to_owned),
+        ..Choice::default()
+    };
+    let gearbox = Gearbox::read(language, &file(path)).unwrap_or_else(|found| panic!("{found:#?}"));
+    gearbox
+        .transmission(language, &choice)
+        .unwrap_or_else(|found| panic!("{path}: {found:#?}"))
+}
+
+#[test]
+fn the_examples_have_the_same_bits_side_by_side_and_alone() {
+    let language = language();
+    // Both senses, none, and torques near none and far beyond the rating.
+    let torques: Vec<f64> = (-20..=20)
+        .map(|i| 0.9 * f64::from(i))
+        .chain([1e-6, -1e-3, 0.01, 150.0])
+        .collect();
+    let speeds = [0.0, 30.0 * RPM, 4321.0 * RPM, -2000.0 * RPM, 20000.0 * RPM];
+    let mut count = Count::default();
+    for (path, sets) in [
+        (
+            "examples/two-speed-ev/gearbox.yaml",
+            &[None, Some("joint"), Some("iso14179_2")][..],
+        ),
+        ("examples/planetary-reducer/gearbox.yaml", &[None]),
+        ("examples/electric-drive-unit/gearbox.yaml", &[None]),
+        ("examples/electric-drive-unit/gearbox-beam.yaml", &[None]),
+    ] {
+        for set in sets {
+            let t = transmission(&language, path, *set);
+            let mut own = Count::default();
+            compare(&t, &speeds, &torques, &[100.0, 20.0], &mut own);
+            // Planets that share unequally are evaluated alone.
+            if !path.contains("planetary") {
+                count.together += own.together;
+                count.alone += own.alone;
+            }
+        }
+    }
+    // Most points are solved side by side, or nothing is won.
+    assert!(count.together > 5 * count.alone, "{count:?}");
+}
