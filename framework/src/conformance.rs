@@ -111,6 +111,9 @@ pub fn conform<M: Mechanism>(
         if !same(&answer, &M::answer(&slot, &with_notes), speed) {
             faults.push(format!("answers differently when it is noted, at {what}"));
         }
+        if let (true, Some(fault)) = (changes.len() < 2, M::side_by_side(&slot, &at, slot.notes)) {
+            faults.push(format!("{fault} at {what}"));
+        }
         match answer {
             Ok(answer) if !answer.is_sound() => faults.push(format!("the answer is negative or not finite at {what}")),
             Ok(answer) => {

@@ -14,6 +14,7 @@ use std::ops::{Deref, DerefMut};
 pub use elementary::{cube_root, exp, ln, sine};
 pub use losses::LossLanes;
 pub use notes::LaneNotes;
+pub(crate) use notes::same_notes;
 
 /// Points of a block.
 pub const LANES: usize = 32;

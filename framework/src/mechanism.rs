@@ -27,7 +27,7 @@ use crate::document::Unit;
 use crate::generic::Scalar;
 use crate::lanes::{LaneNotes, LossLanes};
 use crate::loads::LoadLanes;
-use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 
 /// A physical cause of loss. Implemented by an empty marker type, once per mechanism.
 pub trait Mechanism: Sized + 'static {
@@ -69,6 +69,11 @@ pub trait Mechanism: Sized + 'static {
     /// The relative speed that the answer's moments work against. \[rad/s\] One for a coefficient.
     fn speed(_at: &Self::At<'_>) -> f64 {
         1.0
+    }
+    /// What is wrong with the answers of a model side by side, beside those at single points around a context; for mechanisms whose
+    /// models may have a way of their own to several points.
+    fn side_by_side(_model: &Self::Model, _at: &Self::At<'_>, _notes: NoteBase) -> Option<&'static str> {
+        None
     }
     /// The door through which `none`, `constant`, `formula` and `table` serve this mechanism.
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model>;

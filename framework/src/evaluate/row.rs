@@ -514,7 +514,7 @@ impl Block<'_> {
         Status::of(self.powers(lane), self.transmission.reference_port())
     }
 
-    /// Power in and out.
+    /// Power in and out. \[W\]
     pub fn balance(&self, lane: usize) -> Balance {
         Balance::of(self.powers(lane))
     }
@@ -524,7 +524,7 @@ impl Block<'_> {
         &self.s.sum
     }
 
-    /// Power in and out, in all lanes. \[W\]
+    /// Losses of all parts, in their order. \[W\]
     pub fn watts(&self) -> &[Lane] {
         &self.s.watts
     }

@@ -72,6 +72,22 @@ impl LossLanes {
         self.alone[lane] = true;
     }
 
+    /// Whether a lane has the bits of an answer for its point alone, or is left to that.
+    pub(crate) fn agrees(&self, lane: usize, answer: &Result<Loss, Undefined>) -> bool {
+        let same = |loss: &Loss| {
+            let terms = (0..MOST_TERMS).all(|term| {
+                let value = if term < self.terms {
+                    self.values[term][lane]
+                } else {
+                    0.0
+                };
+                value == loss.value(term)
+            });
+            terms && (self.measure == loss.measure() || loss.sum() == 0.0)
+        };
+        self.alone[lane] || answer.as_ref().is_ok_and(same)
+    }
+
     /// Lanes that are left to an evaluation of their point alone.
     pub(crate) fn alone(&self) -> &[bool; LANES] {
         &self.alone

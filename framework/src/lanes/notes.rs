@@ -21,6 +21,44 @@ pub struct LaneNotes<'a> {
     pub(crate) base: NoteBase,
 }
 
+/// Whether a model notes the same for points alone and side by side: `single` asks for one lane, `together` for all.
+pub(crate) fn same_notes(
+    base: NoteBase,
+    single: impl Fn(usize, Notes<'_>),
+    together: impl FnOnce(LaneNotes<'_>),
+) -> bool {
+    let width = base.end;
+    let mut spaces: [Vec<Extent>; 4] = std::array::from_fn(|_| vec![Extent::EMPTY; width]);
+    let [alone, sums, common, totals] = spaces
+        .each_mut()
+        .map(|space| Cell::from_mut(space.as_mut_slice()).as_slice_of_cells());
+    let add = |sums: &[Cell<Extent>], cells: &[Cell<Extent>], points: u32| {
+        for (sum, cell) in sums.iter().zip(cells).filter(|(_, cell)| cell.get().seen > 0) {
+            sum.set(sum.get().merge(cell.get().times(points)));
+        }
+    };
+    for lane in 0..LANES {
+        single(lane, Notes::fresh(alone, base));
+        add(sums, alone, 1);
+    }
+    let mut own = vec![Extent::EMPTY; LANES * width];
+    let own = Cell::from_mut(own.as_mut_slice()).as_slice_of_cells();
+    together(LaneNotes {
+        common: Notes::new(common, base),
+        own,
+        totals,
+        counted: &[true; LANES],
+        outside: &std::array::from_fn(|_| Cell::new(false)),
+        handed: &Cell::new(false),
+        base,
+    });
+    add(totals, common, LANES as u32);
+    for cells in own.chunks(width.max(1)) {
+        add(totals, cells, 1);
+    }
+    sums.iter().map(Cell::get).eq(totals.iter().map(Cell::get))
+}
+
 impl<'a> LaneNotes<'a> {
     /// Notes of what is the same in all lanes.
     pub fn all(&self) -> Notes<'a> {

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use crate::attach::{Support, SupportSite};
 use crate::context;
 use crate::generic::Scalar;
-use crate::lanes::{LANES, LaneNotes, LossLanes};
+use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, each, same_notes};
 use crate::loads::LoadLanes;
-use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::mechanism::{Component, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
@@ -320,6 +320,31 @@ impl Mechanism for Bearing {
     }
     fn speed(at: &BearingAt<'_>) -> f64 {
         at.speed
+    }
+    fn side_by_side(model: &Self::Model, at: &BearingAt<'_>, notes: NoteBase) -> Option<&'static str> {
+        let factor = |i: usize| 0.3 + 1.5 * i as f64 / LANES as f64;
+        let loads = LoadLanes {
+            radial: each(|i| at.radial * factor(i)),
+            // Some lanes without.
+            axial: each(|i| if i % 5 == 0 { 0.0 } else { at.axial * factor(i) }),
+            tilting: each(|i| at.tilting * factor(i)),
+            untaken: Lane::ZERO,
+        };
+        let of = |lane: usize, notes: Notes<'_>| model.loss(&at.under(&loads, lane, notes));
+        let mut losses = LossLanes::NONE;
+        model.losses(&at.with(|to| to.notes = Notes::MUTED), &loads, &mut losses);
+        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED))) {
+            return Some("`losses` answers otherwise than `loss`");
+        }
+        // What is undefined at a load is noted by its point alone.
+        if (0..LANES).any(|lane| of(lane, Notes::MUTED).is_err()) {
+            return None;
+        }
+        let single = |lane: usize, notes: Notes<'_>| {
+            let _ = of(lane, notes);
+        };
+        let together = |notes: LaneNotes<'_>| model.note(&at.with(|to| to.notes = notes.all()), &loads, notes);
+        (!same_notes(notes, single, together)).then_some("`note` notes otherwise than `loss`")
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
         Arc::new(law)

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::context;
 use crate::generic::Scalar;
 use crate::geometry::{Pair, PairFault, PairSpec};
-use crate::lanes::{Lane, LaneNotes, LossLanes};
-use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, each, same_notes};
+use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::lubricant::Lubricant;
 use crate::mechanism::{Mechanism, Quantity};
 
@@ -286,6 +286,29 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
     }
     fn speed(at: &GearMeshAt<'_>) -> f64 {
         at.speed
+    }
+    fn side_by_side(model: &Self::Model, at: &GearMeshAt<'_>, notes: NoteBase) -> Option<&'static str> {
+        let torques = each(|i| at.torque * (0.3 + 1.5 * i as f64 / LANES as f64));
+        let of = |lane: usize, notes: Notes<'_>| {
+            model.loss(&at.with(|to| {
+                to.torque = torques[lane];
+                to.notes = notes;
+            }))
+        };
+        let mut losses = LossLanes::NONE;
+        model.losses(&at.with(|to| to.notes = Notes::MUTED), &torques, &mut losses);
+        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED))) {
+            return Some("`losses` answers otherwise than `loss`");
+        }
+        // What is undefined at a torque is noted by its point alone.
+        if (0..LANES).any(|lane| of(lane, Notes::MUTED).is_err()) {
+            return None;
+        }
+        let single = |lane: usize, notes: Notes<'_>| {
+            let _ = of(lane, notes);
+        };
+        let together = |notes: LaneNotes<'_>| model.note(&at.with(|to| to.notes = notes.all()), &torques, notes);
+        (!same_notes(notes, single, together)).then_some("`note` notes otherwise than `loss`")
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
         Arc::new(law)

@@ -264,8 +264,8 @@ impl WeightedFriction for Weighted {
                 )
             },
         );
-        // Each lane looks up a piece of its own, so that nothing is won by wide instructions.
-        each(|i| self.series.at(at[i]) * factors[i])
+        let sums = self.series.lanes(&at);
+        each(|i| sums[i] * factors[i])
     }
 
     fn note(&self, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) -> bool {
