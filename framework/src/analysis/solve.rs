@@ -6,6 +6,9 @@ use crate::lanes::{LANES, Lane};
 use crate::loss::Extent;
 use crate::transmission::{Case, Transmission};
 
+/// A block of fewer points takes longer than they do alone.
+const FEW: usize = 6;
+
 /// What all points of a field have in common.
 pub(super) struct Solver<'a> {
     transmission: &'a Transmission,
@@ -89,7 +92,7 @@ impl<'a> Solver<'a> {
             let oil = first.oil.map_or(self.points.oil, OilTemperature::Fixed);
             match oil {
                 OilTemperature::Fixed(oil)
-                    if run.len() > 1 && self.points.flow == PowerFlow::Real && self.at_torque.is_some() =>
+                    if run.len() >= FEW && self.points.flow == PowerFlow::Real && self.at_torque.is_some() =>
                 {
                     self.row(run, first.speed, oil, space, &mut results);
                 }
@@ -160,9 +163,20 @@ impl<'a> Solver<'a> {
         // Where the torque turns so do the drivers, which the points of a block have in common.
         let torque = |number: &usize| self.points.field.at(*number).torque;
         let blocks = run
-            .chunk_by(|a, b| torque(a).signum() == torque(b).signum())
+            .chunk_by(|a, b| torque(a) * torque(b) > 0.0)
             .flat_map(|own| own.chunks(LANES));
         for some in blocks {
+            if some.len() < FEW {
+                for torque in some.iter().map(torque) {
+                    let given = Given {
+                        torque,
+                        speed,
+                        oil: None,
+                    };
+                    results.push(self.of_solution(given, oil, &row.alone(torque)));
+                }
+                continue;
+            }
             let mut given = [0.0; LANES];
             for (given, number) in given.iter_mut().zip(some) {
                 *given = torque(number);

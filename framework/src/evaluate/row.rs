@@ -1,7 +1,7 @@
 //! Many points that differ in one torque, in blocks side by side.
 //!
 //! Speeds, oils and all that hangs on them alone are settled once for the row. The numbers are those of
-//! [`Transmission::evaluate`] to the bit, also for points that have to be evaluated alone: see [`Block::alone`].
+//! [`Transmission::evaluate`] to the bit, but for the sign of zero, also for points that have to be evaluated alone: see [`Block::alone`].
 
 use std::cell::Cell;
 
@@ -126,7 +126,9 @@ impl Transmission {
             PartKind::Drag(i) => s.drag_losses[i].is_ok(),
             PartKind::Mesh(_) => true,
         };
-        let together = point.flow == PowerFlow::Real && !standing && !self.uneven && self.parts.iter().all(sound);
+        let cheap = self.meshes.iter().all(|mesh| mesh.model.off || !mesh.model.is_costly());
+        let together =
+            point.flow == PowerFlow::Real && !standing && !self.uneven && cheap && self.parts.iter().all(sound);
         Row {
             transmission: self,
             case,
@@ -197,6 +199,10 @@ impl Row<'_> {
         // Lanes without a point repeat the last one; nobody reads them.
         given[0] = each(|i| torques[i.min(torques.len() - 1)]);
         *alone_lanes = [false; LANES];
+        let points: [bool; LANES] = std::array::from_fn(|i| i < torques.len());
+        for losses in components.iter_mut().chain(&mut *meshes) {
+            losses.clear(&points);
+        }
         let kept = Cell::from_mut(settled.kept.as_mut_slice()).as_slice_of_cells();
         let state = State {
             speeds: &settled.speeds,
@@ -231,10 +237,13 @@ impl Row<'_> {
             for (drags, idle) in flow.drags.iter_mut().zip(&settled.idle_drags) {
                 *drags = Lane::all(*idle);
             }
+            let wanted: [bool; LANES] = std::array::from_fn(|i| points[i] && !flow.done[i] && !alone_lanes[i]);
+            let asked = wanted.iter().filter(|wanted| **wanted).count();
             for &i in braking {
                 let (component, speed) = (&t.components[i], settled.relative[i]);
                 let notes = Notes::MUTED.keeping(kept[i].as_array_of_cells());
-                *called += torques.len();
+                *called += asked;
+                components[i].want(&wanted);
                 ask(component, &state, loads, one, notes, &mut components[i]);
                 wide(
                     #[inline(always)]
@@ -249,7 +258,8 @@ impl Row<'_> {
                 let at = t.mesh_at(i, 0.0, flow.drives[i], &state, Notes::MUTED);
                 let radius = mesh.seat.pair.working_radius[0];
                 let torques_1 = each(|lane| (tangential[i][lane] * radius).abs());
-                *called += torques.len();
+                *called += asked;
+                meshes[i].want(&wanted);
                 mesh.model.losses(&at, &torques_1, &mut meshes[i]);
                 wide(
                     #[inline(always)]
@@ -334,7 +344,7 @@ impl Row<'_> {
                     gather(component.notes);
                     continue;
                 }
-                for lane in 0..LANES {
+                for lane in (0..LANES).filter(|lane| counted[*lane]) {
                     one[support as usize] = own_loads.lane(lane);
                     let state = State { loads: one, ..state };
                     let _ = component.placed.loss(&state, notes.lane(lane));
@@ -420,6 +430,9 @@ fn ask(
     let own = &loads[support];
     if !component.placed.losses(state, own, notes, losses) {
         for lane in 0..LANES {
+            if !losses.wanted(lane) {
+                continue;
+            }
             one[support] = own.lane(lane);
             losses.put(lane, component.placed.loss(&State { loads: one, ..*state }, notes));
         }

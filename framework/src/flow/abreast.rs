@@ -253,8 +253,10 @@ impl Flow {
         self.relative(speeds, &mut work.relative);
         work.drives.fill(Drive::Neither);
         self.solve_abreast(speeds, work, &[false; LANES]);
-        let first = (0..LANES).find(|i| !work.alone[*i]);
-        let Some(first) = first else { return };
+        // The drivers of the point with the greatest power are those of most.
+        let sound = (0..LANES).filter(|i| !work.alone[*i]);
+        let most = sound.max_by(|a, b| work.largest[*a].total_cmp(&work.largest[*b]));
+        let Some(first) = most else { return };
         for mesh in 0..k {
             let drives = |i: usize| drive(work.rolling[mesh][i], work.largest[i]);
             work.drives[mesh] = drives(first);
@@ -319,11 +321,7 @@ impl Flow {
         work.advance(&back, 2 * k);
         self.solve_abreast(speeds, work, &last);
         for mesh in 0..k {
-            let (rolling, pattern) = (&work.rolling[mesh], work.drives[mesh]);
-            for i in 0..LANES {
-                let now = drive(rolling[i], work.largest[i]);
-                work.alone[i] |= now != Drive::Neither && now != pattern;
-            }
+            work.turn(mesh, k);
         }
         for i in 0..LANES {
             if last[i] && !work.done[i] {
@@ -488,6 +486,30 @@ impl Flow {
 }
 
 impl WorkLanes {
+    /// Leaves the lanes in which the driver of a mesh is not the common one. One that had no torque may get its driver.
+    #[inline(always)]
+    fn turn(&mut self, mesh: usize, meshes: usize) {
+        let now: [Drive; LANES] = std::array::from_fn(|i| drive(self.rolling[mesh][i], self.largest[i]));
+        if self.drives[mesh] != Drive::Neither {
+            for i in 0..LANES {
+                self.alone[i] |= now[i] != Drive::Neither && now[i] != self.drives[mesh];
+            }
+            return;
+        }
+        let Some(first) = (0..LANES).find(|i| !self.alone[*i] && now[*i] != Drive::Neither) else {
+            return;
+        };
+        let (share, constant) = (&self.used[mesh], &self.used[meshes + mesh]);
+        for i in 0..LANES {
+            self.alone[i] |= match now[i] {
+                // Without a driver the loss counts as with the first gear as driver.
+                Drive::Neither => now[first] == Drive::Second,
+                own => own != now[first] || share[i] > 0.0 || constant[i] > 0.0,
+            };
+        }
+        self.drives[mesh] = now[first];
+    }
+
     #[inline(always)]
     fn mismatch(&self, e: usize) -> Lane {
         let (answer, used, weight) = (&self.answer[e], &self.used[e], &self.weights[e]);

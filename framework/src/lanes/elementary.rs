@@ -34,7 +34,7 @@ const ROOT_HALF: u64 = 0x3FE6_A09E_667F_3BCD;
 /// 2^54, which makes the smallest numbers normal.
 const LIFT: f64 = 18_014_398_509_481_984.0;
 
-/// The exponential, to about 1e-15 of it; zero below 1e-307, infinity above 1e308.
+/// The exponential, to about 1e-15 of it; zero for x below -708, infinity above 709.
 #[inline(always)]
 pub fn exp(x: f64) -> f64 {
     let shifted = x * LOG2_E + ROUNDER;

@@ -12,6 +12,7 @@ pub struct LossLanes {
     values: [Lane; MOST_TERMS],
     terms: usize,
     alone: [bool; LANES],
+    wanted: [bool; LANES],
 }
 
 impl LossLanes {
@@ -22,6 +23,7 @@ impl LossLanes {
         values: [Lane::all(0.0); MOST_TERMS],
         terms: 0,
         alone: [false; LANES],
+        wanted: [true; LANES],
     };
 
     /// Begins an answer as [`Loss::MOMENTS`] or [`Loss::POWERS`] do; every term is zero.
@@ -43,23 +45,33 @@ impl LossLanes {
         }
     }
 
-    /// Takes over the answer for one lane, the first lane first. What is undefined, or in another measure than that of the lanes
-    /// before, is left to an evaluation of that point alone, which says why.
+    /// Forgets all answers, before the first pass of a block; `wanted` says in which lanes there is a point.
+    pub(crate) fn clear(&mut self, wanted: &[bool; LANES]) {
+        self.begin(&Loss::POWERS);
+        self.measured = false;
+        self.wanted = *wanted;
+    }
+
+    /// Says in which lanes an answer is still wanted.
+    pub(crate) fn want(&mut self, wanted: &[bool; LANES]) {
+        self.wanted = *wanted;
+    }
+
+    /// False where nobody reads the answer any more: a model that is asked once for each lane may pass over it.
+    pub fn wanted(&self, lane: usize) -> bool {
+        self.wanted[lane]
+    }
+
+    /// Takes over the answer for one lane. What is undefined, or in another measure than that of the lanes before, is left to an
+    /// evaluation of that point alone, which says why.
     pub fn put(&mut self, lane: usize, answer: Result<Loss, Undefined>) {
-        if lane == 0 {
-            self.begin(&Loss::POWERS);
-            self.measured = false;
-        }
-        let Ok(loss) = answer else {
-            self.leave(lane);
-            return;
-        };
-        if !self.measured {
+        let loss = answer.unwrap_or(Loss::POWERS);
+        if answer.is_ok() && !self.measured {
             (self.measure, self.measured) = (loss.measure(), true);
         }
-        self.alone[lane] |= loss.measure() != self.measure;
+        self.alone[lane] = answer.is_err() || loss.measure() != self.measure;
         for term in 0..MOST_TERMS {
-            let value = loss.value(term);
+            let value = if self.alone[lane] { 0.0 } else { loss.value(term) };
             if value != 0.0 {
                 self.terms = self.terms.max(term + 1);
             }
@@ -144,7 +156,13 @@ impl LossLanes {
         }
         for i in 0..LANES {
             let sound = least[i] >= 0.0 && sum[i] < f64::INFINITY && (untaken[i] == 0.0 || sum[i] <= 0.0);
-            self.alone[i] |= !sound;
+            if !sound {
+                self.alone[i] = true;
+                // Or torques of this lane would be no numbers, at which no model is asked.
+                for values in &mut self.values[..self.terms] {
+                    values[i] = 0.0;
+                }
+            }
         }
     }
 }

@@ -65,6 +65,11 @@ impl<'a> LaneNotes<'a> {
         self.common
     }
 
+    /// False where nobody reads what a lane notes.
+    pub fn wanted(&self, lane: usize) -> bool {
+        self.counted[lane]
+    }
+
     /// Notes of one lane.
     pub fn lane(&self, lane: usize) -> Notes<'a> {
         self.handed.set(true);

@@ -26,7 +26,7 @@ pub trait BearingModel: Send + Sync {
     /// [`BearingAt::once`], which spares it in all passes of a point but the first.
     fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined>;
 
-    /// The same at several loads side by side, where all else is as at `at`; muted. What it answers must have the bits of
+    /// The same at several loads side by side, where all else is as at `at`, whose loads mean nothing; muted. What it answers must have the bits of
     /// [`loss`](Self::loss), which the suite of the framework compares. Without code of its own it asks once for each lane.
     fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
         one_by_one(self, at, loads, losses);
@@ -34,7 +34,7 @@ pub trait BearingModel: Send + Sync {
 
     /// Notes what [`loss`](Self::loss) notes at these loads.
     fn note(&self, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
-        for lane in 0..LANES {
+        for lane in (0..LANES).filter(|lane| notes.wanted(*lane)) {
             // An answer that is no number leaves the lane to its point alone.
             let _ = self.loss(&at.under(loads, lane, notes.lane(lane)));
         }
@@ -44,6 +44,9 @@ pub trait BearingModel: Send + Sync {
 /// Asks a model once for each lane: [`BearingModel::losses`] where nothing spares that.
 pub fn one_by_one<M: BearingModel + ?Sized>(model: &M, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
     for lane in 0..LANES {
+        if !losses.wanted(lane) {
+            continue;
+        }
         losses.put(lane, model.loss(&at.under(loads, lane, at.notes)));
     }
 }
@@ -332,7 +335,11 @@ impl Mechanism for Bearing {
         };
         let of = |lane: usize, notes: Notes<'_>| model.loss(&at.under(&loads, lane, notes));
         let mut losses = LossLanes::NONE;
-        model.losses(&at.with(|to| to.notes = Notes::MUTED), &loads, &mut losses);
+        let without = at.with(|to| {
+            (to.radial, to.axial, to.tilting) = (0.0, 0.0, 0.0);
+            to.notes = Notes::MUTED;
+        });
+        model.losses(&without, &loads, &mut losses);
         if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED))) {
             return Some("`losses` answers otherwise than `loss`");
         }
@@ -343,7 +350,7 @@ impl Mechanism for Bearing {
         let single = |lane: usize, notes: Notes<'_>| {
             let _ = of(lane, notes);
         };
-        let together = |notes: LaneNotes<'_>| model.note(&at.with(|to| to.notes = notes.all()), &loads, notes);
+        let together = |notes: LaneNotes<'_>| model.note(&without.with(|to| to.notes = notes.all()), &loads, notes);
         (!same_notes(notes, single, together)).then_some("`note` notes otherwise than `loss`")
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {

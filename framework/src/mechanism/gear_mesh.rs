@@ -25,7 +25,13 @@ pub trait GearMeshModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined>;
 
-    /// The same at several torques side by side, where all else is as at `at`; muted. What it answers must have the bits of
+    /// True where asking once more for the notes costs more than is won by points side by side, as for friction that is iterated at
+    /// every place: they are then evaluated one by one.
+    fn is_costly(&self) -> bool {
+        false
+    }
+
+    /// The same at several torques side by side, where all else is as at `at`, whose torque means nothing; muted. What it answers must have the bits of
     /// [`loss`](Self::loss), which the suite of the framework compares. Without code of its own it asks once for each lane.
     fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
         one_by_one(self, at, torques, losses);
@@ -40,6 +46,9 @@ pub trait GearMeshModel: Send + Sync {
 /// Asks a model once for each lane: [`GearMeshModel::losses`] where nothing spares that.
 pub fn one_by_one<M: GearMeshModel + ?Sized>(model: &M, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
     for (lane, torque) in torques.iter().enumerate() {
+        if !losses.wanted(lane) {
+            continue;
+        }
         losses.put(lane, model.loss(&at.with(|to| to.torque = *torque)));
     }
 }
@@ -52,6 +61,9 @@ pub fn note_one_by_one<M: GearMeshModel + ?Sized>(
     notes: LaneNotes<'_>,
 ) {
     for (lane, torque) in torques.iter().enumerate() {
+        if !notes.wanted(lane) {
+            continue;
+        }
         // An answer that is no number leaves the lane to its point alone.
         let _ = model.loss(&at.with(|to| {
             to.torque = *torque;
@@ -296,7 +308,11 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
             }))
         };
         let mut losses = LossLanes::NONE;
-        model.losses(&at.with(|to| to.notes = Notes::MUTED), &torques, &mut losses);
+        let without = at.with(|to| {
+            to.torque = 0.0;
+            to.notes = Notes::MUTED;
+        });
+        model.losses(&without, &torques, &mut losses);
         if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED))) {
             return Some("`losses` answers otherwise than `loss`");
         }
@@ -307,7 +323,7 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
         let single = |lane: usize, notes: Notes<'_>| {
             let _ = of(lane, notes);
         };
-        let together = |notes: LaneNotes<'_>| model.note(&at.with(|to| to.notes = notes.all()), &torques, notes);
+        let together = |notes: LaneNotes<'_>| model.note(&without.with(|to| to.notes = notes.all()), &torques, notes);
         (!same_notes(notes, single, together)).then_some("`note` notes otherwise than `loss`")
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {

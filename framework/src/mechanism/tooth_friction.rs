@@ -36,7 +36,8 @@ pub trait ToothFrictionModel: Send + Sync {
         Ok(Along::default())
     }
 
-    /// Coefficients at all nodes of a path for several line loads (N/m) side by side, where all else is as at `path`; muted. They
+    /// Coefficients at all nodes of a path for several line loads (N/m) side by side, where all else is as at `path`, whose own line
+    /// load and `mean` mean nothing; muted. They
     /// must have the bits of [`along`](Self::along), the heat must go into both bodies alike, and what is undefined is no number.
     /// False where the law has no code of its own for it: it is then asked once for each load.
     fn along_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &mut [Lane]) -> bool {
@@ -44,7 +45,7 @@ pub trait ToothFrictionModel: Send + Sync {
     }
 
     /// The sum of the coefficients over the nodes of a path with given weights, prepared where the law knows a shorter way to it
-    /// than node by node.
+    /// than node by node. The heat must go into both bodies alike, and the sum be no number where [`along`](Self::along) is undefined.
     fn weighted(&self, _nodes: &[PathNode], _weights: &[f64]) -> Option<Box<dyn WeightedFriction>> {
         None
     }
@@ -58,7 +59,7 @@ pub trait WeightedFriction: Send + Sync {
     /// The sum for one line load; no number where the nodes have to be asked.
     fn sum(&self, path: &PathAt<'_>) -> f64;
 
-    /// The same for several line loads (N/m) side by side, to the bit.
+    /// The same for several line loads (N/m) side by side, to the bit; that of `path` and its `mean` mean nothing.
     fn sums(&self, path: &PathAt<'_>, line_loads: &Lane) -> Lane;
 
     /// Notes what the law notes along the path. False where that takes the coefficients at all nodes.

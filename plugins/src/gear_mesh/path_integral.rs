@@ -216,6 +216,10 @@ impl GearMeshModel for Integral {
         Ok(loss.with(&ROLLING, at.show("P_r", "W", rolling)))
     }
 
+    fn is_costly(&self) -> bool {
+        self.short.is_none()
+    }
+
     fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
         let speed = at.speed.abs();
         let sliding = self.in_lanes(at, torques, |path, forces, line_loads| {
