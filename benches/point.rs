@@ -1,5 +1,4 @@
-//! One point: the two-speed example under each set of models, the planetary one at a given temperature, and its equilibrium; and
-//! many points of one speed side by side.
+//! One point: the two-speed example under each set of models, the planetary one at a given temperature, and its equilibrium.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod common;
@@ -7,8 +6,7 @@ mod common;
 use std::hint::black_box;
 
 use common::{RPM, build, gearbox, language, point, set};
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use gearloss_framework::lanes::LANES;
+use criterion::{Criterion, criterion_group, criterion_main};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
@@ -20,23 +18,6 @@ fn two_speed(t: &Transmission) -> impl FnMut() -> Option<f64> {
         let (speeds, torques) = ([8000.0 * RPM], [10.0]);
         let point = point(black_box(&speeds), black_box(&torques));
         t.evaluate(&case, &point, &[100.0], &mut scratch).loss()
-    }
-}
-
-/// The sum of the losses at 1024 torques at one speed of the two-speed example in first gear.
-fn side_by_side(t: &Transmission) -> impl FnMut() -> f64 {
-    let case = t.case("first", &[], &["input"]).unwrap();
-    let mut scratch = t.row_scratch(&case);
-    let torques: Vec<f64> = (1..=1024).map(|i| 20.0 * f64::from(i) / 1024.0).collect();
-    move || {
-        let speeds = [8000.0 * RPM];
-        let point = point(black_box(&speeds), &[0.0]);
-        let mut row = t.row(&case, &point, &[100.0], &mut scratch);
-        let sum = |block: &gearloss_framework::evaluate::Block<'_>| {
-            assert!((0..LANES).all(|lane| !block.alone(lane)));
-            block.losses().iter().sum::<f64>()
-        };
-        torques.chunks(LANES).map(|some| sum(&row.solve(some))).sum()
     }
 }
 
@@ -60,13 +41,6 @@ fn points(c: &mut Criterion) {
     group.bench_function("planetary example, equilibrium of losses and heat", |b| {
         let point = || point(black_box(&speeds), black_box(&torques));
         b.iter(|| t.equilibrium(&case, &point(), &mut scratch).oil());
-    });
-    group.throughput(Throughput::Elements(1024));
-    group.bench_function("two-speed example, set iso, side by side", |b| {
-        b.iter(side_by_side(&iso))
-    });
-    group.bench_function("two-speed example, set joint, side by side", |b| {
-        b.iter(side_by_side(&joint));
     });
     group.finish();
 }

@@ -79,59 +79,6 @@ fn told(line: Option<&str>) -> String {
     line.map_or_else(|| "not told".to_owned(), |line| line.trim().to_owned())
 }
 
-/// Exponentials, logarithms and powers of one point of the two-speed example in first gear under the set `joint`, counted from the
-/// formulas. Each pass: 3 bearings under radial load with 2 exponentials and 1 logarithm, 3 under both loads with 3 and 3, 3 meshes
-/// with 1 and 1. Side by side what hangs on speed alone is shared by all torques, and the notes of the meshes take 6 and 3.
-const SIDE_BY_SIDE: [f64; 3] = [18.0 * PASSES + 6.0, 15.0 * PASSES + 3.0, 0.0];
-/// The least that three passes of one point alone take: the meshes at 12 places in two of them, for the notes, and once for speed
-/// and oil 6 bearings, a cage, two wheels that dip and the oil.
-const ALONE: [f64; 3] = [237.0, 93.0, 16.0];
-/// Passes of a point on the mean of the map of `benches/peers`.
-const PASSES: f64 = 3.09;
-
-/// How close points come to the cost of their transcendental functions.
-fn least(found: &BTreeMap<String, (Value, Option<u64>)>) -> String {
-    let of = |name: &str| {
-        let (estimates, elements) = &found[name];
-        estimates["median"]["point_estimate"].as_f64().unwrap() / elements.unwrap_or(1) as f64
-    };
-    let costs = |exp: &str, ln: &str| [of(exp), of(ln), of("elementary/powers of the standard library")];
-    let wide = costs(
-        "elementary/exponentials side by side",
-        "elementary/logarithms side by side",
-    );
-    let single = costs(
-        "elementary/exponentials of the standard library",
-        "elementary/logarithms of the standard library",
-    );
-    let mut out = "\nThe least by these costs, for a point of the two-speed example under the set `joint`:\n\n\
-                   | | exponentials | logarithms | powers | their time | measured | over it |\n|---|---|---|---|---|---|---|\n"
-        .to_owned();
-    for (name, counts, costs, bench) in [
-        (
-            "side by side",
-            SIDE_BY_SIDE,
-            wide,
-            "point/two-speed example, set joint, side by side",
-        ),
-        ("alone", ALONE, single, "point/two-speed example, set joint"),
-    ] {
-        let least: f64 = counts.iter().zip(costs).map(|(n, cost)| n * cost).sum();
-        let measured = of(bench);
-        let _ = writeln!(
-            out,
-            "| {name} | {:.0} | {:.0} | {:.0} | {} | {} | {:.1} |",
-            counts[0],
-            counts[1],
-            counts[2],
-            time(least),
-            time(measured),
-            measured / least
-        );
-    }
-    out
-}
-
 /// Machine, versions and table.
 fn figures(date: &str) -> String {
     let mut found = BTreeMap::new();
@@ -175,7 +122,7 @@ fn figures(date: &str) -> String {
             );
         }
     }
-    out + &least(&found)
+    out
 }
 
 #[test]
