@@ -109,6 +109,70 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
     }
 }
 
+/// Points that start from the torques of the speeds before agree with points alone within the tolerance, in fewer passes.
+#[test]
+fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
+    let language = language();
+    let torques: Vec<f64> = (1..=48).map(|i| 0.4 * f64::from(i)).collect();
+    // Even steps, wide ones, a standstill, the other sense, and the same speed twice.
+    let even = (1..=150).map(|i| 140.0 * f64::from(i));
+    let others = [
+        3000.0, 4000.0, 9000.0, 0.0, 5000.0, 5050.0, -5000.0, -5100.0, -5200.0, -5200.0, -5300.0,
+    ];
+    let speeds: Vec<f64> = even.chain(others).map(|speed| speed * RPM).collect();
+    for (path, set) in [
+        ("examples/two-speed-ev/gearbox.yaml", Some("joint")),
+        ("examples/two-speed-ev/gearbox.yaml", Some("iso14179_2")),
+        ("examples/two-speed-ev/gearbox.yaml", None),
+    ] {
+        let t = transmission(&language, path, set);
+        let state = &t.states()[0].name;
+        let case = t.case(state, &[], &[t.ports()[0].name.as_str()]).unwrap();
+        let mut scratch = t.scratch(&case);
+        let mut rows = t.row_scratch(&case);
+        let (mut passes, mut fewer, mut points, mut most) = (0, 0, 0, 0.0_f64);
+        // The second temperature begins anew.
+        for (temperature, sense) in [(100.0, 1.0), (60.0, 1.0), (60.0, -1.0)] {
+            for speed in &speeds {
+                let point = Point {
+                    speeds: &[*speed],
+                    torques: &[0.0],
+                    ..Point::default()
+                };
+                let temperature = [temperature];
+                let own: Vec<f64> = torques.iter().map(|torque| sense * torque).collect();
+                let mut row = t.row(&case, &point, &temperature, &mut rows);
+                for some in own.chunks(LANES) {
+                    let block = row.follow(some);
+                    for (lane, torque) in some.iter().enumerate().filter(|(lane, _)| !block.alone(*lane)) {
+                        let point = Point {
+                            torques: &[*torque],
+                            ..point
+                        };
+                        let solution = t.evaluate(&case, &point, &temperature, &mut scratch);
+                        let power = solution.input_power().unwrap();
+                        let off = (block.losses()[lane] - solution.loss().unwrap()).abs() / power;
+                        most = most.max(off);
+                        let at = format!("{path} {speed} {torque}");
+                        assert_eq!(block.status(lane), solution.status(), "{at}");
+                        let sum: f64 = block.watts().iter().map(|watts| watts[lane]).sum();
+                        let balance = block.balance(lane);
+                        assert!((balance.input - balance.output - sum).abs() <= 1e-9 * power, "{at}");
+                        passes += solution.passes();
+                        fewer += block.passes(lane);
+                        points += 1;
+                    }
+                }
+            }
+        }
+        assert!(points > 10_000, "{path}: {points}");
+        // Twice the tolerance: both ways may be off by it.
+        assert!(most <= 2e-9, "{path}: {most:e}");
+        assert!(most > 0.0, "{path}: nothing was guessed");
+        assert!(3 * fewer < 2 * passes, "{path}: {fewer} of {passes} passes");
+    }
+}
+
 fn transmission(language: &Language, path: &str, set: Option<&str>) -> Transmission {
     let choice = Choice {
         set: set.map(str::to_owned),

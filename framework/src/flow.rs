@@ -9,10 +9,12 @@ mod equilibrium;
 mod linear;
 mod solve;
 mod system;
+mod trail;
 mod work;
 
-pub use abreast::{FlowLanes, WorkLanes};
+pub use abreast::{FlowLanes, TaskLanes, WorkLanes};
 pub use system::{Flow, FlowFault, MeshRow, Share};
+pub use trail::Trail;
 pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
 
 /// Powers and status of one solved point.

@@ -17,7 +17,7 @@ pub use notes::LaneNotes;
 pub(crate) use notes::same_notes;
 
 /// Points of a block.
-pub const LANES: usize = 32;
+pub const LANES: usize = 64;
 
 /// A number for each point of a block. It begins where wide loads and stores like it best.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +65,17 @@ pub fn over(lane: &Lane, mut number: impl FnMut(f64) -> f64) -> Lane {
         *own = number(*x);
     }
     result
+}
+
+/// In how many lanes something holds.
+#[inline(always)]
+pub fn count(mut holds: impl FnMut(usize) -> bool) -> u64 {
+    // As wide as the numbers that decide, so that they are counted several at once.
+    let mut count = 0_u64;
+    for i in 0..LANES {
+        count += u64::from(holds(i));
+    }
+    count
 }
 
 /// A lane from a function of its place.

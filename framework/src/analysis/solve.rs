@@ -82,6 +82,10 @@ impl<'a> Solver<'a> {
     /// Solves the points of given numbers, in their order; neighbours with one speed and temperature are solved together.
     pub fn solve(&self, numbers: &[usize], space: &mut Space) -> Vec<PointResult> {
         let mut results = Vec::with_capacity(numbers.len());
+        // Or the numbers would hang on what this thread solved before.
+        if let Some(rows) = &mut space.rows {
+            rows.forget();
+        }
         let given = |number: &usize| self.points.field.at(*number);
         let together = |a: &usize, b: &usize| {
             let (a, b) = (given(a), given(b));
@@ -183,7 +187,7 @@ impl<'a> Solver<'a> {
             }
             let given = &given[..some.len()];
             let start = results.len();
-            let block = row.solve(given);
+            let block = row.follow(given);
             self.of_block(given, speed, oil, &block, results);
             let alone: [bool; LANES] = std::array::from_fn(|lane| block.alone(lane));
             for (lane, torque) in given.iter().enumerate().filter(|(lane, _)| alone[*lane]) {

@@ -7,11 +7,14 @@ use std::cell::Cell;
 
 use super::{Point, PowerFlow, Scratch, Solution};
 use crate::attach::State;
-use crate::flow::{Balance, FlowLanes, Status, WorkLanes};
+use crate::flow::{Balance, FlowLanes, Status, TaskLanes, Trail, WorkLanes};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, each, over, wide};
 use crate::loads::{LoadLanes, SupportLoad};
 use crate::loss::{Extent, NoteBase, Notes};
 use crate::transmission::{Case, PartKind, Transmission};
+
+/// No thrust.
+static NONE: Lane = Lane::ZERO;
 
 /// Space for the rows of one case. Everything is allocated here, once.
 #[derive(Debug, Clone)]
@@ -21,6 +24,12 @@ pub struct RowScratch {
     /// For points that are evaluated alone.
     alone: Scratch,
     work: WorkLanes,
+    /// One for each block of a row, in their order.
+    trails: Vec<Trail>,
+    /// The block that comes next.
+    next: usize,
+    /// All but the first speed and the first torque of the row before.
+    before: Vec<f64>,
     given: Vec<Lane>,
     /// Torques of ports that corrections of loads may ask for.
     ports: Vec<Lane>,
@@ -52,6 +61,11 @@ impl RowScratch {
         pairs
             .map(|(row, alone)| std::mem::replace(row, Extent::EMPTY).merge(alone))
             .collect()
+    }
+
+    /// Forgets the rows before, so that [`Row::follow`] begins anew.
+    pub fn forget(&mut self) {
+        self.trails.iter_mut().for_each(Trail::clear);
     }
 
     /// Calls of loss models for all points so far; a call for a block counts once for each of its points.
@@ -86,6 +100,9 @@ impl Transmission {
             state: self.scratch(case),
             alone: self.scratch(case),
             work: case.flow.work_abreast(),
+            trails: Vec::new(),
+            next: 0,
+            before: Vec::new(),
             given: lanes(case.torque_ports.len() + case.ruled_torques),
             ports: lanes(case.flow.columns()),
             tangential: lanes(self.meshes.len()),
@@ -119,6 +136,17 @@ impl Transmission {
         scratch: &'a mut RowScratch,
     ) -> Row<'a> {
         assert!(!case.torque_ports.is_empty(), "a case that gives a torque");
+        let speeds = point.speeds.get(1..).unwrap_or_default().iter();
+        let rest = speeds
+            .chain(&point.torques[1..])
+            .chain(temperatures)
+            .chain([&point.tolerance.power]);
+        if !scratch.before.iter().eq(rest.clone()) {
+            scratch.before.clear();
+            scratch.before.extend(rest);
+            scratch.forget();
+        }
+        scratch.next = 0;
         let s = &mut scratch.state;
         let standing = self.settle(case, point, temperatures, s, false);
         let sound = |part: &crate::transmission::PartInfo| match part.kind {
@@ -146,10 +174,24 @@ impl Row<'_> {
     /// # Panics
     /// If there are none or more: a bug of the caller.
     pub fn solve(&mut self, torques: &[f64]) -> Block<'_> {
+        self.block(torques, false)
+    }
+
+    /// As [`Row::solve`], where the first torques are guessed from the blocks of the same number and torques in the rows before,
+    /// if these rows differ in the first speed alone. One pass is then often enough, and the losses agree with those of
+    /// [`Row::solve`] within the tolerance, not to the bit.
+    ///
+    /// # Panics
+    /// As [`Row::solve`].
+    pub fn follow(&mut self, torques: &[f64]) -> Block<'_> {
+        self.block(torques, true)
+    }
+
+    fn block(&mut self, torques: &[f64], following: bool) -> Block<'_> {
         assert!((1..=LANES).contains(&torques.len()), "1 to {LANES} torques");
         self.s.alone_lanes = [true; LANES];
         if self.together {
-            self.solve_together(torques);
+            self.solve_together(torques, following);
         }
         Block {
             transmission: self.transmission,
@@ -167,11 +209,13 @@ impl Row<'_> {
             .evaluate(self.case, &point, self.temperatures, &mut self.s.alone)
     }
 
-    fn solve_together(&mut self, torques: &[f64]) {
+    fn solve_together(&mut self, torques: &[f64], following: bool) {
         let (t, case) = (self.transmission, self.case);
         let RowScratch {
             state: settled,
             work,
+            trails,
+            next,
             given,
             ports,
             tangential,
@@ -215,18 +259,21 @@ impl Row<'_> {
         let corrected = t.imported.is_some() || !t.load_factors.is_empty();
         let braking = &settled.braking;
         let losses = |flow: &mut FlowLanes<'_>| {
-            for ((mesh, tangential), multiplier) in t.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers) {
-                *tangential = each(|i| {
-                    if flow.done[i] {
-                        tangential[i]
-                    } else {
-                        multiplier[i] * mesh.force_per_multiplier
-                    }
-                });
-            }
             wide(
                 #[inline(always)]
-                || t.loads.evaluate_abreast(tangential, state.speeds, passed, loads),
+                || {
+                    let rows = t.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers);
+                    for ((mesh, tangential), multiplier) in rows {
+                        *tangential = each(|i| {
+                            if flow.done[i] {
+                                tangential[i]
+                            } else {
+                                multiplier[i] * mesh.force_per_multiplier
+                            }
+                        });
+                    }
+                    t.loads.evaluate_abreast(tangential, state.speeds, passed, loads);
+                },
             );
             if corrected {
                 for (own, flow_ports) in ports.iter_mut().zip(flow.ports) {
@@ -244,10 +291,13 @@ impl Row<'_> {
                 let notes = Notes::MUTED.keeping(kept[i].as_array_of_cells());
                 *called += asked;
                 components[i].want(&wanted);
-                ask(component, &state, loads, one, notes, &mut components[i]);
+                let untaken = ask(component, &state, loads, one, notes, &mut components[i]);
                 wide(
                     #[inline(always)]
-                    || brake_lanes(component.between, speed, &components[i], component.count, flow.drags),
+                    || {
+                        components[i].leave_unsound(untaken);
+                        brake_lanes(component.between, speed, &components[i], component.count, flow.drags);
+                    },
                 );
                 leave(alone_lanes, &components[i]);
             }
@@ -276,14 +326,23 @@ impl Row<'_> {
                 leave(alone_lanes, &meshes[i]);
             }
         };
-        case.flow.real_abreast(
-            state.speeds,
-            given,
-            &settled.idle_drags,
-            self.point.tolerance,
-            work,
-            losses,
-        );
+        let task = TaskLanes {
+            speeds: state.speeds,
+            torques: given,
+            steady: &settled.idle_drags,
+            tolerance: self.point.tolerance,
+        };
+        let trail = match self.point.speeds.first() {
+            Some(speed) if following => {
+                if trails.len() == *next {
+                    trails.push(Trail::default());
+                }
+                *next += 1;
+                Some((&mut trails[*next - 1], *speed))
+            }
+            _ => None,
+        };
+        case.flow.real_abreast(&task, trail, work, losses);
         for (own, flow) in alone_lanes.iter_mut().zip(&work.alone) {
             *own |= flow;
         }
@@ -295,7 +354,8 @@ impl Row<'_> {
         for i in (0..t.components.len()).filter(resting) {
             *called += torques.len();
             let notes = Notes::MUTED;
-            ask(&t.components[i], &state, loads, one, notes, &mut components[i]);
+            let untaken = ask(&t.components[i], &state, loads, one, notes, &mut components[i]);
+            components[i].leave_unsound(untaken);
             leave(alone_lanes, &components[i]);
         }
 
@@ -321,6 +381,7 @@ impl Row<'_> {
                     own,
                     totals,
                     counted: &counted,
+                    points,
                     outside,
                     handed: &handed,
                     base,
@@ -359,7 +420,7 @@ impl Row<'_> {
                 let at = t.mesh_at(i, 0.0, work.drives[i], &state, notes.all());
                 let radius = mesh.seat.pair.working_radius[0];
                 let torques_1 = each(|lane| (tangential[i][lane] * radius).abs());
-                mesh.model.note(&at, &torques_1, notes);
+                mesh.model.note(&at, &torques_1, &meshes[i], notes);
                 gather(mesh.model.notes);
             }
         }
@@ -415,17 +476,17 @@ impl Row<'_> {
     }
 }
 
-/// Asks the model of a component for its losses in all lanes.
-fn ask(
+/// Asks the model of a component for its losses in all lanes; returns the thrust that nothing takes.
+fn ask<'a>(
     component: &crate::transmission::Component,
     state: &State<'_>,
-    loads: &[LoadLanes],
+    loads: &'a [LoadLanes],
     one: &mut [SupportLoad],
     notes: Notes<'_>,
     losses: &mut LossLanes,
-) {
+) -> &'a Lane {
     let Some(support) = component.support.map(usize::from) else {
-        return;
+        return &NONE;
     };
     let own = &loads[support];
     if !component.placed.losses(state, own, notes, losses) {
@@ -437,10 +498,7 @@ fn ask(
             losses.put(lane, component.placed.loss(&State { loads: one, ..*state }, notes));
         }
     }
-    wide(
-        #[inline(always)]
-        || losses.leave_unsound(&own.untaken),
-    );
+    &own.untaken
 }
 
 /// Lanes that a model left alone.

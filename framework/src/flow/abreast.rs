@@ -4,10 +4,11 @@
 //! turns, or that does not settle within a few passes, is left to that loop.
 
 use super::linear::{Panels, larger};
-use super::solve::{PATIENCE, REACH, SAFETY, drive};
+use super::solve::{NO_POWER, PATIENCE, REACH, SAFETY, drive};
 use super::system::{Flow, Friction, Side};
+use super::trail::Trail;
 use super::work::{Drive, Tolerance};
-use crate::lanes::{LANES, Lane, each, over, wide};
+use crate::lanes::{LANES, Lane, count, each, over, wide};
 
 /// Passes after which a lane is left alone; before, the loop for single points changes nothing in its pace.
 const FEW: usize = PATIENCE - 2;
@@ -32,6 +33,10 @@ pub struct WorkLanes {
     /// Passes over the loss models.
     pub passes: [usize; LANES],
     rolling: Vec<Lane>,
+    /// Powers of a guess: rolling powers of the meshes, then those of unknown torques of ports.
+    guess: Vec<Lane>,
+    /// The share of an error that one pass leaves.
+    rate: Lane,
     largest: Lane,
     /// What the models answered for the meshes. \[W\]
     asked: Vec<Lane>,
@@ -50,7 +55,22 @@ pub struct WorkLanes {
     step: Vec<Lane>,
     active: Vec<usize>,
     small: Vec<Lane>,
+    /// Which entries of the small system are not zero in all lanes.
+    filled: Vec<bool>,
     shares: Vec<Lane>,
+}
+
+/// What a block is to be solved for.
+#[derive(Debug, Clone, Copy)]
+pub struct TaskLanes<'a> {
+    /// Speeds of all columns. \[rad/s\]
+    pub speeds: &'a [f64],
+    /// Torques of the given ports, in their order. \[Nm\]
+    pub torques: &'a [Lane],
+    /// Torques on all columns from drags that do not hang on torque. \[Nm\]
+    pub steady: &'a [f64],
+    /// How well loads and losses must agree.
+    pub tolerance: Tolerance,
 }
 
 /// Torques at one pass, and where the caller writes the losses that follow from them.
@@ -133,6 +153,17 @@ fn same(a: &Lane, b: &Lane) -> bool {
     others == 0.0
 }
 
+/// Whether every lane surely has this driver.
+#[inline(always)]
+fn all_drive(drives: Drive, rolling: &Lane, largest: &Lane) -> bool {
+    let sure = match drives {
+        Drive::First => count(|i| rolling[i] > NO_POWER * largest[i]),
+        Drive::Second => count(|i| -rolling[i] > NO_POWER * largest[i]),
+        Drive::Neither => count(|i| rolling[i].abs() <= NO_POWER * largest[i]),
+    };
+    sure == LANES as u64
+}
+
 /// The parts of a [`Flow`] without zeros.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SparseFlow {
@@ -171,6 +202,8 @@ impl Flow {
             done: [false; LANES],
             passes: [0; LANES],
             rolling: lanes(k),
+            guess: lanes(k + self.unknown.len()),
+            rate: ZERO,
             largest: ZERO,
             asked: lanes(k),
             used: lanes(2 * k + n),
@@ -187,6 +220,7 @@ impl Flow {
             step: lanes(size),
             active: Vec::with_capacity(k),
             small: lanes(k * k),
+            filled: vec![false; k * k],
             shares: lanes(k),
         }
     }
@@ -194,34 +228,71 @@ impl Flow {
     /// As [`Flow::real`] for the points of a block: `torques` are those of the given ports in their order, in all lanes.
     pub fn real_abreast(
         &self,
-        speeds: &[f64],
-        torques: &[Lane],
-        steady: &[f64],
-        tolerance: Tolerance,
+        task: &TaskLanes<'_>,
+        trail: Option<(&mut Trail, f64)>,
         work: &mut WorkLanes,
         mut losses: impl FnMut(&mut FlowLanes<'_>),
     ) {
-        wide(
-            #[inline(always)]
-            || self.begin_abreast(speeds, torques, steady, work),
-        );
-        for pass in 1..=FEW.min(tolerance.passes) {
-            work.asked.fill(ZERO);
-            let drags = 2 * self.meshes.len();
-            work.answer[drags..].fill(ZERO);
-            losses(&mut FlowLanes {
-                multipliers: &work.multipliers,
-                drives: &work.drives,
-                ports: &work.ports,
-                done: &work.done,
-                mesh_loss: &mut work.asked,
-                drags: &mut work.answer[drags..],
-            });
+        let mut passes = 0;
+        let guessed = match trail {
+            Some((trail, at)) => {
+                let guessed = wide(
+                    #[inline(always)]
+                    || self.guess_abreast(task, trail, at, work),
+                ) && {
+                    passes = 1;
+                    self.ask_abreast(work, &mut losses);
+                    wide(
+                        #[inline(always)]
+                        || self.judge_abreast(task, trail, work),
+                    )
+                };
+                self.iterate_abreast(task, guessed, passes, work, &mut losses);
+                if work.alone.contains(&true) {
+                    trail.clear();
+                } else {
+                    if !guessed {
+                        trail.rate = Some(work.rate);
+                    }
+                    trail.push(task.torques, at, &work.drives, self.trailed(work), guessed);
+                }
+                return;
+            }
+            None => false,
+        };
+        self.iterate_abreast(task, guessed, passes, work, &mut losses);
+    }
+
+    /// Passes over models and equilibrium until they agree, after a first one from a guess or from the beginning.
+    fn iterate_abreast(
+        &self,
+        task: &TaskLanes<'_>,
+        guessed: bool,
+        before: usize,
+        work: &mut WorkLanes,
+        losses: &mut impl FnMut(&mut FlowLanes<'_>),
+    ) {
+        let settled = |work: &WorkLanes| (0..LANES).all(|i| work.done[i] || work.alone[i]);
+        if !guessed {
             wide(
                 #[inline(always)]
-                || self.pass_abreast(speeds, tolerance, work, pass),
+                || self.begin_abreast(task, work),
             );
-            if (0..LANES).all(|i| work.done[i] || work.alone[i]) {
+        }
+        let mut rated = guessed;
+        let first = usize::from(guessed) + 1;
+        let mut known = false;
+        for pass in first..=FEW.min(task.tolerance.passes) {
+            if guessed && settled(work) {
+                break;
+            }
+            self.ask_abreast(work, losses);
+            wide(
+                #[inline(always)]
+                || self.pass_abreast(task, work, (known, rated), pass + before - usize::from(guessed)),
+            );
+            (known, rated) = (true, rated || known);
+            if settled(work) {
                 break;
             }
         }
@@ -230,29 +301,123 @@ impl Flow {
         }
     }
 
+    fn ask_abreast(&self, work: &mut WorkLanes, losses: &mut impl FnMut(&mut FlowLanes<'_>)) {
+        work.asked.fill(ZERO);
+        let drags = 2 * self.meshes.len();
+        work.answer[drags..].fill(ZERO);
+        losses(&mut FlowLanes {
+            multipliers: &work.multipliers,
+            drives: &work.drives,
+            ports: &work.ports,
+            done: &work.done,
+            mesh_loss: &mut work.asked,
+            drags: &mut work.answer[drags..],
+        });
+    }
+
+    /// The torques that the models ask for, which a trail keeps: multipliers of the meshes and unknown torques of ports.
+    fn trailed<'a>(&'a self, work: &'a WorkLanes) -> impl Iterator<Item = &'a Lane> {
+        let meshes = self.meshes.iter().map(|mesh| &work.multipliers[mesh.row]);
+        meshes.chain(self.unknown.iter().map(|port| &work.ports[*port]))
+    }
+
+    /// Guesses the torques of a first pass from a trail; false where it says nothing.
     #[inline(always)]
-    fn begin_abreast(&self, speeds: &[f64], torques: &[Lane], steady: &[f64], work: &mut WorkLanes) {
+    fn guess_abreast(&self, task: &TaskLanes<'_>, trail: &mut Trail, at: f64, work: &mut WorkLanes) -> bool {
+        let weights = trail.weights(task.torques, at);
+        if weights.is_empty() {
+            return false;
+        }
+        self.prepare_abreast(task, work);
+        work.drives.copy_from_slice(&trail.drives);
         let k = self.meshes.len();
+        let mut largest = ZERO;
+        for (place, port) in (k..).zip(&self.unknown) {
+            work.ports[*port] = trail.guess(&weights, place);
+        }
+        for (speed, torque) in task.speeds.iter().zip(&work.ports) {
+            largest = each(|i| larger(largest[i], (speed * torque[i]).abs()));
+        }
+        for (mesh, row) in self.meshes.iter().enumerate() {
+            let multiplier = trail.guess(&weights, mesh);
+            let relative = work.relative[mesh][1];
+            let rolling = over(&multiplier, |multiplier| -multiplier * row.z1 * relative);
+            largest = each(|i| larger(largest[i], rolling[i].abs()));
+            work.multipliers[row.row] = multiplier;
+            work.rolling[mesh] = rolling;
+        }
+        work.largest = largest;
+        (0..k).all(|mesh| all_drive(work.drives[mesh], &work.rolling[mesh], &largest))
+    }
+
+    /// What follows a first pass from guessed torques: the equilibrium with its losses, and which lanes need no other pass. False
+    /// where a driver turned, so that the guess was none.
+    #[inline(always)]
+    fn judge_abreast(&self, task: &TaskLanes<'_>, trail: &Trail, work: &mut WorkLanes) -> bool {
+        let k = self.meshes.len();
+        work.answers();
+        work.used.copy_from_slice(&work.answer);
+        work.used_before.copy_from_slice(&work.answer);
+        work.answer_before.copy_from_slice(&work.answer);
+        for (guess, rolling) in work.guess.iter_mut().zip(&work.rolling) {
+            *guess = *rolling;
+        }
+        for (guess, port) in work.guess[k..].iter_mut().zip(&self.unknown) {
+            *guess = over(&work.ports[*port], |torque| torque * task.speeds[*port]);
+        }
+        self.solve_abreast(task.speeds, work, &[true; LANES]);
+        let mut moved = ZERO;
+        for (rolling, guess) in work.rolling.iter().zip(&work.guess) {
+            moved = each(|i| larger(moved[i], (rolling[i] - guess[i]).abs()));
+        }
+        for (port, guess) in self.unknown.iter().zip(&work.guess[k..]) {
+            let (speed, torque) = (task.speeds[*port], &work.ports[*port]);
+            moved = each(|i| larger(moved[i], (torque[i] * speed - guess[i]).abs()));
+        }
+        work.rate = trail.rate.unwrap_or(Lane::all(1.0));
+        let rate = &work.rate;
+        let left = each(|i| moved[i] * rate[i] / larger(1e-3, 1.0 - rate[i]));
+        for i in 0..LANES {
+            work.done[i] = left[i] <= SAFETY * task.tolerance.power * work.largest[i];
+        }
+        work.passes = [1; LANES];
+        (0..k).all(|mesh| {
+            let drives = work.drives[mesh];
+            let agrees = |i: usize| work.alone[i] || drive(work.rolling[mesh][i], work.largest[i]) == drives;
+            all_drive(drives, &work.rolling[mesh], &work.largest) || (0..LANES).all(agrees)
+        })
+    }
+
+    /// What is given, for any first pass.
+    #[inline(always)]
+    fn prepare_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
         work.alone = [false; LANES];
         work.done = [false; LANES];
-        work.used.fill(ZERO);
-        // What an earlier block left there may be no number.
-        work.used_before.fill(ZERO);
-        work.answer_before.fill(ZERO);
-        for (e, steady) in (2 * k..).zip(steady) {
-            for losses in [&mut work.used, &mut work.used_before, &mut work.answer_before] {
-                losses[e] = Lane::all(*steady);
-            }
-        }
         work.ports.fill(ZERO);
-        for (port, torque) in self.given.iter().zip(torques) {
+        for (port, torque) in self.given.iter().zip(task.torques) {
             work.ports[*port] = each(|i| work.ports[*port][i] + torque[i]);
         }
         work.applied.fill(ZERO);
         work.applied[..self.columns].copy_from_slice(&work.ports);
-        self.relative(speeds, &mut work.relative);
+        self.relative(task.speeds, &mut work.relative);
+    }
+
+    #[inline(always)]
+    fn begin_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
+        let k = self.meshes.len();
+        self.prepare_abreast(task, work);
+        work.rate = Lane::all(1.0);
+        work.used.fill(ZERO);
+        // What an earlier block left there may be no number.
+        work.used_before.fill(ZERO);
+        work.answer_before.fill(ZERO);
+        for (e, steady) in (2 * k..).zip(task.steady) {
+            for losses in [&mut work.used, &mut work.used_before, &mut work.answer_before] {
+                losses[e] = Lane::all(*steady);
+            }
+        }
         work.drives.fill(Drive::Neither);
-        self.solve_abreast(speeds, work, &[false; LANES]);
+        self.solve_abreast(task.speeds, work, &[false; LANES]);
         // The drivers of the point with the greatest power are those of most.
         let sound = (0..LANES).filter(|i| !work.alone[*i]);
         let most = sound.max_by(|a, b| work.largest[*a].total_cmp(&work.largest[*b]));
@@ -260,8 +425,10 @@ impl Flow {
         for mesh in 0..k {
             let drives = |i: usize| drive(work.rolling[mesh][i], work.largest[i]);
             work.drives[mesh] = drives(first);
-            for i in 0..LANES {
-                work.alone[i] |= drives(i) != work.drives[mesh];
+            if !all_drive(work.drives[mesh], &work.rolling[mesh], &work.largest) {
+                for i in 0..LANES {
+                    work.alone[i] |= drives(i) != work.drives[mesh];
+                }
             }
             if work.drives[mesh] == Drive::Neither {
                 work.rolling[mesh] = ZERO;
@@ -271,27 +438,10 @@ impl Flow {
 
     /// What follows the answers of the models in one pass.
     #[inline(always)]
-    fn pass_abreast(&self, speeds: &[f64], tolerance: Tolerance, work: &mut WorkLanes, pass: usize) {
+    fn pass_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes, (known, rated): (bool, bool), pass: usize) {
+        let &TaskLanes { speeds, tolerance, .. } = task;
         let k = self.meshes.len();
-        for mesh in 0..k {
-            let (loss, rolling) = (&work.asked[mesh], &work.rolling[mesh]);
-            let proportional = |i: usize| loss[i] > 0.0 && loss[i] < 0.5 * rolling[i].abs();
-            work.answer[mesh] = each(|i| {
-                if proportional(i) {
-                    loss[i] / rolling[i].abs()
-                } else {
-                    0.0
-                }
-            });
-            work.answer[k + mesh] = each(|i| if proportional(i) { 0.0 } else { loss[i].max(0.0) });
-        }
-        let mut total = ZERO;
-        for answer in work.asked.iter().chain(&work.answer[2 * k..]) {
-            total = each(|i| total[i] + answer[i].abs());
-        }
-        for i in 0..LANES {
-            work.alone[i] |= !total[i].is_finite();
-        }
+        work.answers();
         for (weight, rolling) in work.weights.iter_mut().zip(&work.rolling) {
             *weight = over(rolling, f64::abs);
         }
@@ -312,10 +462,25 @@ impl Flow {
             let own = work.mismatch(e);
             mismatch = each(|i| larger(mismatch[i], own[i].abs()));
         }
-        let known = pass > 1;
-        let left = if known { work.remaining() } else { mismatch };
+        let left = if known {
+            work.remaining()
+        } else {
+            let rate = &work.rate;
+            each(|i| mismatch[i] * rate[i] / larger(1e-3, 1.0 - rate[i]))
+        };
+        if known && !rated {
+            // The rate with which the last step would leave the same.
+            work.rate = each(|i| {
+                if left[i] > 0.0 {
+                    left[i] / (left[i] + mismatch[i])
+                } else {
+                    0.0
+                }
+            });
+        }
+        let judged = known || rated;
         let last: [bool; LANES] =
-            std::array::from_fn(|i| work.done[i] || known && left[i] <= SAFETY * tolerance.power * work.largest[i]);
+            std::array::from_fn(|i| work.done[i] || judged && left[i] <= SAFETY * tolerance.power * work.largest[i]);
         let back = if known { work.secant() } else { ZERO };
         let back = each(|i| if last[i] { 0.0 } else { back[i] });
         work.advance(&back, 2 * k);
@@ -370,17 +535,20 @@ impl Flow {
                 self.sparse.sides[mesh][side].0.add(&lost, &mut work.right);
             }
             self.step_abreast(work);
+            let all = !kept.contains(&false);
             for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
-                *unknown = each(|i| if kept[i] { unknown[i] + step[i] } else { unknown[i] });
+                *unknown = if all {
+                    each(|i| unknown[i] + step[i])
+                } else {
+                    each(|i| if kept[i] { unknown[i] + step[i] } else { unknown[i] })
+                };
             }
         }
         let mut total = ZERO;
         for unknown in &work.unknown {
             total = each(|i| total[i] + unknown[i].abs());
         }
-        for i in 0..LANES {
-            work.alone[i] |= !total[i].is_finite();
-        }
+        work.leave_infinite(&total);
         for ((multiplier, x), scale) in work.multipliers.iter_mut().zip(&work.unknown).zip(&self.scale) {
             *multiplier = over(x, |x| x * scale);
         }
@@ -421,29 +589,39 @@ impl Flow {
             let share = &work.used[mesh];
             for (i, &other) in work.active.iter().enumerate() {
                 let one = if i == j { 1.0 } else { 0.0 };
+                work.filled[j * n + i] = i == j || coupling[other] != 0.0;
                 work.small[j * n + i] = over(share, |share| coupling[other] * share + one);
             }
         }
+        let filled = &mut work.filled;
         for column in 0..n {
             let pivot = work.small[column * n + column];
-            for row in column + 1..n {
+            let mut most = Lane::all(1e-13);
+            for row in (column + 1..n).filter(|row| filled[column * n + row]) {
                 let other = &work.small[column * n + row];
-                for i in 0..LANES {
-                    work.alone[i] |= other[i].abs() > pivot[i].abs();
-                }
+                most = each(|i| larger(most[i], other[i].abs()));
             }
-            for i in 0..LANES {
-                work.alone[i] |= pivot[i].abs() < 1e-13;
+            if count(|i| pivot[i].abs() < most[i]) > 0 {
+                for i in 0..LANES {
+                    work.alone[i] |= pivot[i].abs() < most[i];
+                }
             }
             let inverse = over(&pivot, |pivot| 1.0 / pivot);
             work.small[column * n + column] = inverse;
-            for row in column + 1..n {
+            for row in (column + 1..n).filter(|row| filled[column * n + row]) {
                 let own = &mut work.small[column * n + row];
                 *own = each(|i| own[i] * inverse[i]);
             }
             for later in column + 1..n {
+                if !filled[later * n + column] {
+                    continue;
+                }
                 let upper = work.small[later * n + column];
                 for row in column + 1..n {
+                    if !filled[column * n + row] {
+                        continue;
+                    }
+                    filled[later * n + row] = true;
                     let lower = work.small[column * n + row];
                     let entry = &mut work.small[later * n + row];
                     *entry = each(|i| entry[i] - lower[i] * upper[i]);
@@ -459,10 +637,10 @@ impl Flow {
         for (share, &mesh) in work.shares.iter_mut().zip(&work.active) {
             *share = work.step[self.friction[mesh].row];
         }
-        let (factors, x) = (&work.small, &mut work.shares);
+        let (factors, filled, x) = (&work.small, &work.filled, &mut work.shares);
         for column in 0..n {
             let own = x[column];
-            for row in column + 1..n {
+            for row in (column + 1..n).filter(|row| filled[column * n + row]) {
                 let factor = &factors[column * n + row];
                 x[row] = each(|i| x[row][i] - factor[i] * own[i]);
             }
@@ -471,7 +649,7 @@ impl Flow {
             let inverse = &factors[column * n + column];
             x[column] = each(|i| x[column][i] * inverse[i]);
             let own = x[column];
-            for row in 0..column {
+            for row in (0..column).filter(|row| filled[column * n + row]) {
                 let factor = &factors[column * n + row];
                 x[row] = each(|i| x[row][i] - factor[i] * own[i]);
             }
@@ -486,9 +664,44 @@ impl Flow {
 }
 
 impl WorkLanes {
+    /// The entries of the losses from what the models said.
+    #[inline(always)]
+    fn answers(&mut self) {
+        let k = self.asked.len();
+        for mesh in 0..k {
+            let (loss, rolling) = (&self.asked[mesh], &self.rolling[mesh]);
+            let proportional = |i: usize| loss[i] > 0.0 && loss[i] < 0.5 * rolling[i].abs();
+            self.answer[mesh] = each(|i| {
+                if proportional(i) {
+                    loss[i] / rolling[i].abs()
+                } else {
+                    0.0
+                }
+            });
+            self.answer[k + mesh] = each(|i| if proportional(i) { 0.0 } else { loss[i].max(0.0) });
+        }
+        let mut total = ZERO;
+        for answer in self.asked.iter().chain(&self.answer[2 * k..]) {
+            total = each(|i| total[i] + answer[i].abs());
+        }
+        self.leave_infinite(&total);
+    }
+
+    #[inline(always)]
+    fn leave_infinite(&mut self, total: &Lane) {
+        if count(|i| !total[i].is_finite()) > 0 {
+            for i in 0..LANES {
+                self.alone[i] |= !total[i].is_finite();
+            }
+        }
+    }
+
     /// Leaves the lanes in which the driver of a mesh is not the common one. One that had no torque may get its driver.
     #[inline(always)]
     fn turn(&mut self, mesh: usize, meshes: usize) {
+        if all_drive(self.drives[mesh], &self.rolling[mesh], &self.largest) {
+            return;
+        }
         let now: [Drive; LANES] = std::array::from_fn(|i| drive(self.rolling[mesh][i], self.largest[i]));
         if self.drives[mesh] != Drive::Neither {
             for i in 0..LANES {

@@ -5,7 +5,7 @@ use super::system::Flow;
 use super::work::{Drive, FlowState, Outcome, Tolerance, Work};
 
 /// A rolling power below this of the largest internal power has no direction.
-const NO_POWER: f64 = 1e-13;
+pub(super) const NO_POWER: f64 = 1e-13;
 /// A driver that turns more often than this belongs to a train that may lock itself.
 const TURNS: u8 = 4;
 /// Passes without progress after which steps are halved.

@@ -77,20 +77,35 @@ pub fn ln(x: f64) -> f64 {
     if x < f64::INFINITY { value } else { x }
 }
 
-/// The cube root of a number that is not negative, to about 1e-14 of it where it is of a size that occurs: the error grows with
-/// the logarithm.
+/// The cube root of a number that is not negative, to about 3e-16 of it.
+///
+/// The inverse root y is found by Newton's way from a first guess in the bits, whose upper half is nearly a logarithm, and the
+/// root is improved once more. Nothing is divided.
 #[inline(always)]
 pub fn cube_root(x: f64) -> f64 {
-    exp(ln(x) * (1.0 / 3.0))
+    /// 2^52: the whole numbers below it, added, stand in its lowest bits.
+    const WHOLE: f64 = 4_503_599_627_370_496.0;
+    /// Four thirds of the exponent of one, less what makes the greatest error least, which is 3.4 %.
+    const FIRST: f64 = 1_430_257_664.0 - 69_000.0;
+    let upper = f64::from_bits((x.to_bits() >> 32) | WHOLE.to_bits()) - WHOLE;
+    let mut y = f64::from_bits((FIRST - upper * (1.0 / 3.0) + WHOLE).to_bits() << 32);
+    // 3.4e-2, 2.4e-3, 1.1e-5, 2.5e-10.
+    let mut pass = 0;
+    while pass < 3 {
+        y += y * (1.0 - x * y * y * y) * (1.0 / 3.0);
+        pass += 1;
+    }
+    let square = y * y;
+    let root = x * square;
+    let root = root - (root * root * root - x) * square * (1.0 / 3.0);
+    if x < f64::INFINITY { root } else { x }
 }
 
-/// The sine of an angle of at most one right angle to either side, to about 3e-16.
+/// The sine of an angle of at most 45 deg to either side, to about 3e-16.
 #[inline(always)]
 pub fn sine(x: f64) -> f64 {
-    // (-1)^n/(2n + 1)! for n = 9 down to 1.
-    const TERMS: [f64; 9] = [
-        -1.0 / 121_645_100_408_832_000.0,
-        1.0 / 355_687_428_096_000.0,
+    // (-1)^n/(2n + 1)! for n = 7 down to 1; the next term is below 1e-16 of the sine.
+    const TERMS: [f64; 7] = [
         -1.0 / 1_307_674_368_000.0,
         1.0 / 6_227_020_800.0,
         -1.0 / 39_916_800.0,
@@ -155,11 +170,8 @@ mod tests {
     fn the_cube_root_and_the_sine_agree_with_the_standard_library() {
         for i in -900..=900 {
             let x = 10.0_f64.powf(f64::from(i) / 3.1);
-            assert!(
-                (cube_root(x) / x.cbrt() - 1.0).abs() < 1e-15 + 3e-16 * x.ln().abs(),
-                "{x:e}"
-            );
-            let angle = f64::from(i) * 1.745e-3;
+            assert!((cube_root(x) / x.cbrt() - 1.0).abs() < 4e-16, "{x:e}");
+            let angle = f64::from(i) * 8.72e-4;
             assert!((sine(angle) - angle.sin()).abs() <= 3e-16, "{angle}");
         }
         assert_eq!((cube_root(0.0), cube_root(f64::INFINITY)), (0.0, f64::INFINITY));

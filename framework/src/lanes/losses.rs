@@ -1,6 +1,6 @@
 //! The losses of one part in all lanes.
 
-use super::{LANES, Lane, each, over};
+use super::{LANES, Lane, count, each, over};
 use crate::loss::{Loss, MOST_TERMS, Measure, Term, Undefined};
 
 /// The losses of one part in all lanes: what [`Loss`] is for a point.
@@ -10,7 +10,10 @@ pub struct LossLanes {
     /// False while no answer has said the measure.
     measured: bool,
     values: [Lane; MOST_TERMS],
+    /// Terms that have values; what stands in the others counts for nothing.
     terms: usize,
+    /// What the model wants again where it notes.
+    kept: Lane,
     alone: [bool; LANES],
     wanted: [bool; LANES],
 }
@@ -22,6 +25,7 @@ impl LossLanes {
         measured: false,
         values: [Lane::all(0.0); MOST_TERMS],
         terms: 0,
+        kept: Lane::ZERO,
         alone: [false; LANES],
         wanted: [true; LANES],
     };
@@ -31,7 +35,6 @@ impl LossLanes {
     pub fn begin(&mut self, like: &Loss) {
         self.measure = like.measure();
         self.measured = true;
-        self.values[..self.terms].fill(Lane::all(0.0));
         self.terms = 0;
         self.alone = [false; LANES];
     }
@@ -39,9 +42,32 @@ impl LossLanes {
     /// Adds to a term: N m for moments, W for powers.
     #[inline(always)]
     pub fn add(&mut self, term: &Term, value: &Lane) {
-        self.terms = self.terms.max(term.index + 1);
-        for (sum, value) in self.values[term.index].iter_mut().zip(value.iter()) {
-            *sum += value;
+        if term.index < self.terms {
+            let sum = &mut self.values[term.index];
+            *sum = each(|i| sum[i] + value[i]);
+        } else {
+            self.grow(term.index);
+            self.values[term.index] = *value;
+            self.terms = term.index + 1;
+        }
+    }
+
+    /// Keeps a number of each lane for the time when the model notes at the same loads.
+    pub fn keep(&mut self, numbers: &Lane) {
+        self.kept = *numbers;
+    }
+
+    /// What was kept last.
+    pub fn kept(&self) -> &Lane {
+        &self.kept
+    }
+
+    /// Makes room for some terms, which are zero.
+    #[inline(always)]
+    fn grow(&mut self, terms: usize) {
+        while self.terms < terms {
+            self.values[self.terms] = Lane::ZERO;
+            self.terms += 1;
         }
     }
 
@@ -73,9 +99,11 @@ impl LossLanes {
         for term in 0..MOST_TERMS {
             let value = if self.alone[lane] { 0.0 } else { loss.value(term) };
             if value != 0.0 {
-                self.terms = self.terms.max(term + 1);
+                self.grow(term + 1);
             }
-            self.values[term][lane] = value;
+            if term < self.terms {
+                self.values[term][lane] = value;
+            }
         }
     }
 
@@ -108,6 +136,9 @@ impl LossLanes {
     /// Powers of one term at a relative speed in rad/s. \[W\]
     #[inline(always)]
     pub fn watts(&self, term: usize, speed: f64) -> Lane {
+        if term >= self.terms {
+            return Lane::ZERO;
+        }
         let factor = match self.measure {
             Measure::Moment => speed.abs(),
             Measure::Power => 1.0,
@@ -138,8 +169,11 @@ impl LossLanes {
 
     #[inline(always)]
     fn sum(&self) -> Lane {
-        let mut total = Lane::all(0.0);
-        for values in &self.values[..self.terms] {
+        let Some((first, others)) = self.values[..self.terms].split_first() else {
+            return Lane::ZERO;
+        };
+        let mut total = *first;
+        for values in others {
             total = each(|i| total[i] + values[i]);
         }
         total
@@ -154,9 +188,12 @@ impl LossLanes {
             // What is no number passes by here and stands in the sum.
             least = each(|i| if values[i] < least[i] { values[i] } else { least[i] });
         }
+        let sound = |i: usize| least[i] >= 0.0 && sum[i] < f64::INFINITY && (untaken[i] == 0.0 || sum[i] <= 0.0);
+        if count(sound) == LANES as u64 {
+            return;
+        }
         for i in 0..LANES {
-            let sound = least[i] >= 0.0 && sum[i] < f64::INFINITY && (untaken[i] == 0.0 || sum[i] <= 0.0);
-            if !sound {
+            if !sound(i) {
                 self.alone[i] = true;
                 // Or torques of this lane would be no numbers, at which no model is asked.
                 for values in &mut self.values[..self.terms] {

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::{LANES, Lane};
+use super::{LANES, Lane, count, each, wide};
 use crate::loss::{Extent, Limit, NoteBase, Notes, Observed};
 
 /// Where one model instance notes what it sees in the lanes of a block: what is the same in all of them, what a loop over the
@@ -13,8 +13,9 @@ pub struct LaneNotes<'a> {
     /// Cells of each lane, one lane after the other.
     pub(crate) own: &'a [Cell<Extent>],
     pub(crate) totals: &'a [Cell<Extent>],
-    /// Lanes that count.
+    /// Lanes that count, and how many.
     pub(crate) counted: &'a [bool; LANES],
+    pub(crate) points: u32,
     pub(crate) outside: &'a [Cell<bool>; LANES],
     /// Set where cells of lanes were handed out.
     pub(crate) handed: &'a Cell<bool>,
@@ -48,6 +49,7 @@ pub(crate) fn same_notes(
         own,
         totals,
         counted: &[true; LANES],
+        points: LANES as u32,
         outside: &std::array::from_fn(|_| Cell::new(false)),
         handed: &Cell::new(false),
         base,
@@ -90,53 +92,93 @@ impl<'a> LaneNotes<'a> {
     /// limit in a block.
     #[inline]
     pub fn check(&self, limit: &Limit, least: &Lane, greatest: &Lane) {
-        self.see(self.base.limits + limit.index, least, greatest, &[true; LANES], |x| {
-            x >= limit.least && x <= limit.greatest
-        });
+        self.see(self.base.limits + limit.index, least, greatest, Some(limit));
     }
 
     /// The same for one value in each of some lanes.
     #[inline]
     pub fn check_where(&self, limit: &Limit, values: &Lane, lanes: &[bool; LANES]) {
-        self.see(self.base.limits + limit.index, values, values, lanes, |x| {
-            x >= limit.least && x <= limit.greatest
-        });
+        let Some(cell) = self.totals.get(self.base.limits + limit.index) else {
+            return;
+        };
+        for i in (0..LANES).filter(|i| lanes[*i] && self.counted[*i]) {
+            let out = !(values[i] >= limit.least && values[i] <= limit.greatest);
+            cell.set(cell.get().merge(Extent::point(values[i], values[i], out)));
+            if out {
+                self.outside[i].set(true);
+            }
+        }
     }
 
     /// Notes the least and the greatest value of an observed quantity in each lane, in its unit. Once for a quantity in a block.
     #[inline]
     pub fn observe(&self, observed: &Observed, least: &Lane, greatest: &Lane) {
-        self.see(
-            self.base.observed + observed.index,
-            least,
-            greatest,
-            &[true; LANES],
-            |_| true,
-        );
+        self.see(self.base.observed + observed.index, least, greatest, None);
     }
 
-    /// True where values from the least to the greatest of any lane that counts go beyond what was seen of an observed quantity.
-    pub fn widens(&self, observed: &Observed, least: &Lane, greatest: &Lane) -> bool {
-        let Some(cell) = self.totals.get(self.base.observed + observed.index) else {
-            return false;
-        };
-        let seen = cell.get();
-        (0..LANES).any(|i| self.counted[i] && !(least[i] >= seen.least && greatest[i] <= seen.greatest))
+    /// The least and the greatest value of an observed quantity so far, over all blocks.
+    pub fn seen(&self, observed: &Observed) -> (f64, f64) {
+        let cell = self.totals.get(self.base.observed + observed.index);
+        let seen = cell.map_or(Extent::EMPTY, Cell::get);
+        (seen.least, seen.greatest)
     }
 
-    #[inline(always)]
-    fn see(&self, cell: usize, least: &Lane, greatest: &Lane, lanes: &[bool; LANES], inside: impl Fn(f64) -> bool) {
+    /// Notes values of an observed quantity that lie within what was seen so far.
+    pub fn observe_within(&self, observed: &Observed) {
+        let (least, greatest) = self.seen(observed);
+        self.observe(observed, &Lane::all(least), &Lane::all(greatest));
+    }
+
+    fn see(&self, cell: usize, least: &Lane, greatest: &Lane, limit: Option<&Limit>) {
         let Some(cell) = self.totals.get(cell) else { return };
-        let mut total = cell.get();
-        for i in 0..LANES {
-            if self.counted[i] && lanes[i] {
-                let out = !(inside(least[i]) && inside(greatest[i]));
-                total = total.merge(Extent::point(least[i], greatest[i], out));
-                if out {
-                    self.outside[i].set(true);
+        let (low, high) = limit.map_or((f64::NEG_INFINITY, f64::INFINITY), |limit| {
+            (limit.least, limit.greatest)
+        });
+        // Only of a limit can what is no number be outside.
+        let inside = |x: f64| {
+            if limit.is_some() { x >= low && x <= high } else { true }
+        };
+        let counted = self.counted;
+        let out = |i: usize| counted[i] && !(inside(least[i]) && inside(greatest[i]));
+        let (seen, outside) = wide(
+            #[inline(always)]
+            || {
+                let (mut lowest, mut highest) = extremes(least, counted);
+                if !std::ptr::eq(least, greatest) {
+                    let others = extremes(greatest, counted);
+                    (lowest, highest) = (lowest.min(others.0), highest.max(others.1));
                 }
+                ((lowest, highest), count(out))
+            },
+        );
+        cell.set(cell.get().merge(Extent {
+            least: seen.0,
+            greatest: seen.1,
+            seen: self.points,
+            outside: outside as u32,
+        }));
+        if outside > 0 {
+            for i in (0..LANES).filter(|i| out(*i)) {
+                self.outside[i].set(true);
             }
         }
-        cell.set(total);
     }
+}
+
+/// The least and the greatest number of the lanes that count; what is no number passes by.
+#[inline(always)]
+fn extremes(lane: &Lane, counted: &[bool; LANES]) -> (f64, f64) {
+    let take = |i: usize| counted[i] && !lane[i].is_nan();
+    let mut least = each(|i| if take(i) { lane[i] } else { f64::INFINITY });
+    let mut greatest = each(|i| if take(i) { lane[i] } else { f64::NEG_INFINITY });
+    let mut half = LANES / 2;
+    while half > 0 {
+        for i in 0..half {
+            let (low, high) = (least[i + half], greatest[i + half]);
+            least[i] = if low < least[i] { low } else { least[i] };
+            greatest[i] = if high > greatest[i] { high } else { greatest[i] };
+        }
+        half /= 2;
+    }
+    (least[0], greatest[0])
 }

@@ -53,7 +53,11 @@ impl Component {
         let mut sum = Lane::all(self.always);
         for (mesh, signed, magnitude) in &self.meshes {
             let force = &tangential[*mesh];
-            sum = each(|i| sum[i] + force[i] * signed + force[i].abs() * magnitude);
+            sum = if *magnitude == 0.0 {
+                each(|i| sum[i] + force[i] * signed)
+            } else {
+                each(|i| sum[i] + force[i] * signed + force[i].abs() * magnitude)
+            };
         }
         for (carrier, part) in &self.planets {
             let factor = speeds[*carrier].powi(2);

@@ -37,8 +37,8 @@ pub trait GearMeshModel: Send + Sync {
         one_by_one(self, at, torques, losses);
     }
 
-    /// Notes what [`loss`](Self::loss) notes at these torques.
-    fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, notes: LaneNotes<'_>) {
+    /// Notes what [`loss`](Self::loss) notes at these torques, for which [`losses`](Self::losses) was asked last.
+    fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, _losses: &LossLanes, notes: LaneNotes<'_>) {
         note_one_by_one(self, at, torques, notes);
     }
 }
@@ -323,7 +323,9 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
         let single = |lane: usize, notes: Notes<'_>| {
             let _ = of(lane, notes);
         };
-        let together = |notes: LaneNotes<'_>| model.note(&without.with(|to| to.notes = notes.all()), &torques, notes);
+        let together = |notes: LaneNotes<'_>| {
+            model.note(&without.with(|to| to.notes = notes.all()), &torques, &losses, notes);
+        };
         (!same_notes(notes, single, together)).then_some("`note` notes otherwise than `loss`")
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {

@@ -3,7 +3,7 @@
 //! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is kept); M1 = f1 P1^a dm^b with
 //! f1 = z (P0/C0)^y; M2 = f2 Fa dm of cylindrical rollers under axial load.
 
-use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, each, exp, ln, wide};
+use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, each, exp, ln, over, wide};
 use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -190,12 +190,22 @@ impl BearingModel for Palmgren {
         wide(
             #[inline(always)]
             || {
-                let load = each(|i| {
-                    let (fr, fa) = (loads.radial[i], loads.axial[i]);
-                    let (p0, p1) = self.law.rule.equivalent(fr, fa);
-                    let m2 = if self.flanged && fa > 0.0 { self.m2(fa) } else { 0.0 };
-                    (self.m1(self.f1(p0), p1) + m2).nmm_in_nm()
-                });
+                let (p0, p1) = self.law.rule.lanes(&loads.radial, &loads.axial);
+                let f1 = over(
+                    &p0,
+                    #[inline(always)]
+                    |p0| self.f1(p0),
+                );
+                let m1 = each(
+                    #[inline(always)]
+                    |i| self.m1(f1[i], p1[i]),
+                );
+                let fa = &loads.axial;
+                let load = if self.flanged {
+                    each(|i| (m1[i] + if fa[i] > 0.0 { self.m2(fa[i]) } else { 0.0 }).nmm_in_nm())
+                } else {
+                    over(&m1, ShopUnits::nmm_in_nm)
+                };
                 losses.begin(&Loss::MOMENTS);
                 losses.add(&LOAD, &load);
                 losses.add(&NO_LOAD, &Lane::all(m0.nmm_in_nm()));
@@ -204,7 +214,10 @@ impl BearingModel for Palmgren {
     }
 
     fn note(&self, _at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
-        let p1 = each(|i| self.law.rule.equivalent(loads.radial[i], loads.axial[i]).1);
+        let (_, p1) = wide(
+            #[inline(always)]
+            || self.law.rule.lanes(&loads.radial, &loads.axial),
+        );
         notes.observe(&P1, &p1, &p1);
         if self.spherical_thrust {
             let ratios = each(|i| ratio(loads.radial[i], loads.axial[i]));

@@ -1,5 +1,6 @@
 //! Factors f0 and f1 by kind, series and lubrication: SKF General Catalogue 1994, in the form of ISO/TR 14179-2.
 
+use gearloss_framework::lanes::{LANES, Lane};
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart, Lubrication};
 
 /// What is missing, and what the user can write.
@@ -65,6 +66,31 @@ impl Rule {
             Self::Roller { k_cot } => (fr, k_cot * fa),
         };
         (p0, p1.max(fr))
+    }
+
+    /// The same in all lanes.
+    #[inline(always)]
+    pub fn lanes(self, fr: &Lane, fa: &Lane) -> (Lane, Lane) {
+        #[inline(always)]
+        fn each(rule: Rule, fr: &Lane, fa: &Lane) -> (Lane, Lane) {
+            let (mut p0, mut p1) = (Lane::ZERO, Lane::ZERO);
+            for i in 0..LANES {
+                (p0[i], p1[i]) = rule.equivalent(fr[i], fa[i]);
+            }
+            (p0, p1)
+        }
+        // Each rule has a loop of its own, without the choice between them.
+        match self {
+            Self::DeepGroove { k } => each(Self::DeepGroove { k }, fr, fa),
+            Self::Angular { y0 } => each(Self::Angular { y0 }, fr, fa),
+            Self::TwoRows { k, y0 } => each(Self::TwoRows { k, y0 }, fr, fa),
+            Self::Radial => each(Self::Radial, fr, fa),
+            Self::Tapered { y } => each(Self::Tapered { y }, fr, fa),
+            Self::Thrust => each(Self::Thrust, fr, fa),
+            Self::Ball { k_cot, y0 } => each(Self::Ball { k_cot, y0 }, fr, fa),
+            Self::Roller { k_cot } => each(Self::Roller { k_cot }, fr, fa),
+            other => each(other, fr, fa),
+        }
     }
 }
 

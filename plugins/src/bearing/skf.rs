@@ -14,7 +14,7 @@ mod rows;
 
 use drag::{Bath, Body, Depth, Drag};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, over, wide};
+use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, count, over, wide};
 use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -264,6 +264,22 @@ fn drag_of(params: &Skf, part: &BearingPart, row: &rows::Row) -> Result<Option<D
 }
 
 impl Model {
+    fn check_speeds(&self, at: &BearingAt<'_>, n: f64) {
+        at.check(&SPEED, n * self.d_m);
+        if at.outer_speed != 0.0 {
+            at.check(&OUTER, at.outer_speed.abs().rpm());
+        }
+    }
+
+    fn check_viscosity(&self, at: &BearingAt<'_>) {
+        let Some(law) = &self.drag else { return };
+        match law.depth(at.oil_height.mm(), 0.5 * at.part.outside.mm()) {
+            Depth::Low => at.check(&VISCOSITY, at.nu.mm2_s()),
+            Depth::Deep => at.check(&VISCOSITY_DEEP, at.nu.mm2_s()),
+            Depth::None => return,
+        };
+    }
+
     /// What hangs on speed and oil alone; the speed in 1/min, not zero.
     fn moments(&self, at: &BearingAt<'_>, n: f64) -> Moments {
         let nu = at.nu.mm2_s();
@@ -286,7 +302,7 @@ impl Model {
             phi_ish,
             phi_rs,
             phi_bl,
-            viscous,
+            rolling: phi_ish * phi_rs * viscous,
             mu_sl: phi_bl * mu_bl + (1.0 - phi_bl) * mu_ehl,
             drag,
         }
@@ -312,10 +328,7 @@ impl BearingModel for Model {
         let (g_rr, g_sl) = self.variables.at(fr, fa, n, nu, self.blend);
         at.show("G_rr", "-", g_rr);
         at.show("G_sl", "-", g_sl);
-        at.check(&SPEED, n * self.d_m);
-        if at.outer_speed != 0.0 {
-            at.check(&OUTER, at.outer_speed.abs().rpm());
-        }
+        self.check_speeds(at, n);
         let seals = self.seals.nmm_in_nm();
         if n == 0.0 {
             at.branch("at rest: starting friction");
@@ -323,71 +336,68 @@ impl BearingModel for Model {
                 .with(&SLIDING, (MU_START * g_sl).nmm_in_nm())
                 .with(&SEAL, seals));
         }
-        let height = at.oil_height.mm();
         let moments = self.moments(at, n);
         at.observe(&PHI_BL, moments.phi_bl);
         at.observe(&MU_SL, moments.mu_sl);
         at.show("phi_ish", "-", moments.phi_ish);
         at.show("phi_rs", "-", moments.phi_rs);
-        let m_rr = at.show("M_rr", "N mm", moments.rolling(g_rr));
-        let m_sl = at.show("M_sl", "N mm", moments.sliding(g_sl));
+        let m_rr = at.show("M_rr", "N mm", moments.rolling * g_rr);
+        let m_sl = at.show("M_sl", "N mm", moments.mu_sl * g_sl);
         let loss = Loss::MOMENTS
             .with(&ROLLING, m_rr.nmm_in_nm())
             .with(&SLIDING, m_sl.nmm_in_nm())
             .with(&SEAL, seals);
-        Ok(match &self.drag {
-            Some(law) => {
-                at.show("H", "mm", height);
-                match law.depth(height, 0.5 * at.part.outside.mm()) {
-                    Depth::Low => at.check(&VISCOSITY, nu),
-                    Depth::Deep => at.check(&VISCOSITY_DEEP, nu),
-                    Depth::None => nu,
-                };
-                if n > self.fastest {
-                    at.branch("n d_m above 0.5e6: the speed of the drag is held there");
-                }
-                loss.with(&DRAG, at.show("M_drag", "N mm", moments.drag).nmm_in_nm())
-            }
-            None => loss,
-        })
+        if self.drag.is_none() {
+            return Ok(loss);
+        }
+        at.show("H", "mm", at.oil_height.mm());
+        self.check_viscosity(at);
+        if n > self.fastest {
+            at.branch("n d_m above 0.5e6: the speed of the drag is held there");
+        }
+        Ok(loss.with(&DRAG, at.show("M_drag", "N mm", moments.drag).nmm_in_nm()))
     }
 
     fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
         let n = at.speed.abs().rpm();
-        let variables = if n == 0.0 {
-            None
-        } else {
-            wide(
-                #[inline(always)]
-                || self.variables.lanes(&loads.radial, &loads.axial, self.blend),
-            )
-        };
-        let Some((g_rr, g_sl)) = variables else {
+        if n == 0.0 || !self.variables.in_lanes() {
             return one_by_one(self, at, loads, losses);
-        };
+        }
         let moments = self.moments(at, n);
         wide(
             #[inline(always)]
             || {
+                let (g_rr, g_sl) = self.variables.lanes(&loads.radial, &loads.axial, self.blend);
                 losses.begin(&Loss::MOMENTS);
-                losses.add(&ROLLING, &over(&g_rr, |g| moments.rolling(g).nmm_in_nm()));
-                losses.add(&SLIDING, &over(&g_sl, |g| moments.sliding(g).nmm_in_nm()));
-                losses.add(&SEAL, &Lane::all(self.seals.nmm_in_nm()));
-                if self.drag.is_some() {
-                    losses.add(&DRAG, &Lane::all(moments.drag.nmm_in_nm()));
+                losses.add(&ROLLING, &over(&g_rr, |g| (moments.rolling * g).nmm_in_nm()));
+                losses.add(&SLIDING, &over(&g_sl, |g| (moments.mu_sl * g).nmm_in_nm()));
+                for (term, moment) in [(&DRAG, moments.drag), (&SEAL, self.seals)] {
+                    if moment != 0.0 {
+                        losses.add(term, &Lane::all(moment.nmm_in_nm()));
+                    }
+                }
+                if count(|i| loads.axial[i] > self.axial) > 0 {
+                    for (lane, fa) in loads.axial.iter().enumerate() {
+                        if *fa > self.axial {
+                            losses.leave(lane);
+                        }
+                    }
                 }
             },
         );
-        for (lane, fa) in loads.axial.iter().enumerate() {
-            if *fa > self.axial {
-                losses.leave(lane);
-            }
-        }
     }
 
     fn note(&self, at: &BearingAt<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) {
         // Nothing that is noted hangs on the load.
-        let _ = self.loss(at);
+        let n = at.speed.abs().rpm();
+        self.check_speeds(at, n);
+        if n == 0.0 {
+            return;
+        }
+        let moments = self.moments(at, n);
+        at.observe(&PHI_BL, moments.phi_bl);
+        at.observe(&MU_SL, moments.mu_sl);
+        self.check_viscosity(at);
     }
 }
 
@@ -397,22 +407,11 @@ struct Moments {
     phi_ish: f64,
     phi_rs: f64,
     phi_bl: f64,
-    viscous: f64,
+    /// Rolling moment per G_rr. \[N mm\]
+    rolling: f64,
     mu_sl: f64,
     /// \[N mm\]
     drag: f64,
-}
-
-impl Moments {
-    #[inline(always)]
-    fn rolling(&self, g_rr: f64) -> f64 {
-        self.phi_ish * self.phi_rs * g_rr * self.viscous
-    }
-
-    #[inline(always)]
-    fn sliding(&self, g_sl: f64) -> f64 {
-        g_sl * self.mu_sl
-    }
 }
 
 register!(Bearing, "skf", Skf,

@@ -14,7 +14,7 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
-use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, each, over, wide};
+use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, count, each, over, wide};
 use gearloss_framework::loss::{Loss, Notes, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel, note_one_by_one, one_by_one};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
@@ -223,35 +223,44 @@ impl GearMeshModel for Integral {
     fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
         let speed = at.speed.abs();
         let sliding = self.in_lanes(at, torques, |path, forces, line_loads| {
-            let sums = self.sums(path, line_loads)?;
-            Some(each(|i| sums[i] * forces[i] * speed))
+            let sums = self.short.as_ref()?.sums(path, line_loads);
+            losses.keep(&sums);
+            Some(wide(
+                #[inline(always)]
+                || each(|i| sums[i] * forces[i] * speed),
+            ))
         });
         let Some(sliding) = sliding else {
             return one_by_one(self, at, torques, losses);
         };
         losses.begin(&Loss::POWERS);
         losses.add(&SLIDING, &sliding);
-        for (lane, sliding) in sliding.iter().enumerate() {
-            if sliding.is_nan() {
-                losses.leave(lane);
+        if count(|i| sliding[i].is_nan()) > 0 {
+            for (lane, sliding) in sliding.iter().enumerate() {
+                if sliding.is_nan() {
+                    losses.leave(lane);
+                }
             }
         }
     }
 
-    fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, notes: LaneNotes<'_>) {
+    fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &LossLanes, notes: LaneNotes<'_>) {
         let noted = self.in_lanes(at, torques, |path, _, line_loads| {
-            let sums = self.sums(path, line_loads)?;
+            let short = self.short.as_ref()?;
             let path = path.with(|to| to.notes = notes.all()).nested(&self.friction);
             let own = notes.of(self.friction.notes);
-            let short = self.short.as_ref();
-            if !short.is_some_and(|short| short.note(&path, line_loads, own)) {
+            if !short.note(&path, line_loads, own) {
                 let noted = self.path.with_lanes(|mu| {
                     let wide = self.friction.along_lanes(&path, line_loads, mu);
                     wide.then(|| self.friction.note_lanes(&path, line_loads, mu, own))
                 });
                 noted?;
             }
-            let mean = over(&sums, |sum| sum / self.weight);
+            let sums = losses.kept();
+            let mean = wide(
+                #[inline(always)]
+                || over(sums, |sum| sum / self.weight),
+            );
             notes.observe(&MU_MEAN, &mean, &mean);
             at.observe(&LOSS_FACTOR, self.loss_factor);
             Some(())
@@ -263,27 +272,6 @@ impl GearMeshModel for Integral {
 }
 
 impl Integral {
-    /// Sums of friction over the nodes, weighted by sliding power; absent where the law of friction is asked one by one.
-    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane) -> Option<Lane> {
-        if let Some(short) = &self.short {
-            return Some(short.sums(path, line_loads));
-        }
-        self.path.with_lanes(|mu| {
-            self.friction.along_lanes(path, line_loads, mu).then(|| {
-                wide(
-                    #[inline(always)]
-                    || {
-                        let mut sum = Lane::all(0.0);
-                        for (weight, mu) in self.weights.iter().zip(&*mu) {
-                            sum = each(|i| sum[i] + weight * mu[i]);
-                        }
-                        sum
-                    },
-                )
-            })
-        })
-    }
-
     /// Does something with the path, the normal forces (N) and line loads (N/m) of all lanes; absent where that has no way.
     fn in_lanes<R>(
         &self,
@@ -291,12 +279,21 @@ impl Integral {
         torques: &Lane,
         then: impl FnOnce(&PathAt<'_>, &Lane, &Lane) -> Option<R>,
     ) -> Option<R> {
-        if self.rolling != Rolling::None || at.speed == 0.0 || torques.contains(&0.0) {
+        if self.rolling != Rolling::None || at.speed == 0.0 || self.short.is_none() {
             return None;
         }
         let pair = &at.part.pair;
-        let forces = over(torques, |torque| torque / pair.base_radius[0] / pair.cos_base_helix);
-        let line_loads = over(&forces, |force| force / pair.facewidth);
+        let (forces, line_loads, none) = wide(
+            #[inline(always)]
+            || {
+                let forces = over(torques, |torque| torque / pair.base_radius[0] / pair.cos_base_helix);
+                let line_loads = over(&forces, |force| force / pair.facewidth);
+                (forces, line_loads, count(|i| torques[i] == 0.0))
+            },
+        );
+        if none > 0 {
+            return None;
+        }
         let mean = MeanFrictionAt::of(at, Notes::MUTED);
         let path = self.path.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
         then(&path, &forces, &line_loads)

@@ -10,7 +10,7 @@ mod series;
 
 use std::f64::consts::LOG10_E;
 
-use gearloss_framework::lanes::{LANES, Lane, LaneNotes, each, exp, ln, over, wide};
+use gearloss_framework::lanes::{LANES, Lane, LaneNotes, count, each, exp, ln, over, wide};
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
@@ -36,6 +36,9 @@ const ROLLING: Limit = Limit::new(3, "V_e", "m/s", 1.0, 25.0, FROM);
 const RADIUS: Limit = Limit::new(4, "R", "mm", 5.0, 40.0, FROM);
 const ROUGHNESS: Limit = Limit::new(5, "S", "um", 0.05, 0.6, FROM);
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+
+/// What a logarithm of friction may err by.
+const ROUNDING: f64 = 1e-13;
 
 /// Which roughness counts as S.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -211,9 +214,16 @@ impl ToothFrictionModel for Xu {
 /// Notes all limits, which need no walk along the path.
 fn note_ranges(roughness: Roughness, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) {
     let _ = check_oil(path.notes, path.eta, roughness.of(path.ra, path.rq));
-    let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-    let [least, greatest] = path.extent.root_load;
-    let [least, greatest] = [over(&units, |unit| unit * least), over(&units, |unit| unit * greatest)];
+    let [least, greatest] = wide(
+        #[inline(always)]
+        || {
+            let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
+            path.extent.root_load.map(
+                #[inline(always)]
+                |root_load| over(&units, |unit| unit * root_load),
+            )
+        },
+    );
     notes.check(&PRESSURE, &least, &greatest);
     for end in 0..2 {
         path.notes.check(&SLIDE_ROLL, path.extent.slide_roll[end]);
@@ -250,51 +260,47 @@ impl WeightedFriction for Weighted {
         let Some(along) = self.common(path) else {
             return Lane::all(f64::NAN);
         };
-        let (factors, at) = wide(
+        wide(
             #[inline(always)]
             || {
                 let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-                (
-                    over(
-                        &units,
-                        #[inline(always)]
-                        |unit| exp(along.common(unit)),
-                    ),
-                    over(&units, |unit| -along.fall(unit)),
-                )
+                let commons = over(
+                    &units,
+                    #[inline(always)]
+                    |unit| along.common(unit),
+                );
+                let factors = over(&commons, exp);
+                let sums = self.series.lanes(&over(&units, |unit| -along.fall(unit)));
+                each(|i| sums[i] * factors[i])
             },
-        );
-        let sums = self.series.lanes(&at);
-        each(|i| sums[i] * factors[i])
+        )
     }
 
     fn note(&self, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) -> bool {
         let Some(along) = self.common(path) else { return false };
-        let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-        let (mut below, mut above) = (Lane::all(0.0), Lane::all(0.0));
-        for i in 0..LANES {
-            let Some(bounds) = self.series.bounds(-along.fall(units[i])) else {
-                return false;
-            };
-            [below[i], above[i]] = bounds;
-        }
-        let (least, greatest) = wide(
+        let (commons, at) = wide(
             #[inline(always)]
             || {
-                let (mut least, mut greatest) = (Lane::all(0.0), Lane::all(0.0));
-                for i in 0..LANES {
-                    let common = along.common(units[i]);
-                    least[i] = exp(common + below[i]);
-                    greatest[i] = exp(common + above[i]);
-                }
-                (least, greatest)
+                let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
+                let commons = over(
+                    &units,
+                    #[inline(always)]
+                    |unit| along.common(unit),
+                );
+                (commons, over(&units, |unit| -along.fall(unit)))
             },
         );
+        let Some([below, above]) = self.series.bounds(&at) else {
+            return false;
+        };
         // Where friction was seen above and below already, this path adds nothing.
-        if notes.widens(&MU, &least, &greatest) {
+        let (least, greatest) = notes.seen(&MU);
+        let (least, greatest) = (least.ln() + ROUNDING, greatest.ln() - ROUNDING);
+        let within = |i: usize| commons[i] + below[i] >= least && commons[i] + above[i] <= greatest;
+        if count(within) < LANES as u64 {
             return false;
         }
-        notes.observe(&MU, &least, &greatest);
+        notes.observe_within(&MU);
         note_ranges(self.roughness, path, line_loads, notes);
         true
     }

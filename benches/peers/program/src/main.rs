@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             };
             let mut row = transmission.row(&case, &point, &[100.0], &mut scratch);
             for (torques, losses) in torques.chunks(LANES).zip(losses.chunks_mut(LANES)) {
-                let block = row.solve(torques);
+                let block = row.follow(torques);
                 let alone = (0..torques.len()).any(|lane| block.alone(lane));
                 if alone {
                     return Err("a point has to be evaluated alone".into());

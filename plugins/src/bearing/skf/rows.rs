@@ -1,6 +1,6 @@
 //! Constants of the SKF model by kind and series of a bearing.
 
-use gearloss_framework::lanes::{LANES, Lane, cube_root, exp, ln, sine};
+use gearloss_framework::lanes::{LANES, Lane, count, cube_root, each, exp, ln, over, sine};
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart};
 
 /// What is missing, and what the user can write.
@@ -349,21 +349,40 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
 
 /// G_rr and G_sl of deep groove ball bearings under radial load: one logarithm for both powers; no load has minus infinity,
 /// whose exponential is zero.
-#[inline(always)]
 fn radial(fr: f64, rolling: f64, sliding: f64) -> (f64, f64) {
     let ln = ln(fr);
-    (rolling * exp(0.54 * ln), sliding * exp(5.0 / 3.0 * ln))
+    (radial_rolling(ln, rolling), radial_sliding(ln, sliding))
 }
 
 /// The same under both loads.
-#[inline(always)]
-fn combined(fr: f64, fa: f64, c0: f64, (rolling, r2): (f64, f64), (sliding, s2): (f64, f64)) -> (f64, f64) {
-    let sin = sine((24.6 * exp(0.24 * ln(fa / c0))).to_radians());
-    let (fr_2, pushed) = (fr * fr, fa / sin);
+fn combined(fr: f64, fa: f64, c0: f64, (rolling, r2): (f64, f64), sliding: (f64, f64)) -> (f64, f64) {
+    let pushed = fa / sine(angle(ln(fa / c0)));
     (
-        rolling * exp(0.54 * ln(fr + r2 * pushed)),
-        sliding * cube_root(fr_2 * fr_2 * fr + s2 * (fa * fa * fa) * pushed),
+        radial_rolling(ln(fr + r2 * pushed), rolling),
+        combined_sliding(fr, fa, pushed, sliding),
     )
+}
+
+#[inline(always)]
+fn radial_rolling(ln_load: f64, rolling: f64) -> f64 {
+    rolling * exp(0.54 * ln_load)
+}
+
+#[inline(always)]
+fn radial_sliding(ln_load: f64, sliding: f64) -> f64 {
+    sliding * exp(5.0 / 3.0 * ln_load)
+}
+
+/// The angle of contact from the logarithm of the axial load over C0. \[rad\]
+#[inline(always)]
+fn angle(ln_ratio: f64) -> f64 {
+    (24.6 * exp(0.24 * ln_ratio)).to_radians()
+}
+
+#[inline(always)]
+fn combined_sliding(fr: f64, fa: f64, pushed: f64, (sliding, s2): (f64, f64)) -> f64 {
+    let fr_2 = fr * fr;
+    sliding * cube_root(fr_2 * fr_2 * fr + s2 * (fa * fa * fa) * pushed)
 }
 
 /// From the radial to the combined form, without a step, for a share from zero to one.
@@ -377,9 +396,14 @@ fn blended(share: f64, radial: (f64, f64), combined: (f64, f64)) -> (f64, f64) {
 }
 
 impl Variables {
-    /// As [`Variables::at`] in all lanes; absent for kinds that are asked one by one.
+    /// Whether there are [`Variables::lanes`]; other kinds are asked one by one.
+    pub fn in_lanes(&self) -> bool {
+        matches!(self, Self::DeepGroove { .. })
+    }
+
+    /// As [`Variables::at`] in all lanes, for kinds that have them.
     #[inline(always)]
-    pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>) -> Option<(Lane, Lane)> {
+    pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>) -> (Lane, Lane) {
         let Self::DeepGroove {
             rolling,
             r2,
@@ -388,29 +412,40 @@ impl Variables {
             c0,
         } = *self
         else {
-            return None;
+            return (Lane::ZERO, Lane::ZERO);
         };
-        let (mut g_rr, mut g_sl) = (Lane::all(0.0), Lane::all(0.0));
-        let pushed = fa.iter().any(|fa| fa / c0 != 0.0);
-        if !pushed || blend.is_some() || fa.iter().any(|fa| fa / c0 == 0.0) {
-            for i in 0..LANES {
-                (g_rr[i], g_sl[i]) = radial(fr[i], rolling, sliding[0]);
-            }
+        let (mut g_rr, mut g_sl) = (Lane::ZERO, Lane::ZERO);
+        let ratio = over(fa, |fa| fa / c0);
+        let unpushed = count(|i| ratio[i] == 0.0);
+        // Loops of one function each: their steps wait for each other in a lane, and need not in others.
+        if unpushed > 0 || blend.is_some() {
+            let ln_fr = over(fr, ln);
+            g_rr = over(&ln_fr, |ln| radial_rolling(ln, rolling));
+            g_sl = over(&ln_fr, |ln| radial_sliding(ln, sliding[0]));
         }
-        if !pushed {
-            return Some((g_rr, g_sl));
+        if unpushed == LANES as u64 {
+            return (g_rr, g_sl);
+        }
+        let ln_ratio = over(&ratio, ln);
+        let angle = over(&ln_ratio, angle);
+        let pushed = each(|i| fa[i] / sine(angle[i]));
+        let ln_both = each(|i| ln(fr[i] + r2 * pushed[i]));
+        let both_rr = over(&ln_both, |ln| radial_rolling(ln, rolling));
+        let both_sl = each(|i| combined_sliding(fr[i], fa[i], pushed[i], (sliding[1], s2)));
+        if unpushed == 0 && blend.is_none() {
+            return (both_rr, both_sl);
         }
         // No blending is blending up to an axial load below all.
         let to = blend.unwrap_or(0.0);
         for i in 0..LANES {
             let radial = (g_rr[i], g_sl[i]);
-            let combined = combined(fr[i], fa[i], c0, (rolling, r2), (sliding[1], s2));
+            let combined = (both_rr[i], both_sl[i]);
             let limit = to * fr[i];
             let blended = blended(fa[i] / limit, radial, combined);
             let both = if fa[i] < limit { blended } else { combined };
-            (g_rr[i], g_sl[i]) = if fa[i] / c0 == 0.0 { radial } else { both };
+            (g_rr[i], g_sl[i]) = if ratio[i] == 0.0 { radial } else { both };
         }
-        Some((g_rr, g_sl))
+        (g_rr, g_sl)
     }
 
     /// G_rr and G_sl from radial and axial load in N, speed in 1/min and viscosity in mm2/s; `blend` is the share Fa/Fr of deep

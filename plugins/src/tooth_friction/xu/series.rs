@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use gearloss_framework::lanes::{Lane, exp, over, wide};
+use gearloss_framework::lanes::{LANES, Lane, count, exp, over, wide};
 use gearloss_framework::mechanism::tooth_friction::PathNode;
 
 use super::{B, geometry};
@@ -20,6 +20,9 @@ const PIECES: usize = 16;
 const BOUNDS: usize = 64;
 /// Pieces with bounds in one with a polynomial.
 const FINER: f64 = (BOUNDS / PIECES) as f64;
+/// How far the exponent at a place bends below the line through its ends over a piece with bounds, at most: an eighth of the
+/// square of the piece times the greatest second derivative.
+const SAG: f64 = 0.125 * B[4] * (REACH / BOUNDS as f64) * (REACH / BOUNDS as f64);
 /// The greatest `t s` along the path that is tabulated: slide-roll ratio times pressure in GPa times lg of the viscosity in mPa s.
 const REACH: f64 = 8.0;
 
@@ -30,8 +33,8 @@ pub struct Series {
     scale: f64,
     /// Coefficients of powers from -1 to 1 over each piece.
     pieces: Vec<[f64; TERMS]>,
-    /// Numbers below and above every exponent along the path, less `common`.
-    bounds: Vec<[f64; 2]>,
+    /// Lines below and above every exponent along the path, less `common`: value and slope over each piece.
+    bounds: Vec<[(f64, f64); 2]>,
 }
 
 impl Series {
@@ -54,14 +57,19 @@ impl Series {
             );
             powers(&values)
         });
-        // Every exponent falls with `t`.
-        let bounds = (0..BOUNDS).map(|piece| {
-            let [start, end] = [piece, piece + 1].map(|end| end as f64 / (scale * FINER));
-            [
-                exponents(end).fold(f64::INFINITY, f64::min),
-                exponents(start).fold(f64::NEG_INFINITY, f64::max),
-            ]
-        });
+        // Every exponent is convex over `t`: it lies below the line through its ends over a piece, and above that line less SAG.
+        let ends: Vec<[f64; 2]> = (0..=BOUNDS)
+            .map(|end| {
+                let t = end as f64 / (scale * FINER);
+                [
+                    exponents(t).fold(f64::INFINITY, f64::min) - SAG,
+                    exponents(t).fold(f64::NEG_INFINITY, f64::max),
+                ]
+            })
+            .collect();
+        let bounds = ends
+            .array_windows()
+            .map(|[start, end]| [0, 1].map(|k| (start[k], end[k] - start[k])));
         Self {
             scale,
             pieces: pieces.collect(),
@@ -77,20 +85,16 @@ impl Series {
     }
 
     /// The sums in all lanes.
+    #[inline(always)]
     pub fn lanes(&self, t: &Lane) -> Lane {
-        let number = |t: f64| (t * self.scale) as usize;
-        let first = number(t[0]);
+        let first = (t[0] * self.scale) as usize;
+        let (start, end) = (first as f64, first as f64 + 1.0);
         match self.pieces.get(first) {
             // Loads that lie close together share a piece.
-            Some(piece) if t.iter().all(|t| number(*t) == first) => wide(
+            Some(piece) if count(|i| t[i] * self.scale >= start && t[i] * self.scale < end) == LANES as u64 => over(
+                t,
                 #[inline(always)]
-                || {
-                    over(
-                        t,
-                        #[inline(always)]
-                        |t| self.on_piece(piece, first, t),
-                    )
-                },
+                |t| self.on_piece(piece, first, t),
             ),
             _ => over(t, |t| self.at(t)),
         }
@@ -106,9 +110,18 @@ impl Series {
         four(0) + four(4) * x_4 + (four(8) + four(12) * x_4) * (x_4 * x_4)
     }
 
-    /// Numbers below and above every exponent along the path at `t`, less `common`.
-    pub fn bounds(&self, t: f64) -> Option<[f64; 2]> {
-        self.bounds.get((t * (self.scale * FINER)) as usize).copied()
+    /// Numbers below and above every exponent along the path at `t`, less `common`; absent beyond the range.
+    pub fn bounds(&self, t: &Lane) -> Option<[Lane; 2]> {
+        let mut both = [Lane::ZERO; 2];
+        for (i, t) in t.iter().enumerate() {
+            let place = t * (self.scale * FINER);
+            let number = place as usize;
+            let lines = self.bounds.get(number)?;
+            for (own, (start, rise)) in both.iter_mut().zip(lines) {
+                own[i] = start + rise * (place - number as f64);
+            }
+        }
+        Some(both)
     }
 }
 
@@ -178,7 +191,9 @@ mod tests {
                 "{t}: {} against {sum}",
                 series.at(t)
             );
-            let [below, above] = series.bounds(t).unwrap_or([0.0; 2]);
+            let [below, above] = series
+                .bounds(&Lane::all(t))
+                .map_or([0.0; 2], |bounds| bounds.map(|lane| lane[3]));
             assert!(below <= least && greatest <= above);
             // The bounds are close, or they would spare nothing.
             assert!(
@@ -186,6 +201,6 @@ mod tests {
                 "{t}: {below} {least} {greatest} {above}"
             );
         }
-        assert!(series.at(1.001 * end).is_nan() && series.bounds(1.001 * end).is_none());
+        assert!(series.at(1.001 * end).is_nan() && series.bounds(&Lane::all(1.001 * end)).is_none());
     }
 }

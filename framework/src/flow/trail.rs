@@ -1,0 +1,142 @@
+//! What the same points at the speeds before say of the torques at the next speed.
+
+use super::work::Drive;
+use crate::lanes::{Lane, each};
+
+/// Speeds that count: a polynomial through four of them.
+const DEPTH: usize = 4;
+/// Most that the errors of the torques before may add up to in a guess; a cubic over even steps has 15.
+const SPREAD: f64 = 16.0;
+/// Steps after which a block is solved without a guess again, which also measures anew how fast it converges.
+const LONGEST: usize = 128;
+
+/// Torques of the points of a block over the speeds before.
+#[derive(Debug, Clone, Default)]
+pub struct Trail {
+    /// Given torques.
+    torques: Vec<Lane>,
+    pub(super) drives: Vec<Drive>,
+    /// How fast the losses converge: the share of an error that one pass leaves.
+    pub(super) rate: Option<Lane>,
+    /// The newest last.
+    steps: Vec<Step>,
+    guesses: usize,
+}
+
+#[derive(Debug, Clone)]
+struct Step {
+    speed: f64,
+    torques: Vec<Lane>,
+}
+
+impl Trail {
+    /// Forgets all steps.
+    pub fn clear(&mut self) {
+        self.steps.clear();
+        self.guesses = 0;
+    }
+
+    /// Weights of the steps for a guess at a speed, for the points with these given torques; empty where there is none.
+    pub(super) fn weights(&mut self, torques: &[Lane], speed: f64) -> Vec<f64> {
+        if self.guesses == LONGEST || self.torques != torques || self.rate.is_none() {
+            self.clear();
+        }
+        (0..self.steps.len())
+            .map(|first| weights(&self.steps[first..], speed))
+            .find(|weights| weights.iter().map(|w| w.abs()).sum::<f64>() <= SPREAD)
+            .unwrap_or_default()
+    }
+
+    /// The guess of one torque.
+    #[inline(always)]
+    pub(super) fn guess(&self, weights: &[f64], place: usize) -> Lane {
+        let used = &self.steps[self.steps.len() - weights.len()..];
+        let mut sum = Lane::ZERO;
+        for (step, weight) in used.iter().zip(weights) {
+            let own = &step.torques[place];
+            sum = each(|i| sum[i] + weight * own[i]);
+        }
+        sum
+    }
+
+    /// Adds a step; `guessed` says whether it began with a guess.
+    pub(super) fn push<'a>(
+        &mut self,
+        given: &[Lane],
+        speed: f64,
+        drives: &[Drive],
+        torques: impl Iterator<Item = &'a Lane>,
+        guessed: bool,
+    ) {
+        if !guessed {
+            self.clear();
+            self.torques.clear();
+            self.torques.extend_from_slice(given);
+            self.drives.clear();
+            self.drives.extend_from_slice(drives);
+        }
+        self.guesses += usize::from(guessed);
+        let mut step = if self.steps.len() == DEPTH {
+            self.steps.remove(0)
+        } else {
+            Step {
+                speed,
+                torques: Vec::new(),
+            }
+        };
+        step.speed = speed;
+        step.torques.clear();
+        step.torques.extend(torques);
+        self.steps.push(step);
+    }
+}
+
+/// Weights of the polynomial through some steps at a speed, after Lagrange.
+fn weights(steps: &[Step], speed: f64) -> Vec<f64> {
+    let factor = |own: &Step, other: &Step| (speed - other.speed) / (own.speed - other.speed);
+    let weight = |i: usize| -> f64 {
+        let others = steps.iter().enumerate().filter(|(j, _)| *j != i);
+        others.map(|(_, other)| factor(&steps[i], other)).product()
+    };
+    (0..steps.len()).map(weight).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn follow(trail: &mut Trail, speeds: &[f64], law: impl Fn(f64) -> f64) {
+        for (i, speed) in speeds.iter().enumerate() {
+            let torques = [Lane::all(law(*speed))];
+            trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], torques.iter(), i > 0);
+        }
+        trail.rate = Some(Lane::all(0.1));
+    }
+
+    #[test]
+    fn a_guess_continues_a_cubic() {
+        let law = |x: f64| 2.0 - x + 0.3 * x * x - 0.01 * x * x * x;
+        let mut trail = Trail::default();
+        follow(&mut trail, &[1.0, 2.0, 2.9, 4.0, 5.1], law);
+        let weights = trail.weights(&[Lane::all(3.0)], 6.0);
+        assert_eq!(weights.len(), 4);
+        assert!((trail.guess(&weights, 0)[7] - law(6.0)).abs() < 1e-13);
+        // Far from the steps before a polynomial of lower degree errs less.
+        assert!(trail.weights(&[Lane::all(3.0)], 20.0).len() < 3);
+    }
+
+    #[test]
+    fn without_common_steps_nothing_is_guessed() {
+        let mut trail = Trail::default();
+        assert!(trail.weights(&[Lane::all(3.0)], 6.0).is_empty());
+        follow(&mut trail, &[1.0, 2.0], |x| x);
+        assert_eq!(trail.clone().weights(&[Lane::all(3.0)], 3.0).len(), 2);
+        assert!(trail.clone().weights(&[Lane::all(3.1)], 3.0).is_empty());
+        // The same speed once more leaves one step.
+        follow(&mut trail, &[1.0, 2.0, 2.0], |x| x);
+        assert_eq!(trail.clone().weights(&[Lane::all(3.0)], 3.0).len(), 1);
+        let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
+        follow(&mut trail, &many, |x| x);
+        assert!(trail.weights(&[Lane::all(3.0)], 40.0).is_empty());
+    }
+}
