@@ -1,4 +1,5 @@
-//! One point: the two-speed example under each set of models, the planetary one at a given temperature, and its equilibrium.
+//! One point: the two-speed example under each set of models, the planetary one at a given temperature, and its equilibrium; and
+//! many points of neighbouring speeds side by side.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod common;
@@ -6,7 +7,8 @@ mod common;
 use std::hint::black_box;
 
 use common::{RPM, build, gearbox, language, point, set};
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use gearloss_framework::lanes::LANES;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
@@ -18,6 +20,29 @@ fn two_speed(t: &Transmission) -> impl FnMut() -> Option<f64> {
         let (speeds, torques) = ([8000.0 * RPM], [10.0]);
         let point = point(black_box(&speeds), black_box(&torques));
         t.evaluate(&case, &point, &[100.0], &mut scratch).loss()
+    }
+}
+
+/// Speeds of the points side by side.
+const SPEEDS: u32 = 32;
+
+/// The sum of the losses at as many torques as lanes and some speeds of the two-speed example in first gear, as a map has them.
+fn side_by_side(t: &Transmission) -> impl FnMut() -> f64 {
+    let case = t.case("first", &[], &["input"]).unwrap();
+    let mut scratch = t.row_scratch(&case);
+    let torques: Vec<f64> = (1..=LANES).map(|i| 20.0 * i as f64 / LANES as f64).collect();
+    move || {
+        scratch.forget();
+        let mut sum = 0.0;
+        for speed in 0..SPEEDS {
+            let speeds = [(8000.0 + 22.0 * f64::from(speed)) * RPM];
+            let point = point(black_box(&speeds), &[0.0]);
+            let mut row = t.row(&case, &point, &[100.0], &mut scratch);
+            let block = row.follow(&torques);
+            assert!((0..LANES).all(|lane| !block.alone(lane)));
+            sum += block.losses().iter().sum::<f64>();
+        }
+        sum
     }
 }
 
@@ -41,6 +66,13 @@ fn points(c: &mut Criterion) {
     group.bench_function("planetary example, equilibrium of losses and heat", |b| {
         let point = || point(black_box(&speeds), black_box(&torques));
         b.iter(|| t.equilibrium(&case, &point(), &mut scratch).oil());
+    });
+    group.throughput(Throughput::Elements(u64::from(SPEEDS) * LANES as u64));
+    group.bench_function("two-speed example, set iso, side by side", |b| {
+        b.iter(side_by_side(&iso));
+    });
+    group.bench_function("two-speed example, set joint, side by side", |b| {
+        b.iter(side_by_side(&joint));
     });
     group.finish();
 }

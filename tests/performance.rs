@@ -9,7 +9,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-use common::file;
+use common::{RPM, file, language, two_speed_with};
+use gearloss_framework::evaluate::Point;
+use gearloss_framework::lanes::LANES;
 use serde_json::Value;
 
 const PAGE: &str = "docs/performance.md";
@@ -79,6 +81,85 @@ fn told(line: Option<&str>) -> String {
     line.map_or_else(|| "not told".to_owned(), |line| line.trim().to_owned())
 }
 
+/// Exponentials and logarithms of one point of the two-speed example in first gear under the set `joint`, counted from the formulas,
+/// for each pass: 3 bearings under radial load with 2 and 1, 3 under both loads with 2 and 2, 3 meshes with 1 and 1. What hangs on
+/// speed alone is shared by all torques.
+const PASS: [f64; 2] = [15.0, 12.0];
+/// The logarithms of the meshes for what they note, once for a point.
+const NOTES: f64 = 3.0;
+/// Exponentials, logarithms and powers of the least of three passes that one point alone takes: the meshes at 12 places in two of
+/// them, for the notes, and once for speed and oil 6 bearings, a cage, two wheels that dip and the oil.
+const ALONE: [f64; 3] = [228.0, 84.0, 16.0];
+
+/// Passes of a point on the mean over what `benches/point.rs` solves side by side.
+fn passes() -> f64 {
+    let t = two_speed_with(&language(), Some("joint"), &[]);
+    let case = t.case("first", &[], &["input"]).unwrap();
+    let mut scratch = t.row_scratch(&case);
+    let torques: Vec<f64> = (1..=LANES).map(|i| 20.0 * i as f64 / LANES as f64).collect();
+    let mut passes = 0;
+    for speed in 0..32 {
+        let point = Point {
+            speeds: &[(8000.0 + 22.0 * f64::from(speed)) * RPM],
+            torques: &[0.0],
+            ..Point::default()
+        };
+        let mut row = t.row(&case, &point, &[100.0], &mut scratch);
+        let block = row.follow(&torques);
+        passes += (0..LANES).map(|lane| block.passes(lane)).sum::<usize>();
+    }
+    passes as f64 / (32 * LANES) as f64
+}
+
+/// How close points come to the cost of their transcendental functions.
+fn least(found: &BTreeMap<String, (Value, Option<u64>)>) -> String {
+    let of = |name: &str| {
+        let (estimates, elements) = &found[name];
+        estimates["median"]["point_estimate"].as_f64().unwrap() / elements.unwrap_or(1) as f64
+    };
+    let costs = |way: &str| {
+        [
+            of(&format!("elementary/exponentials {way}")),
+            of(&format!("elementary/logarithms {way}")),
+            of("elementary/powers of the standard library"),
+        ]
+    };
+    let passes = passes();
+    let together = [PASS[0] * passes, PASS[1] * passes + NOTES, 0.0];
+    let mut out = format!(
+        "\nThe least by these costs, for a point of the two-speed example under the set `joint`; side by side it takes {passes:.2} \
+         passes:\n\n| | exponentials | logarithms | powers | their time | measured | over it |\n|---|---|---|---|---|---|---|\n"
+    );
+    for (name, counts, costs, bench) in [
+        (
+            "side by side",
+            together,
+            costs("side by side"),
+            "point/two-speed example, set joint, side by side",
+        ),
+        (
+            "alone",
+            ALONE,
+            costs("of the standard library"),
+            "point/two-speed example, set joint",
+        ),
+    ] {
+        let least: f64 = counts.iter().zip(costs).map(|(n, cost)| n * cost).sum();
+        let measured = of(bench);
+        let _ = writeln!(
+            out,
+            "| {name} | {:.0} | {:.0} | {:.0} | {} | {} | {:.1} |",
+            counts[0],
+            counts[1],
+            counts[2],
+            time(least),
+            time(measured),
+            measured / least
+        );
+    }
+    out
+}
+
 /// Machine, versions and table.
 fn figures(date: &str) -> String {
     let mut found = BTreeMap::new();
@@ -122,7 +203,7 @@ fn figures(date: &str) -> String {
             );
         }
     }
-    out
+    out + &least(&found)
 }
 
 #[test]

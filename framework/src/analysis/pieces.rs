@@ -21,8 +21,8 @@ const TOGETHER: usize = LANES * 1024;
 /// The most solved points that are held while a field is solved piece by piece.
 pub const MOST_HELD: usize = 2 * TOGETHER;
 
-/// Points of a task, where a piece has more of them.
-const TASK: usize = 1024;
+/// Points of a task, where a piece has more of them. Each begins anew, without what the speeds before say.
+const TASK: usize = 2048;
 
 /// Some points of a field that follow each other, solved.
 #[derive(Debug, Clone)]
@@ -101,27 +101,25 @@ pub fn solve_pieces(
         if !progress(solved.len()) {
             going.store(false, Ordering::Relaxed);
         }
-        (solved, space.take_seen())
+        (in_place(solved, task), space.take_seen())
     };
     let solve_all = |numbers: &[usize]| -> Vec<Piece> {
         let orders: Vec<Vec<usize>> = numbers.iter().map(|number| points.field.in_order(*number)).collect();
         let tasks: Vec<&[usize]> = orders.iter().flat_map(|order| order.chunks(TASK)).collect();
-        let mut solved: Vec<(Vec<PointResult>, Vec<Extent>)> =
+        let mut solved: Vec<(Vec<(usize, PointResult)>, Vec<Extent>)> =
             tasks.into_par_iter().map_init(|| solver.space(), solve).collect();
         let mut solved = solved.drain(..);
         let piece = |(number, order): (&usize, &Vec<usize>)| {
-            let first = points.field.of_piece(*number).start;
             let mut seen = Vec::new();
-            let mut places: Vec<Option<PointResult>> = vec![None; order.len()];
-            for (task, (solved, totals)) in order.chunks(TASK).zip(solved.by_ref()) {
+            let own = solved.by_ref().take(order.len().div_ceil(TASK));
+            let parts = own.map(|(points, totals)| {
                 merge(&mut seen, &totals);
-                for (place, point) in task.iter().zip(solved) {
-                    places[place - first] = Some(point);
-                }
-            }
+                points
+            });
+            let parts = parts.collect();
             Piece {
                 number: *number,
-                points: places.into_iter().flatten().collect(),
+                points: joined(parts, points.field.of_piece(*number)),
                 seen,
             }
         };
@@ -148,4 +146,36 @@ pub fn solve_pieces(
         }
         ready = solved;
     }
+}
+
+/// Solved points of a task by their numbers, which here are still in the caches.
+fn in_place(solved: Vec<PointResult>, numbers: &[usize]) -> Vec<(usize, PointResult)> {
+    let mut order: Vec<usize> = (0..solved.len()).collect();
+    order.sort_by_key(|i| numbers[*i]);
+    let mut solved: Vec<Option<PointResult>> = solved.into_iter().map(Some).collect();
+    order
+        .into_iter()
+        .filter_map(|i| Some((numbers[i], solved[i].take()?)))
+        .collect()
+}
+
+/// The points of all tasks of a piece, each in the order of the field, as one list.
+fn joined(parts: Vec<Vec<(usize, PointResult)>>, numbers: Range<usize>) -> Vec<PointResult> {
+    let mut points = Vec::with_capacity(numbers.len());
+    let mut parts: Vec<_> = parts.into_iter().map(|part| part.into_iter().peekable()).collect();
+    let mut next = numbers.start;
+    // What was broken off has no points.
+    while parts.iter().any(|part| part.len() > 0) {
+        let before = next;
+        for part in &mut parts {
+            while let Some((_, point)) = part.next_if(|(number, _)| *number == next) {
+                points.push(point);
+                next += 1;
+            }
+        }
+        if next == before {
+            break;
+        }
+    }
+    points
 }

@@ -382,6 +382,7 @@ impl Row<'_> {
                     totals,
                     counted: &counted,
                     points,
+                    whole: points as usize == torques.len(),
                     outside,
                     handed: &handed,
                     base,

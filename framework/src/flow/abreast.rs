@@ -13,6 +13,9 @@ use crate::lanes::{LANES, Lane, count, each, over, wide};
 /// Passes after which a lane is left alone; before, the loop for single points changes nothing in its pace.
 const FEW: usize = PATIENCE - 2;
 
+/// The least share of an error that one pass is taken to leave.
+const LEAST_LEFT: f64 = 1e-3;
+
 const ZERO: Lane = Lane::all(0.0);
 
 /// What one block needs and leaves.
@@ -146,11 +149,7 @@ impl SparseVector {
 /// Whether two lanes have the same numbers.
 #[inline(always)]
 fn same(a: &Lane, b: &Lane) -> bool {
-    let mut others = 0.0;
-    for i in 0..LANES {
-        others += if a[i] == b[i] { 0.0 } else { 1.0 };
-    }
-    others == 0.0
+    count(|i| a[i] == b[i]) == LANES as u64
 }
 
 /// Whether every lane surely has this driver.
@@ -233,42 +232,37 @@ impl Flow {
         work: &mut WorkLanes,
         mut losses: impl FnMut(&mut FlowLanes<'_>),
     ) {
-        let mut passes = 0;
-        let guessed = match trail {
-            Some((trail, at)) => {
-                let guessed = wide(
-                    #[inline(always)]
-                    || self.guess_abreast(task, trail, at, work),
-                ) && {
-                    passes = 1;
-                    self.ask_abreast(work, &mut losses);
-                    wide(
-                        #[inline(always)]
-                        || self.judge_abreast(task, trail, work),
-                    )
-                };
-                self.iterate_abreast(task, guessed, passes, work, &mut losses);
-                if work.alone.contains(&true) {
-                    trail.clear();
-                } else {
-                    if !guessed {
-                        trail.rate = Some(work.rate);
-                    }
-                    trail.push(task.torques, at, &work.drives, self.trailed(work), guessed);
-                }
-                return;
-            }
-            None => false,
+        let Some((trail, at)) = trail else {
+            return self.iterate_abreast(task, false, 0, work, &mut losses);
         };
-        self.iterate_abreast(task, guessed, passes, work, &mut losses);
+        let guess = wide(
+            #[inline(always)]
+            || self.guess_abreast(task, trail, at, work),
+        );
+        let guessed = guess && {
+            self.ask_abreast(work, &mut losses);
+            wide(
+                #[inline(always)]
+                || self.judge_abreast(task, trail, work),
+            )
+        };
+        self.iterate_abreast(task, guessed, usize::from(guess), work, &mut losses);
+        if work.alone.contains(&true) {
+            return trail.clear();
+        }
+        if !guessed {
+            trail.rate = Some(work.rate);
+        }
+        trail.push(task.torques, at, &work.drives, self.trailed(work), guessed);
     }
 
-    /// Passes over models and equilibrium until they agree, after a first one from a guess or from the beginning.
+    /// Passes over models and equilibrium until they agree: from the beginning, or after a first one from a guess. `pass` is the number of
+    /// those before.
     fn iterate_abreast(
         &self,
         task: &TaskLanes<'_>,
         guessed: bool,
-        before: usize,
+        mut pass: usize,
         work: &mut WorkLanes,
         losses: &mut impl FnMut(&mut FlowLanes<'_>),
     ) {
@@ -279,22 +273,15 @@ impl Flow {
                 || self.begin_abreast(task, work),
             );
         }
-        let mut rated = guessed;
-        let first = usize::from(guessed) + 1;
-        let mut known = false;
-        for pass in first..=FEW.min(task.tolerance.passes) {
-            if guessed && settled(work) {
-                break;
-            }
+        let (mut known, mut rated) = (false, guessed);
+        while pass < FEW.min(task.tolerance.passes) && !settled(work) {
+            pass += 1;
             self.ask_abreast(work, losses);
             wide(
                 #[inline(always)]
-                || self.pass_abreast(task, work, (known, rated), pass + before - usize::from(guessed)),
+                || self.pass_abreast(task, work, (known, rated), pass),
             );
             (known, rated) = (true, rated || known);
-            if settled(work) {
-                break;
-            }
         }
         for i in 0..LANES {
             work.alone[i] |= !work.done[i];
@@ -356,12 +343,8 @@ impl Flow {
     fn judge_abreast(&self, task: &TaskLanes<'_>, trail: &Trail, work: &mut WorkLanes) -> bool {
         let k = self.meshes.len();
         work.answers();
-        work.used.copy_from_slice(&work.answer);
-        work.used_before.copy_from_slice(&work.answer);
-        work.answer_before.copy_from_slice(&work.answer);
-        for (guess, rolling) in work.guess.iter_mut().zip(&work.rolling) {
-            *guess = *rolling;
-        }
+        std::mem::swap(&mut work.used, &mut work.answer);
+        work.guess[..k].copy_from_slice(&work.rolling);
         for (guess, port) in work.guess[k..].iter_mut().zip(&self.unknown) {
             *guess = over(&work.ports[*port], |torque| torque * task.speeds[*port]);
         }
@@ -381,6 +364,11 @@ impl Flow {
             work.done[i] = left[i] <= SAFETY * task.tolerance.power * work.largest[i];
         }
         work.passes = [1; LANES];
+        if work.done.contains(&false) {
+            for losses in [&mut work.used_before, &mut work.answer_before] {
+                losses.copy_from_slice(&work.used);
+            }
+        }
         (0..k).all(|mesh| {
             let drives = work.drives[mesh];
             let agrees = |i: usize| work.alone[i] || drive(work.rolling[mesh][i], work.largest[i]) == drives;
@@ -469,13 +457,10 @@ impl Flow {
             each(|i| mismatch[i] * rate[i] / larger(1e-3, 1.0 - rate[i]))
         };
         if known && !rated {
-            // The rate with which the last step would leave the same.
+            // The rate with which the last step would leave the same. Losses that stood still here may move elsewhere.
             work.rate = each(|i| {
-                if left[i] > 0.0 {
-                    left[i] / (left[i] + mismatch[i])
-                } else {
-                    0.0
-                }
+                let rate = left[i] / (left[i] + mismatch[i]);
+                if rate > LEAST_LEFT { rate } else { LEAST_LEFT }
             });
         }
         let judged = known || rated;

@@ -188,12 +188,14 @@ impl LossLanes {
             // What is no number passes by here and stands in the sum.
             least = each(|i| if values[i] < least[i] { values[i] } else { least[i] });
         }
-        let sound = |i: usize| least[i] >= 0.0 && sum[i] < f64::INFINITY && (untaken[i] == 0.0 || sum[i] <= 0.0);
-        if count(sound) == LANES as u64 {
+        // The greatest sum that is a number, or none beside such a thrust; a negative part is no sum.
+        let most = over(untaken, |untaken| if untaken == 0.0 { f64::MAX } else { 0.0 });
+        let sum = each(|i| if least[i] >= 0.0 { sum[i] } else { f64::INFINITY });
+        if count(|i| sum[i] <= most[i]) == LANES as u64 {
             return;
         }
         for i in 0..LANES {
-            if !sound(i) {
+            if sum[i].is_nan() || sum[i] > most[i] {
                 self.alone[i] = true;
                 // Or torques of this lane would be no numbers, at which no model is asked.
                 for values in &mut self.values[..self.terms] {

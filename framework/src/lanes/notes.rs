@@ -16,6 +16,8 @@ pub struct LaneNotes<'a> {
     /// Lanes that count, and how many.
     pub(crate) counted: &'a [bool; LANES],
     pub(crate) points: u32,
+    /// True where the other lanes repeat one that counts.
+    pub(crate) whole: bool,
     pub(crate) outside: &'a [Cell<bool>; LANES],
     /// Set where cells of lanes were handed out.
     pub(crate) handed: &'a Cell<bool>,
@@ -50,6 +52,7 @@ pub(crate) fn same_notes(
         totals,
         counted: &[true; LANES],
         points: LANES as u32,
+        whole: true,
         outside: &std::array::from_fn(|_| Cell::new(false)),
         handed: &Cell::new(false),
         base,
@@ -123,45 +126,78 @@ impl<'a> LaneNotes<'a> {
         (seen.least, seen.greatest)
     }
 
-    /// Notes values of an observed quantity that lie within what was seen so far.
-    pub fn observe_within(&self, observed: &Observed) {
-        let (least, greatest) = self.seen(observed);
-        self.observe(observed, &Lane::all(least), &Lane::all(greatest));
+    /// The least and the greatest of all numbers of a lane, where all of them are numbers of points that count. What rises or falls
+    /// with them has its own least and greatest values there, which serve [`check_range`](Self::check_range) and
+    /// [`observe_range`](Self::observe_range).
+    pub fn range(&self, lane: &Lane) -> Option<(f64, f64)> {
+        let ((least, greatest), unknown) = wide(
+            #[inline(always)]
+            || (extremes(lane, &[true; LANES]), count(|i| lane[i].is_nan())),
+        );
+        (self.whole && unknown == 0).then_some((least, greatest))
+    }
+
+    /// As [`check`](Self::check) for the least and the greatest value over all lanes; false, with nothing noted, where they are
+    /// outside, so that it matters which lanes are.
+    pub fn check_range(&self, limit: &Limit, least: f64, greatest: f64) -> bool {
+        let inside = |x: f64| x >= limit.least && x <= limit.greatest;
+        let noted = inside(least) && inside(greatest);
+        if noted {
+            self.merge(self.base.limits + limit.index, least, greatest);
+        }
+        noted
+    }
+
+    /// As [`observe`](Self::observe) for the least and the greatest value over all lanes.
+    pub fn observe_range(&self, observed: &Observed, least: f64, greatest: f64) {
+        self.merge(self.base.observed + observed.index, least, greatest);
+    }
+
+    fn merge(&self, cell: usize, least: f64, greatest: f64) {
+        if let Some(cell) = self.totals.get(cell) {
+            cell.set(cell.get().merge(Extent {
+                least,
+                greatest,
+                seen: self.points,
+                outside: 0,
+            }));
+        }
     }
 
     fn see(&self, cell: usize, least: &Lane, greatest: &Lane, limit: Option<&Limit>) {
         let Some(cell) = self.totals.get(cell) else { return };
-        let (low, high) = limit.map_or((f64::NEG_INFINITY, f64::INFINITY), |limit| {
-            (limit.least, limit.greatest)
-        });
-        // Only of a limit can what is no number be outside.
-        let inside = |x: f64| {
-            if limit.is_some() { x >= low && x <= high } else { true }
-        };
-        let counted = self.counted;
-        let out = |i: usize| counted[i] && !(inside(least[i]) && inside(greatest[i]));
-        let (seen, outside) = wide(
+        let (mut seen, unknown) = wide(
             #[inline(always)]
             || {
-                let (mut lowest, mut highest) = extremes(least, counted);
+                let mut seen = extremes(least, self.counted);
+                let mut unknown = count(|i| least[i].is_nan());
                 if !std::ptr::eq(least, greatest) {
-                    let others = extremes(greatest, counted);
-                    (lowest, highest) = (lowest.min(others.0), highest.max(others.1));
+                    let others = extremes(greatest, self.counted);
+                    seen = (seen.0.min(others.0), seen.1.max(others.1));
+                    unknown += count(|i| greatest[i].is_nan());
                 }
-                ((lowest, highest), count(out))
+                let seen = Extent {
+                    least: seen.0,
+                    greatest: seen.1,
+                    seen: self.points,
+                    outside: 0,
+                };
+                (seen, unknown)
             },
         );
-        cell.set(cell.get().merge(Extent {
-            least: seen.0,
-            greatest: seen.1,
-            seen: self.points,
-            outside: outside as u32,
-        }));
-        if outside > 0 {
-            for i in (0..LANES).filter(|i| out(*i)) {
-                self.outside[i].set(true);
+        if let Some(limit) = limit {
+            let inside = |x: f64| x >= limit.least && x <= limit.greatest;
+            // Mostly all lanes are; else it matters which are not.
+            if unknown > 0 || !(inside(seen.least) && inside(seen.greatest)) {
+                for i in (0..LANES).filter(|i| self.counted[*i]) {
+                    if !(inside(least[i]) && inside(greatest[i])) {
+                        seen.outside += 1;
+                        self.outside[i].set(true);
+                    }
+                }
             }
         }
+        cell.set(cell.get().merge(seen));
     }
 }
 

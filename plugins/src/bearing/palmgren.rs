@@ -124,12 +124,17 @@ impl Palmgren {
     /// M1 from f1 and P1. \[N mm\]
     #[inline(always)]
     fn m1(&self, f1: f64, p1: f64) -> f64 {
-        let power = if self.law.a == 1.0 {
+        f1 * self.power(p1) * self.d_m_b
+    }
+
+    /// P1 to its power. \[N^a\]
+    #[inline(always)]
+    fn power(&self, p1: f64) -> f64 {
+        if self.law.a == 1.0 {
             p1
         } else {
             exp(self.law.a * ln(p1))
-        };
-        f1 * power * self.d_m_b
+        }
     }
 
     /// M2 from the axial load. \[N mm\]
@@ -191,15 +196,26 @@ impl BearingModel for Palmgren {
             #[inline(always)]
             || {
                 let (p0, p1) = self.law.rule.lanes(&loads.radial, &loads.axial);
-                let f1 = over(
-                    &p0,
-                    #[inline(always)]
-                    |p0| self.f1(p0),
-                );
-                let m1 = each(
-                    #[inline(always)]
-                    |i| self.m1(f1[i], p1[i]),
-                );
+                // Asked outside of the loops, or both sides are computed in them.
+                let f1 = if self.law.exponent == 0.0 {
+                    Lane::all(self.law.z)
+                } else {
+                    over(
+                        &p0,
+                        #[inline(always)]
+                        |p0| self.f1(p0),
+                    )
+                };
+                let power = if self.law.a == 1.0 {
+                    p1
+                } else {
+                    over(
+                        &p1,
+                        #[inline(always)]
+                        |p1| self.power(p1),
+                    )
+                };
+                let m1 = each(|i| f1[i] * power[i] * self.d_m_b);
                 let fa = &loads.axial;
                 let load = if self.flanged {
                     each(|i| (m1[i] + if fa[i] > 0.0 { self.m2(fa[i]) } else { 0.0 }).nmm_in_nm())

@@ -257,11 +257,12 @@ impl GearMeshModel for Integral {
                 noted?;
             }
             let sums = losses.kept();
-            let mean = wide(
-                #[inline(always)]
-                || over(sums, |sum| sum / self.weight),
-            );
-            notes.observe(&MU_MEAN, &mean, &mean);
+            if let Some((least, greatest)) = notes.range(sums) {
+                notes.observe_range(&MU_MEAN, least / self.weight, greatest / self.weight);
+            } else {
+                let mean = over(sums, |sum| sum / self.weight);
+                notes.observe(&MU_MEAN, &mean, &mean);
+            }
             at.observe(&LOSS_FACTOR, self.loss_factor);
             Some(())
         });

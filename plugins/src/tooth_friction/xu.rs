@@ -10,7 +10,7 @@ mod series;
 
 use std::f64::consts::LOG10_E;
 
-use gearloss_framework::lanes::{LANES, Lane, LaneNotes, count, each, exp, ln, over, wide};
+use gearloss_framework::lanes::{LANES, Lane, LaneNotes, each, exp, ln, over, wide};
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
@@ -39,6 +39,10 @@ const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
 /// What a logarithm of friction may err by.
 const ROUNDING: f64 = 1e-13;
+/// Places of a path that is walked for one load.
+const MOST: usize = 64;
+/// Loads for which the path is walked one by one; for more of them all at once is faster.
+const FEW: usize = 8;
 
 /// Which roughness counts as S.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -118,26 +122,8 @@ impl ToothFrictionModel for Xu {
         }
         let along = Common::new(path, s, nu0);
         let (common, fall) = (along.common(unit), along.fall(unit));
-        wide(
-            #[inline(always)]
-            || {
-                for (node, mu) in path.nodes.iter().zip(&mut *mu) {
-                    *mu = fall * node.slide_roll * node.root_load;
-                }
-                for mu in &mut *mu {
-                    *mu = exp(*mu);
-                }
-                for (node, mu) in path.nodes.iter().zip(&mut *mu) {
-                    let x = fall * node.slide_roll * node.root_load;
-                    *mu = common + geometry(node) - B[3] * x + B[4] * *mu;
-                }
-                for mu in &mut *mu {
-                    *mu = exp(*mu);
-                }
-            },
-        );
-        let least = mu.iter().fold(f64::INFINITY, |least, mu| least.min(*mu));
-        let most = mu.iter().fold(0.0, |most: f64, mu| most.max(*mu));
+        walk(path, common, fall, mu);
+        let [least, most] = ends(mu);
         for end in 0..2 {
             path.notes.check(&PRESSURE, unit * path.extent.root_load[end]);
             path.notes.check(&SLIDE_ROLL, path.extent.slide_roll[end]);
@@ -214,17 +200,26 @@ impl ToothFrictionModel for Xu {
 /// Notes all limits, which need no walk along the path.
 fn note_ranges(roughness: Roughness, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) {
     let _ = check_oil(path.notes, path.eta, roughness.of(path.ra, path.rq));
-    let [least, greatest] = wide(
-        #[inline(always)]
-        || {
-            let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-            path.extent.root_load.map(
-                #[inline(always)]
-                |root_load| over(&units, |unit| unit * root_load),
-            )
-        },
-    );
-    notes.check(&PRESSURE, &least, &greatest);
+    let pressure = |line_load: f64, end: usize| unit_pressure(line_load, path.modulus) * path.extent.root_load[end];
+    let range = notes.range(line_loads);
+    if !range.is_some_and(|(low, high)| notes.check_range(&PRESSURE, pressure(low, 0), pressure(high, 1))) {
+        let [least, greatest] = wide(
+            #[inline(always)]
+            || {
+                [0, 1].map(
+                    #[inline(always)]
+                    |end| {
+                        over(
+                            line_loads,
+                            #[inline(always)]
+                            |line_load| pressure(line_load, end),
+                        )
+                    },
+                )
+            },
+        );
+        notes.check(&PRESSURE, &least, &greatest);
+    }
     for end in 0..2 {
         path.notes.check(&SLIDE_ROLL, path.extent.slide_roll[end]);
         path.notes
@@ -278,7 +273,24 @@ impl WeightedFriction for Weighted {
 
     fn note(&self, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) -> bool {
         let Some(along) = self.common(path) else { return false };
-        let (commons, at) = wide(
+        let unit = |line_load: f64| unit_pressure(line_load, path.modulus);
+        let at = |unit: f64| -along.fall(unit);
+        let (seen, greatest_seen) = notes.seen(&MU);
+        let (ln_least, ln_greatest) = (seen.ln() + ROUNDING, greatest_seen.ln() - ROUNDING);
+        // Where friction was seen above and below already, a path adds nothing. Mostly bounds for all loads together tell that: what is
+        // common rises with load, and the rest falls.
+        let bounds = |(low, high): (f64, f64)| {
+            let [below, _] = self.series.bounds(at(unit(high)))?;
+            let [_, above] = self.series.bounds(at(unit(low)))?;
+            Some([along.common(unit(low)) + below, along.common(unit(high)) + above])
+        };
+        let bounds = notes.range(line_loads).and_then(bounds);
+        if bounds.is_some_and(|[below, above]| below >= ln_least && above <= ln_greatest) {
+            notes.observe_range(&MU, seen, greatest_seen);
+            note_ranges(self.roughness, path, line_loads, notes);
+            return true;
+        }
+        let (units, commons) = wide(
             #[inline(always)]
             || {
                 let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
@@ -287,23 +299,62 @@ impl WeightedFriction for Weighted {
                     #[inline(always)]
                     |unit| along.common(unit),
                 );
-                (commons, over(&units, |unit| -along.fall(unit)))
+                (units, commons)
             },
         );
-        let Some([below, above]) = self.series.bounds(&at) else {
+        let mut mu = [0.0; MOST];
+        let Some(mu) = mu.get_mut(..path.nodes.len()) else {
             return false;
         };
-        // Where friction was seen above and below already, this path adds nothing.
-        let (least, greatest) = notes.seen(&MU);
-        let (least, greatest) = (least.ln() + ROUNDING, greatest.ln() - ROUNDING);
-        let within = |i: usize| commons[i] + below[i] >= least && commons[i] + above[i] <= greatest;
-        if count(within) < LANES as u64 {
-            return false;
+        let (mut least, mut greatest) = (Lane::all(seen), Lane::all(greatest_seen));
+        let mut walks = 0;
+        for i in 0..LANES {
+            let bounds = self.series.bounds(at(units[i]));
+            let within = |[below, above]: [f64; 2]| commons[i] + below >= ln_least && commons[i] + above <= ln_greatest;
+            if bounds.is_some_and(within) {
+                continue;
+            }
+            walks += 1;
+            if walks > FEW {
+                return false;
+            }
+            walk(path, commons[i], along.fall(units[i]), mu);
+            [least[i], greatest[i]] = ends(mu);
         }
-        notes.observe_within(&MU);
+        notes.observe(&MU, &least, &greatest);
         note_ranges(self.roughness, path, line_loads, notes);
         true
     }
+}
+
+/// Friction at each node of a path, from the part of the exponent that is common to them and from its fall.
+fn walk(path: &PathAt<'_>, common: f64, fall: f64, mu: &mut [f64]) {
+    wide(
+        #[inline(always)]
+        || {
+            for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+                *mu = fall * node.slide_roll * node.root_load;
+            }
+            for mu in &mut *mu {
+                *mu = exp(*mu);
+            }
+            for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+                let x = fall * node.slide_roll * node.root_load;
+                *mu = common + geometry(node) - B[3] * x + B[4] * *mu;
+            }
+            for mu in &mut *mu {
+                *mu = exp(*mu);
+            }
+        },
+    );
+}
+
+/// The least and the greatest friction of a path.
+fn ends(mu: &[f64]) -> [f64; 2] {
+    [
+        mu.iter().fold(f64::INFINITY, |least, mu| least.min(*mu)),
+        mu.iter().fold(0.0, |most: f64, mu| most.max(*mu)),
+    ]
 }
 
 /// Hertz pressure per `root_load` of a node. \[GPa m^0.5\]

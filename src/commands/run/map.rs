@@ -132,7 +132,10 @@ fn on_grid<'s>(
         let kept = Kept::new(Some(&plan.axes), !entry.export.is_empty());
         let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, kept);
         runner.solve_pieces(&plan.built, &plan.points, Some((name, number)), &mut |piece| {
-            map.take(&plan.points.field, &piece, &mut files)
+            let taken = map.take(&plan.points.field, &piece, &mut files);
+            // This thread is the one that others wait for.
+            rayon::spawn(move || drop(piece));
+            taken
         })?;
         map.notes = notes(&plan.built.transmission, &map.seen);
         maps.push(map);

@@ -3,12 +3,15 @@
 use std::io::Write;
 use std::sync::Arc;
 
+use bytes::Bytes;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+use parquet::column::writer::{ColumnCloseResult, ColumnWriter, get_column_writer};
+use parquet::data_type::ByteArray;
 use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
-use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::{ColumnPath, Type};
+use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
+use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
+use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type};
+use rayon::prelude::*;
 
 use super::write::Cell;
 
@@ -25,8 +28,8 @@ const NAMES: [&str; 9] = [
     "path",
 ];
 
-/// Rows of one row group.
-const GROUP: usize = 65_536;
+/// Rows that make a row group, which may have more where they come at once.
+const GROUP: usize = 32_768;
 
 /// Number columns whose cells repeat so often that a dictionary pays.
 const REPEATED: [&str; 3] = ["torque_nm", "speed_rpm", "oil_temperature_degc"];
@@ -80,6 +83,22 @@ impl<T> Filled<T> {
 }
 
 impl Column {
+    /// Adds the cells of some rows.
+    fn push_all<'c>(&mut self, cells: impl Iterator<Item = &'c Cell<'c>>) -> Result<(), String> {
+        let mut cells = cells.peekable();
+        while cells.peek().is_some() {
+            if let Self::Numbers(numbers) = self {
+                while let Some(cell) = cells.next_if(|cell| matches!(cell, Cell::Number(_) | Cell::Gap)) {
+                    numbers.push(if let Cell::Number(x) = cell { Some(*x) } else { None });
+                }
+            }
+            if let Some(cell) = cells.next() {
+                self.push(cell)?;
+            }
+        }
+        Ok(())
+    }
+
     fn push(&mut self, cell: &Cell<'_>) -> Result<(), String> {
         match (&mut *self, cell) {
             // A number before any text tells that the column is one of numbers.
@@ -149,25 +168,32 @@ impl<W: Write + Send> ParquetTable<W> {
         }
     }
 
-    /// Adds a row.
+    /// Adds rows, whose cells follow each other.
     ///
     /// # Errors
-    /// What the writer says; a text in a column that held numbers before.
-    pub fn push(&mut self, row: &[Cell<'_>]) -> Result<(), String> {
-        for (column, cell) in self.columns.iter_mut().zip(row) {
-            column.push(cell)?;
+    /// A text in a column that held numbers before.
+    pub fn push(&mut self, rows: &[Cell<'_>]) -> Result<(), String> {
+        let width = self.columns.len();
+        for (place, column) in self.columns.iter_mut().enumerate() {
+            column.push_all(rows.iter().skip(place).step_by(width))?;
         }
-        self.rows += 1;
-        if self.rows < GROUP {
-            return Ok(());
-        }
-        self.group()
+        self.rows += rows.len() / width.max(1);
+        Ok(())
+    }
+
+    /// Writes the rows so far, if they make a group. To be called after all rows that came at once: threads that pack columns are
+    /// then not taken from those that make the rows.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn pause(&mut self) -> Result<(), String> {
+        if self.rows < GROUP { Ok(()) } else { self.group() }
     }
 
     /// Ends the file.
     ///
     /// # Errors
-    /// As [`ParquetTable::push`].
+    /// As [`ParquetTable::pause`].
     pub fn finish(mut self) -> Result<(), String> {
         self.group()?;
         match self.state {
@@ -220,26 +246,43 @@ fn begun<W: Write + Send>(
     SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties.build()))
 }
 
+/// Writes the present group, whose columns are packed side by side.
 fn written<W: Write + Send>(writer: &mut SerializedFileWriter<W>, columns: &mut [Column]) -> Result<(), ParquetError> {
+    let (schema, properties) = (writer.schema_descr().columns(), writer.properties());
+    let packed: Vec<(Bytes, ColumnCloseResult)> = columns
+        .par_iter_mut()
+        .zip(schema)
+        .map(|(column, description)| packed(column, description, properties))
+        .collect::<Result<_, _>>()?;
     let mut group = writer.next_row_group()?;
-    for cells in columns {
-        let Some(mut column) = group.next_column()? else { break };
-        match cells {
-            Column::Numbers(own) => {
-                let to = column.typed::<DoubleType>();
-                to.write_batch(&own.values, Some(&own.levels), None)?;
-                own.clear();
-            }
-            Column::Texts(own) => {
-                let to = column.typed::<ByteArrayType>();
-                to.write_batch(&own.values, Some(&own.levels), None)?;
-                own.clear();
-            }
-            Column::Open(_) => {}
-        }
-        column.close()?;
+    for (bytes, end) in packed {
+        group.append_column(&bytes, end)?;
     }
     group.close().map(|_| ())
+}
+
+/// The bytes of one column of a group, which is emptied.
+fn packed(
+    column: &mut Column,
+    description: &ColumnDescPtr,
+    properties: &WriterPropertiesPtr,
+) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
+    let mut bytes = TrackedWrite::new(Vec::new());
+    let pages = Box::new(SerializedPageWriter::new(&mut bytes));
+    let mut writer = get_column_writer(description.clone(), properties.clone(), pages);
+    match (&mut writer, column) {
+        (ColumnWriter::DoubleColumnWriter(to), Column::Numbers(own)) => {
+            to.write_batch(&own.values, Some(&own.levels), None)?;
+            own.clear();
+        }
+        (ColumnWriter::ByteArrayColumnWriter(to), Column::Texts(own)) => {
+            to.write_batch(&own.values, Some(&own.levels), None)?;
+            own.clear();
+        }
+        _ => return Err(ParquetError::General("a column of another kind".to_owned())),
+    }
+    let end = writer.close()?;
+    Ok((bytes.into_inner()?.into(), end))
 }
 
 #[cfg(test)]
@@ -259,6 +302,7 @@ mod tests {
         let mut table = ParquetTable::new(header, std::fs::File::create(&path).unwrap());
         for row in rows {
             table.push(&texts(row)).unwrap();
+            table.pause().unwrap();
         }
         table.finish().unwrap();
         std::fs::read(path).unwrap()
@@ -273,7 +317,7 @@ mod tests {
             ["", "7", "0.30000000000000004"],
         ];
         let rows: Vec<Vec<String>> = rows.iter().map(|r| r.map(str::to_owned).to_vec()).collect();
-        let bytes = bytes::Bytes::from(parquet(&header, &rows));
+        let bytes = Bytes::from(parquet(&header, &rows));
         let read: Vec<_> = SerializedFileReader::new(bytes)
             .unwrap()
             .get_row_iter(None)
@@ -318,7 +362,7 @@ mod tests {
     #[test]
     fn groups_of_rows_make_one_table_and_a_late_text_is_refused() {
         let rows: Vec<Vec<String>> = (0..GROUP + 3).map(|i| vec![i.to_string()]).collect();
-        let bytes = bytes::Bytes::from(parquet(&["loss_w".to_owned()], &rows));
+        let bytes = Bytes::from(parquet(&["loss_w".to_owned()], &rows));
         let reader = SerializedFileReader::new(bytes).unwrap();
         assert_eq!(
             (reader.num_row_groups(), reader.metadata().file_metadata().num_rows()),
@@ -328,6 +372,7 @@ mod tests {
         for row in &rows[..GROUP] {
             table.push(&texts(row)).unwrap();
         }
+        table.pause().unwrap();
         let late = table.push(&[Cell::Text("none")]);
         assert!(late.unwrap_err().contains("`none` is no number"));
     }

@@ -10,6 +10,7 @@ use std::rc::Rc;
 
 use gearloss_framework::report::Figure;
 use gearloss_framework::study::{Study, Write};
+use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -90,9 +91,7 @@ pub fn write(
     value: &impl Serialize,
 ) -> Result<(), Failure> {
     let mut table = TableFile::new(runner, name, formats, header)?;
-    for row in rows {
-        table.push(row)?;
-    }
+    table.push_texts(rows)?;
     table.finish()?;
     write_json(runner, name, formats, value)
 }
@@ -168,13 +167,17 @@ impl Drop for Place {
     }
 }
 
-/// A table that is written row by row, so that it never stands in memory as a whole.
+/// A table that is written some rows at a time, so that it never stands in memory as a whole.
 pub struct TableFile {
-    csv: Option<(Place, csv::Writer<BufWriter<fs::File>>)>,
+    csv: Option<(Place, BufWriter<fs::File>)>,
     parquet: Option<(Place, ParquetTable<BufWriter<fs::File>>)>,
-    /// A number as text.
-    digits: String,
 }
+
+/// Rows whose text is made by one thread.
+const SHARE: usize = 2048;
+
+/// Rows that go to the columns together, so few that they stay in the caches.
+const BLOCK: usize = 128;
 
 /// A cell of a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -206,13 +209,13 @@ impl TableFile {
         let mut table = Self {
             csv: None,
             parquet: None,
-            digits: String::new(),
         };
         if formats.contains(&Write::Csv) {
-            let (place, file) = Place::new(runner, &format!("{name}.csv"))?;
-            let mut writer = csv::Writer::from_writer(file);
-            writer.write_record(header).map_err(|e| place.cannot(&e))?;
-            table.csv = Some((place, writer));
+            let (place, mut file) = Place::new(runner, &format!("{name}.csv"))?;
+            let head = lines(&[()], |(), row| row.extend(header.iter().map(|name| Cell::Text(name))));
+            let written = head.and_then(|head| file.write_all(&head).map_err(|e| e.to_string()));
+            written.map_err(|e| place.cannot(&e))?;
+            table.csv = Some((place, file));
         }
         if formats.contains(&Write::Parquet) {
             let (place, file) = Place::new(runner, &format!("{name}.parquet"))?;
@@ -223,40 +226,76 @@ impl TableFile {
 
     /// Adds a row of texts.
     pub fn push(&mut self, row: &[String]) -> Result<(), Failure> {
-        let cells: Vec<Cell<'_>> = row.iter().map(|text| Cell::Text(text)).collect();
-        self.push_cells(&cells)
+        self.push_texts(&[row])
     }
 
-    /// Adds a row; numbers become texts in the CSV only.
-    pub fn push_cells(&mut self, row: &[Cell<'_>]) -> Result<(), Failure> {
-        if let Some((place, writer)) = &mut self.csv {
-            let written = row.iter().try_for_each(|cell| match cell {
-                Cell::Gap => writer.write_field(""),
-                Cell::Text(text) => writer.write_field(text),
-                Cell::Number(x) => {
-                    self.digits.clear();
-                    let _ = write!(self.digits, "{x}");
-                    writer.write_field(&self.digits)
-                }
+    /// Adds rows of texts.
+    fn push_texts<R: AsRef<[String]> + Sync>(&mut self, rows: &[R]) -> Result<(), Failure> {
+        self.push_rows(rows, |row, cells| {
+            cells.extend(row.as_ref().iter().map(|text| Cell::Text(text)));
+        })
+    }
+
+    /// Adds a row for each item, whose cells are asked for; numbers become texts in the CSV only.
+    pub fn push_rows<'i, T: Sync>(
+        &mut self,
+        items: &'i [T],
+        cells: impl Fn(&'i T, &mut Vec<Cell<'i>>) + Sync,
+    ) -> Result<(), Failure> {
+        if let Some((place, file)) = &mut self.csv {
+            let shares: Result<Vec<Vec<u8>>, String> =
+                items.par_chunks(SHARE).map(|share| lines(share, &cells)).collect();
+            let written = shares.and_then(|shares| {
+                let written = shares.iter().try_for_each(|text| file.write_all(text));
+                written.map_err(|e| e.to_string())
             });
-            let ended = written.and_then(|()| writer.write_record(None::<&[u8]>));
-            ended.map_err(|e| place.cannot(&e))?;
+            written.map_err(|e| place.cannot(&e))?;
         }
         if let Some((place, table)) = &mut self.parquet {
-            table.push(row).map_err(|e| place.cannot(&e))?;
+            let mut rows = Vec::new();
+            for some in items.chunks(BLOCK) {
+                rows.clear();
+                for item in some {
+                    cells(item, &mut rows);
+                }
+                table.push(&rows).map_err(|e| place.cannot(&e))?;
+            }
+            table.pause().map_err(|e| place.cannot(&e))?;
         }
         Ok(())
     }
 
     pub fn finish(self) -> Result<(), Failure> {
-        if let Some((place, mut writer)) = self.csv {
-            place.done(writer.flush().map_err(|e| e.to_string()))?;
+        if let Some((place, mut file)) = self.csv {
+            place.done(file.flush().map_err(|e| e.to_string()))?;
         }
         if let Some((place, table)) = self.parquet {
             place.done(table.finish())?;
         }
         Ok(())
     }
+}
+
+/// Rows as lines of CSV.
+fn lines<'i, T>(items: &'i [T], cells: impl Fn(&'i T, &mut Vec<Cell<'i>>)) -> Result<Vec<u8>, String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let (mut row, mut digits) = (Vec::new(), String::new());
+    for item in items {
+        row.clear();
+        cells(item, &mut row);
+        let written = row.iter().try_for_each(|cell| match cell {
+            Cell::Gap => writer.write_field(""),
+            Cell::Text(text) => writer.write_field(text),
+            Cell::Number(x) => {
+                digits.clear();
+                let _ = write!(digits, "{x}");
+                writer.write_field(&digits)
+            }
+        });
+        let ended = written.and_then(|()| writer.write_record(None::<&[u8]>));
+        ended.map_err(|e| e.to_string())?;
+    }
+    writer.into_inner().map_err(|e| e.to_string())
 }
 
 /// Puts a picture into the report, and writes it as a file where that is asked for.

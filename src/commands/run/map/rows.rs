@@ -56,10 +56,8 @@ impl<'a> RowsOf<'a> {
     }
 
     /// Writes the rows of points that follow.
-    pub fn write(&self, points: &[PointResult], table: &mut TableFile) -> Result<(), Failure> {
-        let mut row: Vec<Cell<'_>> = Vec::new();
-        for point in points {
-            row.clear();
+    pub fn write<'s>(&'s self, points: &'s [PointResult], table: &mut TableFile) -> Result<(), Failure> {
+        table.push_rows(points, |point, row| {
             row.extend([Cell::Text(self.set), Cell::Text(self.gear)]);
             row.extend(self.bound.iter().map(|word| Cell::Text(word)));
             row.extend([
@@ -82,8 +80,6 @@ impl<'a> RowsOf<'a> {
                     .iter()
                     .map(|c| Cell::from(c.and_then(|c| loss_of(point, c)))),
             );
-            table.push_cells(&row)?;
-        }
-        Ok(())
+        })
     }
 }

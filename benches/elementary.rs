@@ -1,0 +1,73 @@
+//! Exponentials and logarithms, which set the least that a point can cost: those of the framework side by side, and the standard
+//! library's one by one.
+#![allow(missing_docs)]
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use gearloss_framework::lanes::{LANES, Lane, each, exp, ln, over, wide};
+
+/// Lanes in one call; they stay in the cache.
+const MANY: usize = 32;
+
+/// Numbers from one third to three.
+fn numbers() -> Vec<Lane> {
+    let count = (MANY * LANES) as f64;
+    (0..MANY)
+        .map(|k| each(|i| (1.0 + 8.0 * (k * LANES + i) as f64 / count) / 3.0))
+        .collect()
+}
+
+fn one_by_one(numbers: &[Lane], answers: &mut [Lane], function: fn(f64) -> f64) {
+    for (answers, numbers) in answers.iter_mut().zip(black_box(numbers)) {
+        for (answer, x) in answers.iter_mut().zip(numbers.iter()) {
+            *answer = function(*x);
+        }
+    }
+}
+
+fn functions(c: &mut Criterion) {
+    let numbers = numbers();
+    let mut answers = numbers.clone();
+    let mut group = c.benchmark_group("elementary");
+    group.throughput(Throughput::Elements((MANY * LANES) as u64));
+    group.bench_function("exponentials side by side", |b| {
+        b.iter(|| {
+            wide(
+                #[inline(always)]
+                || {
+                    for (answers, numbers) in answers.iter_mut().zip(black_box(&numbers)) {
+                        *answers = over(numbers, exp);
+                    }
+                },
+            );
+            black_box(&answers);
+        });
+    });
+    group.bench_function("logarithms side by side", |b| {
+        b.iter(|| {
+            wide(
+                #[inline(always)]
+                || {
+                    for (answers, numbers) in answers.iter_mut().zip(black_box(&numbers)) {
+                        *answers = over(numbers, ln);
+                    }
+                },
+            );
+            black_box(&answers);
+        });
+    });
+    group.bench_function("exponentials of the standard library", |b| {
+        b.iter(|| one_by_one(&numbers, black_box(&mut answers), f64::exp));
+    });
+    group.bench_function("logarithms of the standard library", |b| {
+        b.iter(|| one_by_one(&numbers, black_box(&mut answers), f64::ln));
+    });
+    group.bench_function("powers of the standard library", |b| {
+        b.iter(|| one_by_one(&numbers, black_box(&mut answers), |x| x.powf(0.54)));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, functions);
+criterion_main!(benches);
