@@ -34,9 +34,9 @@ impl Piece {
     /// Adds the piece to bytes.
     pub fn write_bits(&self, to: &mut Vec<u8>) {
         count(to, self.number);
-        count(to, self.points.len());
+        count(to, self.len());
         count(to, self.seen.len());
-        for point in &self.points {
+        for point in self.points() {
             point.write_bits(to);
         }
         for extent in &self.seen {
@@ -49,13 +49,10 @@ impl Piece {
     /// Takes a piece from the front of bytes; absent where they hold none.
     pub fn read_bits(from: &mut &[u8]) -> Option<Self> {
         let [number, points, seen] = [take_count(from)?, take_count(from)?, take_count(from)?];
-        Some(Self {
-            number,
-            points: (0..points)
-                .map(|_| PointResult::read_bits(from))
-                .collect::<Option<_>>()?,
-            seen: (0..seen).map(|_| take_extent(from)).collect::<Option<_>>()?,
-        })
+        let points = (0..points).map(|_| PointResult::read_bits(from));
+        let points = points.collect::<Option<_>>()?;
+        let seen = (0..seen).map(|_| take_extent(from));
+        Some(Self::new(number, points, seen.collect::<Option<_>>()?))
     }
 }
 
@@ -285,19 +282,13 @@ mod tests {
     }
 
     fn piece() -> Piece {
-        Piece {
-            number: 5,
-            points: (0..9).map(point).collect(),
-            seen: vec![
-                Extent {
-                    least: -1.0,
-                    greatest: 2.5,
-                    seen: 9,
-                    outside: 2,
-                },
-                Extent::EMPTY,
-            ],
-        }
+        let seen = Extent {
+            least: -1.0,
+            greatest: 2.5,
+            seen: 9,
+            outside: 2,
+        };
+        Piece::new(5, (0..9).map(point).collect(), vec![seen, Extent::EMPTY])
     }
 
     #[test]
@@ -308,8 +299,8 @@ mod tests {
         let read = Piece::read_bits(&mut from).unwrap();
         assert!(from.is_empty());
         assert_eq!(
-            (read.number, &read.points, &read.seen),
-            (5, &piece().points, &piece().seen)
+            (read.number, read.points().collect::<Vec<_>>(), &read.seen),
+            (5, piece().points().collect(), &piece().seen)
         );
         let mut again = Vec::new();
         read.write_bits(&mut again);

@@ -232,8 +232,8 @@ impl GridResult {
     /// Adds the piece that follows.
     pub fn add(&mut self, piece: Piece) {
         merge(&mut self.seen, &piece.seen);
-        self.passes += piece.points.iter().map(|p| p.passes).sum::<usize>();
-        self.points.extend(piece.points);
+        self.passes += piece.points().map(|p| p.passes).sum::<usize>();
+        self.points.extend(piece.into_points());
     }
 }
 

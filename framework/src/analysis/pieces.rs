@@ -29,10 +29,41 @@ const TASK: usize = 2048;
 pub struct Piece {
     /// Number of the piece among those of the field.
     pub number: usize,
-    /// The points, in the order of the field.
-    pub points: Vec<PointResult>,
+    /// The points in the order of the field, in runs as they were solved: joining them would cost as much as solving some.
+    runs: Vec<Vec<PointResult>>,
     /// What was seen of limits and observed quantities over these points.
     pub seen: Vec<Extent>,
+}
+
+impl Piece {
+    /// A piece of points in the order of the field, and what was seen of limits and observed quantities over them.
+    pub fn new(number: usize, points: Vec<PointResult>, seen: Vec<Extent>) -> Self {
+        Self {
+            number,
+            runs: vec![points],
+            seen,
+        }
+    }
+
+    /// The points, in the order of the field.
+    pub fn points(&self) -> impl Iterator<Item = &PointResult> + Clone {
+        self.runs.iter().flatten()
+    }
+
+    /// The same, without the piece.
+    pub fn into_points(self) -> impl Iterator<Item = PointResult> {
+        self.runs.into_iter().flatten()
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.runs.iter().map(Vec::len).sum()
+    }
+
+    /// True without points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
 }
 
 impl Field {
@@ -101,25 +132,26 @@ pub fn solve_pieces(
         if !progress(solved.len()) {
             going.store(false, Ordering::Relaxed);
         }
-        (in_place(solved, task), space.take_seen())
+        (runs(solved, task), space.take_seen())
     };
     let solve_all = |numbers: &[usize]| -> Vec<Piece> {
         let orders: Vec<Vec<usize>> = numbers.iter().map(|number| points.field.in_order(*number)).collect();
         let tasks: Vec<&[usize]> = orders.iter().flat_map(|order| order.chunks(TASK)).collect();
-        let mut solved: Vec<(Vec<(usize, PointResult)>, Vec<Extent>)> =
+        let mut solved: Vec<(Vec<Run>, Vec<Extent>)> =
             tasks.into_par_iter().map_init(|| solver.space(), solve).collect();
         let mut solved = solved.drain(..);
         let piece = |(number, order): (&usize, &Vec<usize>)| {
             let mut seen = Vec::new();
             let own = solved.by_ref().take(order.len().div_ceil(TASK));
-            let parts = own.map(|(points, totals)| {
+            let mut runs = Vec::new();
+            for (own, totals) in own {
                 merge(&mut seen, &totals);
-                points
-            });
-            let parts = parts.collect();
+                runs.extend(own);
+            }
+            runs.sort_by_key(|(first, _)| *first);
             Piece {
                 number: *number,
-                points: joined(parts, points.field.of_piece(*number)),
+                runs: runs.into_iter().map(|(_, points)| points).collect(),
                 seen,
             }
         };
@@ -148,34 +180,18 @@ pub fn solve_pieces(
     }
 }
 
-/// Solved points of a task by their numbers, which here are still in the caches.
-fn in_place(solved: Vec<PointResult>, numbers: &[usize]) -> Vec<(usize, PointResult)> {
+/// The number of a point, and with it those that follow in the order of the field.
+type Run = (usize, Vec<PointResult>);
+
+/// The points of a task of given numbers as runs, while they are still in the caches.
+fn runs(solved: Vec<PointResult>, numbers: &[usize]) -> Vec<Run> {
     let mut order: Vec<usize> = (0..solved.len()).collect();
     order.sort_by_key(|i| numbers[*i]);
     let mut solved: Vec<Option<PointResult>> = solved.into_iter().map(Some).collect();
-    order
-        .into_iter()
-        .filter_map(|i| Some((numbers[i], solved[i].take()?)))
-        .collect()
-}
-
-/// The points of all tasks of a piece, each in the order of the field, as one list.
-fn joined(parts: Vec<Vec<(usize, PointResult)>>, numbers: Range<usize>) -> Vec<PointResult> {
-    let mut points = Vec::with_capacity(numbers.len());
-    let mut parts: Vec<_> = parts.into_iter().map(|part| part.into_iter().peekable()).collect();
-    let mut next = numbers.start;
-    // What was broken off has no points.
-    while parts.iter().any(|part| part.len() > 0) {
-        let before = next;
-        for part in &mut parts {
-            while let Some((_, point)) = part.next_if(|(number, _)| *number == next) {
-                points.push(point);
-                next += 1;
-            }
-        }
-        if next == before {
-            break;
-        }
-    }
-    points
+    let run = |own: &[usize]| {
+        let mut points = Vec::with_capacity(own.len());
+        points.extend(own.iter().filter_map(|i| solved[*i].take()));
+        (numbers[own[0]], points)
+    };
+    order.chunk_by(|a, b| numbers[*b] == numbers[*a] + 1).map(run).collect()
 }

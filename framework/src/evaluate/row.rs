@@ -1,6 +1,6 @@
 //! Many points that differ in one torque, in blocks side by side.
 //!
-//! Speeds, oils and all that hangs on them alone are settled once for the row. The numbers are those of
+//! Speeds, oils and all that hangs on them alone are settled once for the row. The numbers of [`Row::solve`] are those of
 //! [`Transmission::evaluate`] to the bit, but for the sign of zero, also for points that have to be evaluated alone: see [`Block::alone`].
 
 use std::cell::Cell;
@@ -13,10 +13,10 @@ use crate::loads::{LoadLanes, SupportLoad};
 use crate::loss::{Extent, NoteBase, Notes};
 use crate::transmission::{Case, PartKind, Transmission};
 
-/// No thrust.
-static NONE: Lane = Lane::ZERO;
+/// No thrust that nothing takes.
+static NO_THRUST: Lane = Lane::ZERO;
 
-/// Space for the rows of one case. Everything is allocated here, once.
+/// Space for the rows of one case. Everything is allocated here, once, but what [`Row::follow`] keeps of the rows before.
 #[derive(Debug, Clone)]
 pub struct RowScratch {
     /// The state of the row.
@@ -28,7 +28,7 @@ pub struct RowScratch {
     trails: Vec<Trail>,
     /// The block that comes next.
     next: usize,
-    /// All but the first speed and the first torque of the row before.
+    /// All that is given of the row before, but its first speed and its first torque.
     before: Vec<f64>,
     given: Vec<Lane>,
     /// Torques of ports that corrections of loads may ask for.
@@ -382,7 +382,6 @@ impl Row<'_> {
                     totals,
                     counted: &counted,
                     points,
-                    whole: points as usize == torques.len(),
                     outside,
                     handed: &handed,
                     base,
@@ -487,7 +486,7 @@ fn ask<'a>(
     losses: &mut LossLanes,
 ) -> &'a Lane {
     let Some(support) = component.support.map(usize::from) else {
-        return &NONE;
+        return &NO_THRUST;
     };
     let own = &loads[support];
     if !component.placed.losses(state, own, notes, losses) {

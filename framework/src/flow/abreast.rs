@@ -1,6 +1,7 @@
 //! Torque flow with losses for the points of a block, which share speeds and drivers.
 //!
-//! This is the loop of [`super::solve`] for points that give it no trouble, in the same operations. A lane in which a driver
+//! This is the loop of [`super::solve`] for points that give it no trouble, in the same operations unless a trail gives a guess of the
+//! torques, with which a first pass may be the last. A lane in which a driver
 //! turns, or that does not settle within a few passes, is left to that loop.
 
 use super::linear::{Panels, larger};
@@ -13,8 +14,8 @@ use crate::lanes::{LANES, Lane, count, each, over, wide};
 /// Passes after which a lane is left alone; before, the loop for single points changes nothing in its pace.
 const FEW: usize = PATIENCE - 2;
 
-/// The least share of an error that one pass is taken to leave.
-const LEAST_LEFT: f64 = 1e-3;
+/// A mismatch below this share of the greatest one may be rounding, and says nothing of how fast it falls.
+const NEGLIGIBLE: f64 = 1e-3;
 
 const ZERO: Lane = Lane::all(0.0);
 
@@ -36,7 +37,7 @@ pub struct WorkLanes {
     /// Passes over the loss models.
     pub passes: [usize; LANES],
     rolling: Vec<Lane>,
-    /// Powers of a guess: rolling powers of the meshes, then those of unknown torques of ports.
+    /// A guess: multipliers of the meshes, then unknown torques of ports.
     guess: Vec<Lane>,
     /// The share of an error that one pass leaves.
     rate: Lane,
@@ -152,6 +153,12 @@ fn same(a: &Lane, b: &Lane) -> bool {
     count(|i| a[i] == b[i]) == LANES as u64
 }
 
+/// What one more pass leaves of an error that falls to some share of it in each, with all passes to come.
+#[inline(always)]
+fn to_come(error: f64, rate: f64) -> f64 {
+    error * rate / larger(1e-3, 1.0 - rate)
+}
+
 /// Whether every lane surely has this driver.
 #[inline(always)]
 fn all_drive(drives: Drive, rolling: &Lane, largest: &Lane) -> bool {
@@ -224,7 +231,8 @@ impl Flow {
         }
     }
 
-    /// As [`Flow::real`] for the points of a block: `torques` are those of the given ports in their order, in all lanes.
+    /// As [`Flow::real`] for the points of a block. With a trail and its place on it, which is a speed, the first torques are guessed
+    /// from it, and the block becomes its next step.
     pub fn real_abreast(
         &self,
         task: &TaskLanes<'_>,
@@ -232,7 +240,7 @@ impl Flow {
         work: &mut WorkLanes,
         mut losses: impl FnMut(&mut FlowLanes<'_>),
     ) {
-        let Some((trail, at)) = trail else {
+        let Some((trail, at)) = trail.filter(|_| task.tolerance.passes > 1) else {
             return self.iterate_abreast(task, false, 0, work, &mut losses);
         };
         let guess = wide(
@@ -256,8 +264,8 @@ impl Flow {
         trail.push(task.torques, at, &work.drives, self.trailed(work), guessed);
     }
 
-    /// Passes over models and equilibrium until they agree: from the beginning, or after a first one from a guess. `pass` is the number of
-    /// those before.
+    /// Passes over models and equilibrium until they agree: from the beginning, or after a first one from a guess. `pass` is the
+    /// number of those before.
     fn iterate_abreast(
         &self,
         task: &TaskLanes<'_>,
@@ -344,22 +352,28 @@ impl Flow {
         let k = self.meshes.len();
         work.answers();
         std::mem::swap(&mut work.used, &mut work.answer);
-        work.guess[..k].copy_from_slice(&work.rolling);
+        for (guess, row) in work.guess.iter_mut().zip(&self.meshes) {
+            *guess = work.multipliers[row.row];
+        }
         for (guess, port) in work.guess[k..].iter_mut().zip(&self.unknown) {
-            *guess = over(&work.ports[*port], |torque| torque * task.speeds[*port]);
+            *guess = work.ports[*port];
         }
         self.solve_abreast(task.speeds, work, &[true; LANES]);
+        // What rests has no power, but its torque loads what turns.
+        let fastest = task.speeds.iter().fold(0.0, |most, speed| larger(most, speed.abs()));
+        let speed = |speed: f64| if speed == 0.0 { fastest } else { speed.abs() };
         let mut moved = ZERO;
-        for (rolling, guess) in work.rolling.iter().zip(&work.guess) {
-            moved = each(|i| larger(moved[i], (rolling[i] - guess[i]).abs()));
+        for ((mesh, row), guess) in self.meshes.iter().enumerate().zip(&work.guess) {
+            let (now, weight) = (&work.multipliers[row.row], row.z1.abs() * speed(work.relative[mesh][1]));
+            moved = each(|i| larger(moved[i], (now[i] - guess[i]).abs() * weight));
         }
         for (port, guess) in self.unknown.iter().zip(&work.guess[k..]) {
-            let (speed, torque) = (task.speeds[*port], &work.ports[*port]);
-            moved = each(|i| larger(moved[i], (torque[i] * speed - guess[i]).abs()));
+            let (now, weight) = (&work.ports[*port], speed(task.speeds[*port]));
+            moved = each(|i| larger(moved[i], (now[i] - guess[i]).abs() * weight));
         }
         work.rate = trail.rate.unwrap_or(Lane::all(1.0));
         let rate = &work.rate;
-        let left = each(|i| moved[i] * rate[i] / larger(1e-3, 1.0 - rate[i]));
+        let left = each(|i| to_come(moved[i], rate[i]));
         for i in 0..LANES {
             work.done[i] = left[i] <= SAFETY * task.tolerance.power * work.largest[i];
         }
@@ -451,18 +465,14 @@ impl Flow {
             mismatch = each(|i| larger(mismatch[i], own[i].abs()));
         }
         let left = if known {
-            work.remaining()
+            let (left, rate) = work.remaining(&mismatch);
+            if !rated {
+                work.rate = rate;
+            }
+            left
         } else {
-            let rate = &work.rate;
-            each(|i| mismatch[i] * rate[i] / larger(1e-3, 1.0 - rate[i]))
+            each(|i| to_come(mismatch[i], work.rate[i]))
         };
-        if known && !rated {
-            // The rate with which the last step would leave the same. Losses that stood still here may move elsewhere.
-            work.rate = each(|i| {
-                let rate = left[i] / (left[i] + mismatch[i]);
-                if rate > LEAST_LEFT { rate } else { LEAST_LEFT }
-            });
-        }
         let judged = known || rated;
         let last: [bool; LANES] =
             std::array::from_fn(|i| work.done[i] || judged && left[i] <= SAFETY * tolerance.power * work.largest[i]);
@@ -714,9 +724,10 @@ impl WorkLanes {
         each(|i| (answer[i] - used[i]) * weight[i])
     }
 
-    /// As `remaining` of the loop for single points.
+    /// As `remaining` of the loop for single points; and the greatest share that a pass leaves of any mismatch that counts beside the
+    /// greatest one. Where nothing moved that says nothing.
     #[inline(always)]
-    fn remaining(&self) -> Lane {
+    fn remaining(&self, greatest: &Lane) -> (Lane, Lane) {
         let (mut moved, mut followed) = (ZERO, ZERO);
         for &e in &self.live {
             let (used, before, weight) = (&self.used[e], &self.used_before[e], &self.weights[e]);
@@ -725,25 +736,30 @@ impl WorkLanes {
             followed = each(|i| larger(followed[i], ((answer[i] - before[i]) * weight[i]).abs()));
         }
         let common = each(|i| if moved[i] > 0.0 { followed[i] / moved[i] } else { 1.0 });
-        let mut most = ZERO;
+        let (mut most, mut rate) = (ZERO, ZERO);
         for &e in &self.live {
             let mismatch = self.mismatch(e);
             let (used, used_before) = (&self.used[e], &self.used_before[e]);
             let (answer, answer_before) = (&self.answer[e], &self.answer_before[e]);
-            most = each(|i| {
-                let mismatch = mismatch[i].abs();
+            let falls = each(|i| {
                 let (moved, followed) = ((used[i] - used_before[i]).abs(), (answer[i] - answer_before[i]).abs());
                 let own = if followed < moved { followed / moved } else { 1.0 };
-                let falls = larger(common[i], own);
-                let left = mismatch * falls / larger(1e-3, 1.0 - falls);
-                if mismatch == 0.0 {
+                larger(common[i], own)
+            });
+            most = each(|i| {
+                let left = to_come(mismatch[i].abs(), falls[i]);
+                if mismatch[i] == 0.0 {
                     most[i]
                 } else {
                     larger(most[i], left)
                 }
             });
+            rate = each(|i| {
+                let counts = mismatch[i].abs() > NEGLIGIBLE * greatest[i];
+                if counts { larger(rate[i], falls[i]) } else { rate[i] }
+            });
         }
-        most
+        (most, over(&rate, |rate| if rate > 0.0 { rate } else { 1.0 }))
     }
 
     /// As `secant` of the loop for single points.

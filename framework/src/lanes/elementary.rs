@@ -77,7 +77,7 @@ pub fn ln(x: f64) -> f64 {
     if x < f64::INFINITY { value } else { x }
 }
 
-/// The cube root of a number that is not negative, to about 3e-16 of it.
+/// The cube root of a normal positive number or of zero, to about 3e-16 of it.
 ///
 /// The inverse root y is found by Newton's way from a first guess in the bits, whose upper half is nearly a logarithm, and the
 /// root is improved once more. Nothing is divided.

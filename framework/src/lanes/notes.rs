@@ -16,8 +16,6 @@ pub struct LaneNotes<'a> {
     /// Lanes that count, and how many.
     pub(crate) counted: &'a [bool; LANES],
     pub(crate) points: u32,
-    /// True where the other lanes repeat one that counts.
-    pub(crate) whole: bool,
     pub(crate) outside: &'a [Cell<bool>; LANES],
     /// Set where cells of lanes were handed out.
     pub(crate) handed: &'a Cell<bool>,
@@ -52,7 +50,6 @@ pub(crate) fn same_notes(
         totals,
         counted: &[true; LANES],
         points: LANES as u32,
-        whole: true,
         outside: &std::array::from_fn(|_| Cell::new(false)),
         handed: &Cell::new(false),
         base,
@@ -126,15 +123,17 @@ impl<'a> LaneNotes<'a> {
         (seen.least, seen.greatest)
     }
 
-    /// The least and the greatest of all numbers of a lane, where all of them are numbers of points that count. What rises or falls
-    /// with them has its own least and greatest values there, which serve [`check_range`](Self::check_range) and
+    /// The least and the greatest number of the lanes that count; absent where one of them is no number. What rises or falls with them has its own least and greatest values there, which serve [`check_range`](Self::check_range) and
     /// [`observe_range`](Self::observe_range).
     pub fn range(&self, lane: &Lane) -> Option<(f64, f64)> {
         let ((least, greatest), unknown) = wide(
             #[inline(always)]
-            || (extremes(lane, &[true; LANES]), count(|i| lane[i].is_nan())),
+            || {
+                let unknown = count(|i| self.counted[i] && lane[i].is_nan());
+                (extremes(lane, self.counted), unknown)
+            },
         );
-        (self.whole && unknown == 0).then_some((least, greatest))
+        (unknown == 0 && self.points > 0).then_some((least, greatest))
     }
 
     /// As [`check`](Self::check) for the least and the greatest value over all lanes; false, with nothing noted, where they are

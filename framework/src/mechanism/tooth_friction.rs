@@ -39,7 +39,8 @@ pub trait ToothFrictionModel: Send + Sync {
     /// Coefficients at all nodes of a path for several line loads (N/m) side by side, where all else is as at `path`, whose own line
     /// load and `mean` mean nothing; muted. They
     /// must have the bits of [`along`](Self::along), the heat must go into both bodies alike, and what is undefined is no number.
-    /// False where the law has no code of its own for it: it is then asked once for each load.
+    /// False where the law has no code of its own for it: it is then asked once for each load. It serves the notes of laws with a
+    /// [`weighted`](Self::weighted) sum.
     fn along_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &mut [Lane]) -> bool {
         false
     }

@@ -308,7 +308,7 @@ impl WeightedFriction for Weighted {
         };
         let (mut least, mut greatest) = (Lane::all(seen), Lane::all(greatest_seen));
         let mut walks = 0;
-        for i in 0..LANES {
+        for i in (0..LANES).filter(|i| notes.wanted(*i)) {
             let bounds = self.series.bounds(at(units[i]));
             let within = |[below, above]: [f64; 2]| commons[i] + below >= ln_least && commons[i] + above <= ln_greatest;
             if bounds.is_some_and(within) {

@@ -132,10 +132,7 @@ fn on_grid<'s>(
         let kept = Kept::new(Some(&plan.axes), !entry.export.is_empty());
         let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, kept);
         runner.solve_pieces(&plan.built, &plan.points, Some((name, number)), &mut |piece| {
-            let taken = map.take(&plan.points.field, &piece, &mut files);
-            // This thread is the one that others wait for.
-            rayon::spawn(move || drop(piece));
-            taken
+            map.take(&plan.points.field, &piece, &mut files)
         })?;
         map.notes = notes(&plan.built.transmission, &map.seen);
         maps.push(map);
@@ -185,11 +182,7 @@ fn on_list<'s>(
             let points: Vec<PointResult> = of_map.map(|((_, _, point), _)| point.clone()).collect();
             let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
             let mut map = Map::new(&built[place], &bound, &gear, oil, Kept::new(None, false));
-            let piece = Piece {
-                number: 0,
-                points,
-                seen: Vec::new(),
-            };
+            let piece = Piece::new(0, points, Vec::new());
             map.take(&Field::List(Vec::new()), &piece, &mut files)?;
             map.notes.clone_from(&solved.notes);
             maps.push(map);
@@ -249,12 +242,12 @@ impl<'a> Map<'a> {
     /// Writes the rows of a piece that follows, and keeps of its points what is still needed.
     fn take(&mut self, field: &Field, piece: &Piece, files: &mut Files) -> Result<(), Failure> {
         let rows = RowsOf::new(&self.built, &self.gear, &self.bound, &files.parts);
-        rows.write(&piece.points, &mut files.table)?;
+        rows.write(piece, &mut files.table)?;
         if let Some(waited) = &mut files.waited {
             self.waiting.push(waited.append(piece)?);
         }
         merge(&mut self.seen, &piece.seen);
-        self.passes += piece.points.iter().map(|p| p.passes).sum::<usize>();
+        self.passes += piece.points().map(|p| p.passes).sum::<usize>();
         self.kept.add(field, piece);
         Ok(())
     }

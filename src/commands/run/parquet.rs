@@ -171,9 +171,12 @@ impl<W: Write + Send> ParquetTable<W> {
     /// Adds rows, whose cells follow each other.
     ///
     /// # Errors
-    /// A text in a column that held numbers before.
+    /// A text in a column that held numbers before; rows of another length than the header.
     pub fn push(&mut self, rows: &[Cell<'_>]) -> Result<(), String> {
         let width = self.columns.len();
+        if !rows.len().is_multiple_of(width.max(1)) {
+            return Err("bug: rows of another length than the header".to_owned());
+        }
         for (place, column) in self.columns.iter_mut().enumerate() {
             column.push_all(rows.iter().skip(place).step_by(width))?;
         }

@@ -171,6 +171,8 @@ impl Drop for Place {
 pub struct TableFile {
     csv: Option<(Place, BufWriter<fs::File>)>,
     parquet: Option<(Place, ParquetTable<BufWriter<fs::File>>)>,
+    /// Number of columns.
+    width: usize,
 }
 
 /// Rows whose text is made by one thread.
@@ -209,6 +211,7 @@ impl TableFile {
         let mut table = Self {
             csv: None,
             parquet: None,
+            width: header.len(),
         };
         if formats.contains(&Write::Csv) {
             let (place, mut file) = Place::new(runner, &format!("{name}.csv"))?;
@@ -243,8 +246,13 @@ impl TableFile {
         cells: impl Fn(&'i T, &mut Vec<Cell<'i>>) + Sync,
     ) -> Result<(), Failure> {
         if let Some((place, file)) = &mut self.csv {
+            let width = self.width;
+            let whole = |item, row: &mut Vec<Cell<'i>>| {
+                cells(item, row);
+                debug_assert_eq!(row.len(), width, "cells of a row");
+            };
             let shares: Result<Vec<Vec<u8>>, String> =
-                items.par_chunks(SHARE).map(|share| lines(share, &cells)).collect();
+                items.par_chunks(SHARE).map(|share| lines(share, whole)).collect();
             let written = shares.and_then(|shares| {
                 let written = shares.iter().try_for_each(|text| file.write_all(text));
                 written.map_err(|e| e.to_string())

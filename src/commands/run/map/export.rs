@@ -88,7 +88,7 @@ fn between(runner: &Runner<'_>, table: &Table<'_>) -> Result<String, Failure> {
     let points = runner.listed(t, &table.map.gear, list);
     let (mut gaps, mut means) = (Vec::new(), means.into_iter());
     runner.solve_pieces(&table.map.built, &points, None, &mut |piece| {
-        let pairs = piece.points.iter().zip(means.by_ref());
+        let pairs = piece.points().zip(means.by_ref());
         gaps.extend(pairs.filter_map(|(p, mean)| Some(mean - p.loss_torque?)));
         Ok(())
     })?;

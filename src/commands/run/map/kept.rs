@@ -134,7 +134,7 @@ impl Kept {
 
     /// Adds the points of a piece that follows.
     pub fn add(&mut self, field: &Field, piece: &Piece) {
-        for point in &piece.points {
+        for point in piece.points() {
             let place = field.place(self.solved);
             self.solved += 1;
             if let Some(whole) = &mut self.whole {

@@ -144,7 +144,7 @@ fn points<S: Serializer>((map, waited): &(&Map<'_>, &Waited), to: S) -> Result<S
     let mut list = to.serialize_seq(None)?;
     for place in &map.waiting {
         let piece = waited.0.borrow_mut().piece(*place).map_err(S::Error::custom)?;
-        for p in &piece.points {
+        for p in piece.points() {
             list.serialize_element(&point(p))?;
         }
     }

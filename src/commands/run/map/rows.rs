@@ -1,6 +1,6 @@
 //! The table of a map: its columns, and the rows of the points as they are solved.
 
-use gearloss_framework::analysis::{PointResult, SUMS};
+use gearloss_framework::analysis::{Piece, PointResult, SUMS};
 use gearloss_framework::thermal::Outcome;
 use serde_json::Value;
 
@@ -55,9 +55,10 @@ impl<'a> RowsOf<'a> {
         }
     }
 
-    /// Writes the rows of points that follow.
-    pub fn write<'s>(&'s self, points: &'s [PointResult], table: &mut TableFile) -> Result<(), Failure> {
-        table.push_rows(points, |point, row| {
+    /// Writes the rows of a piece that follows.
+    pub fn write(&self, piece: &Piece, table: &mut TableFile) -> Result<(), Failure> {
+        let points: Vec<&PointResult> = piece.points().collect();
+        table.push_rows(&points, |point, row| {
             row.extend([Cell::Text(self.set), Cell::Text(self.gear)]);
             row.extend(self.bound.iter().map(|word| Cell::Text(word)));
             row.extend([
