@@ -215,7 +215,9 @@ impl TableFile {
         };
         if formats.contains(&Write::Csv) {
             let (place, mut file) = Place::new(runner, &format!("{name}.csv"))?;
-            let head = lines(&[()], |(), row| row.extend(header.iter().map(|name| Cell::Text(name))));
+            let head = lines(&[()], header.len(), |(), row| {
+                row.extend(header.iter().map(|name| Cell::Text(name)));
+            });
             let written = head.and_then(|head| file.write_all(&head).map_err(|e| e.to_string()));
             written.map_err(|e| place.cannot(&e))?;
             table.csv = Some((place, file));
@@ -247,12 +249,10 @@ impl TableFile {
     ) -> Result<(), Failure> {
         if let Some((place, file)) = &mut self.csv {
             let width = self.width;
-            let whole = |item, row: &mut Vec<Cell<'i>>| {
-                cells(item, row);
-                debug_assert_eq!(row.len(), width, "cells of a row");
-            };
-            let shares: Result<Vec<Vec<u8>>, String> =
-                items.par_chunks(SHARE).map(|share| lines(share, whole)).collect();
+            let shares: Result<Vec<Vec<u8>>, String> = items
+                .par_chunks(SHARE)
+                .map(|share| lines(share, width, &cells))
+                .collect();
             let written = shares.and_then(|shares| {
                 let written = shares.iter().try_for_each(|text| file.write_all(text));
                 written.map_err(|e| e.to_string())
@@ -285,12 +285,15 @@ impl TableFile {
 }
 
 /// Rows as lines of CSV.
-fn lines<'i, T>(items: &'i [T], cells: impl Fn(&'i T, &mut Vec<Cell<'i>>)) -> Result<Vec<u8>, String> {
+fn lines<'i, T>(items: &'i [T], width: usize, cells: impl Fn(&'i T, &mut Vec<Cell<'i>>)) -> Result<Vec<u8>, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let (mut row, mut digits) = (Vec::new(), String::new());
     for item in items {
         row.clear();
         cells(item, &mut row);
+        if row.len() != width {
+            return Err("bug: a row of another length than the header".to_owned());
+        }
         let written = row.iter().try_for_each(|cell| match cell {
             Cell::Gap => writer.write_field(""),
             Cell::Text(text) => writer.write_field(text),
