@@ -1,10 +1,13 @@
 //! The report of a study: one HTML file that opens without a network, with interactive pictures and the data behind them.
 
+use std::io::Write;
+
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::report::Figure;
 use minijinja::value::Serde;
-use minijinja::{AutoEscape, Environment, Value as Filled};
-use serde::{Deserialize, Serialize};
+use minijinja::{AutoEscape, Environment, ErrorKind, Value as Filled};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 
 /// The template that is used unless the user gives one of his own.
@@ -41,8 +44,57 @@ impl Section {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Shown {
     title: String,
-    /// Traces and layout, as JSON.
-    spec: String,
+    spec: Spec,
+}
+
+/// Traces and layout of a picture.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(from = "String")]
+enum Spec {
+    /// To be made of the picture: of all of them together when the page is written, on all threads.
+    Of(Box<Figure>),
+    /// As JSON, where a shard has made it.
+    Made(String),
+}
+
+impl From<String> for Spec {
+    fn from(json: String) -> Self {
+        Self::Made(json)
+    }
+}
+
+impl Spec {
+    fn json(&self) -> String {
+        match self {
+            Self::Of(figure) => figure.plotly().to_string(),
+            Self::Made(json) => json.clone(),
+        }
+    }
+}
+
+impl Serialize for Spec {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(&self.json())
+    }
+}
+
+/// Why the page cannot be written.
+#[derive(Debug)]
+pub enum PageFault {
+    /// What is wrong with the template.
+    Template(String),
+    /// What the file says.
+    Write(String),
+}
+
+impl From<minijinja::Error> for PageFault {
+    fn from(e: minijinja::Error) -> Self {
+        let words = format!("{e:#}");
+        match e.kind() {
+            ErrorKind::WriteFailure => Self::Write(words),
+            _ => Self::Template(words),
+        }
+    }
 }
 
 /// A section as templates see it.
@@ -140,7 +192,7 @@ impl Report {
         if let Some(section) = self.sections.last_mut() {
             section.figures.push(Shown {
                 title: figure.title().to_owned(),
-                spec: figure.plotly().to_string(),
+                spec: Spec::Of(Box::new(figure)),
             });
         }
     }
@@ -164,57 +216,59 @@ impl Report {
         self.gearboxes.push(page);
     }
 
-    /// The page, by the user's template where he gives one.
+    /// Writes the page, by the user's template where he gives one.
     ///
     /// # Errors
-    /// What is wrong with the template.
-    pub fn html(&self, frame: &Frame, template: Option<&str>) -> Result<String, String> {
+    /// What is wrong with the template, or with the file.
+    pub fn html(&self, frame: &Frame, template: Option<&str>, to: impl Write) -> Result<(), PageFault> {
         let mut environment = Environment::new();
         environment.set_auto_escape_callback(|_| AutoEscape::Html);
-        environment
-            .add_template("report", template.unwrap_or(TEMPLATE))
-            .map_err(|e| format!("{e:#}"))?;
-        let page = environment.get_template("report").map_err(|e| format!("{e:#}"))?;
-        let mut data: Vec<String> = Vec::new();
+        environment.add_template("report", template.unwrap_or(TEMPLATE))?;
+        let page = environment.get_template("report")?;
+        let all: Vec<&Shown> = self.sections.iter().flat_map(|section| &section.figures).collect();
+        let id = |number: usize| format!("figure-{number}");
+        let datum = |(number, shown): (usize, &&Shown)| {
+            let [id, title] = [id(number), shown.title.clone()].map(Value::from);
+            let json = format!(r#"{{"id":{id},"title":{title},"spec":{}}}"#, shown.spec.json());
+            // A text in the data must not end the script that holds it.
+            json.replace("</", "<\\/")
+        };
+        let data = || all.par_iter().enumerate().map(datum).collect::<Vec<String>>();
+        let (data, script) = rayon::join(data, script);
         let mut sections = Vec::new();
+        let mut numbers = 0..;
         for section in &self.sections {
-            let mut figures = Vec::new();
-            for Shown { title, spec } in &section.figures {
-                let id = format!("figure-{}", data.len());
-                data.push(format!(
-                    r#"{{"id":{},"title":{},"spec":{spec}}}"#,
-                    Value::from(id.as_str()),
-                    Value::from(title.as_str())
-                ));
-                figures.push(FigureOfPage { id, title });
-            }
+            let figures = section.figures.iter().zip(numbers.by_ref());
+            let figures = figures.map(|(shown, number)| FigureOfPage {
+                id: id(number),
+                title: &shown.title,
+            });
             sections.push(SectionOfPage {
                 name: &section.name,
                 about: &section.about,
                 verdicts: &section.verdicts,
                 text: &section.text,
-                figures,
+                figures: figures.collect(),
             });
         }
-        let data = format!("[{}]", data.join(","));
-        // A text in the data must not end the script that holds it.
-        let data = data.replace("</", "<\\/");
-        page.render(minijinja::context! {
+        let filled = minijinja::context! {
             frame => Filled::from(Serde(frame)),
             sections => Filled::from(Serde(&sections)),
             gearboxes => Filled::from(Serde(&self.gearboxes)),
-            plotly => script(),
-            figures => data,
-        })
-        .map_err(|e| format!("{e:#}"))
+            plotly => Filled::from_safe_string(script),
+            figures => Filled::from_safe_string(format!("[{}]", data.join(","))),
+        };
+        page.render_captured_to(filled, to)?;
+        Ok(())
     }
 }
 
 /// The plotting library as a script element. The crate also brings one for formulas, which no picture here has.
 fn script() -> String {
-    let both = plotly::Plot::offline_js_sources();
+    let mut both = plotly::Plot::offline_js_sources();
     let end = both.find("</script>").map_or(both.len(), |at| at + "</script>".len());
-    both[..end].to_owned()
+    both.truncate(end);
+    both
 }
 
 #[cfg(test)]
@@ -248,9 +302,16 @@ mod tests {
         }
     }
 
+    fn page(report: &Report, template: Option<&str>) -> Result<String, String> {
+        let mut page = Vec::new();
+        let written = report.html(&frame(), template, &mut page);
+        written.map_err(|fault| format!("{fault:?}"))?;
+        Ok(String::from_utf8(page).unwrap())
+    }
+
     #[test]
     fn texts_cannot_break_the_page() {
-        let page = report().html(&frame(), None).unwrap();
+        let page = page(&report(), None).unwrap();
         assert!(page.contains("A &amp; B") && page.contains("a &lt; b"));
         assert!(!page.contains("</script><b>"), "a title ends the script");
     }
@@ -258,12 +319,8 @@ mod tests {
     #[test]
     fn a_template_of_the_user_takes_the_place_and_its_faults_are_told() {
         let own = "{{ frame.title }}: {% for s in sections %}{{ s.name }} {{ s.figures | length }}{% endfor %}";
-        assert_eq!(report().html(&frame(), Some(own)).unwrap(), "A &amp; B: limit 1");
-        assert!(
-            report()
-                .html(&frame(), Some("{% for %}"))
-                .unwrap_err()
-                .contains("syntax")
-        );
+        assert_eq!(page(&report(), Some(own)).unwrap(), "A &amp; B: limit 1");
+        let fault = page(&report(), Some("{% for %}")).unwrap_err();
+        assert!(fault.starts_with("Template") && fault.contains("syntax"), "{fault}");
     }
 }

@@ -6,7 +6,7 @@ mod common;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{RPM, language, two_speed_with};
-use gearloss_framework::analysis::{Field, MOST_HELD, OilTemperature, Points, run_grid, solve_pieces};
+use gearloss_framework::analysis::{Field, MOST_HELD, OilTemperature, Points, held, run_grid, solve_pieces};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use serde_json::json;
@@ -90,9 +90,9 @@ fn few_points_of_a_large_field_are_held_at_once() {
     let language = language();
     let t = two_speed_with(&language, Some("joint"), &[]);
     let torques: Vec<f64> = (0..1000).map(|i| 0.02 * f64::from(i)).collect();
-    let speeds: Vec<f64> = (0..400).map(|i| f64::from(i) * 60.0 * RPM).collect();
+    let speeds: Vec<f64> = (0..850).map(|i| f64::from(i) * 28.0 * RPM).collect();
     let count = torques.len() * speeds.len();
-    assert!(count > 3 * MOST_HELD);
+    assert!(count > 2 * MOST_HELD);
     let points = Points {
         gear: "first".to_owned(),
         torque_at: vec!["input".to_owned()],
@@ -104,20 +104,20 @@ fn few_points_of_a_large_field_are_held_at_once() {
     };
     let numbers: Vec<usize> = (0..points.field.pieces()).collect();
     for threads in [1, 3] {
-        let (held, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let (waiting, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let solved = |more: usize| {
-            let now = held.fetch_add(more, Ordering::SeqCst) + more;
+            let now = waiting.fetch_add(more, Ordering::SeqCst) + more;
             most.fetch_max(now, Ordering::SeqCst);
             true
         };
         let (mut taken, mut next) = (0, 0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let whole = pool.install(|| {
-            solve_pieces(&t, &points, &numbers, &solved, &mut |piece| {
+            solve_pieces(&t, &points, &numbers, &held, &solved, &mut |piece| {
                 assert_eq!(piece.number, next);
                 next += 1;
                 taken += piece.len();
-                held.fetch_sub(piece.len(), Ordering::SeqCst);
+                waiting.fetch_sub(piece.len(), Ordering::SeqCst);
                 true
             })
         });
@@ -152,7 +152,7 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
     let mut seen = Vec::new();
     for number in 0..4 {
         let mut alone = Vec::new();
-        solve_pieces(&t, &points, &[number], &|_| true, &mut |piece| {
+        solve_pieces(&t, &points, &[number], &held, &|_| true, &mut |piece| {
             alone.push(piece);
             true
         })
@@ -163,6 +163,8 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
         start = end;
     }
     assert_eq!((start, seen), (17500, whole.seen));
-    let stopped = solve_pieces(&t, &points, &[0, 1, 2, 3], &|_| true, &mut |piece| piece.number < 1);
+    let stopped = solve_pieces(&t, &points, &[0, 1, 2, 3], &held, &|_| true, &mut |piece| {
+        piece.number < 1
+    });
     assert!(!stopped.unwrap(), "who takes no more is handed no more");
 }

@@ -3,6 +3,7 @@
 mod axes;
 mod balance;
 mod breakdown;
+mod columns;
 mod compare;
 mod component_compare;
 mod contact_path;
@@ -26,6 +27,7 @@ mod sensitivity;
 mod shard;
 mod shares;
 mod sweep;
+mod table;
 mod thermal_limit;
 mod tournament;
 mod trial;

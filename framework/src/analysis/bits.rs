@@ -1,9 +1,10 @@
 //! Solved pieces as bytes that give back every bit: numbers as their 64 bits, little end first.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use super::{Piece, PointResult};
+use super::{Numbered, Piece, PointResult};
 use crate::flow::Status;
 use crate::loss::{Extent, MOST_TERMS, Undefined};
 use crate::thermal::Outcome;
@@ -30,14 +31,40 @@ const OUTCOMES: [Outcome; 6] = [
     Outcome::NoConvergence,
 ];
 
-impl Piece {
+/// Points of a task as bytes.
+#[derive(Debug, Clone, Default)]
+pub struct Bits {
+    bytes: Vec<u8>,
+    /// Where each point ends in the bytes.
+    ends: Vec<usize>,
+}
+
+impl Bits {
+    /// Points as bytes; what becomes of them as [`super::solve_pieces`] understands it.
+    pub fn of(points: &Numbered<'_>) -> Self {
+        let mut bits = Self::default();
+        for (_, point) in points {
+            point.write_bits(&mut bits.bytes);
+            bits.ends.push(bits.bytes.len());
+        }
+        bits
+    }
+
+    /// The bytes of some points.
+    fn some(&self, own: Range<usize>) -> &[u8] {
+        let ends = [own.start, own.end].map(|point| point.checked_sub(1).map_or(0, |last| self.ends[last]));
+        &self.bytes[ends[0]..ends[1]]
+    }
+}
+
+impl Piece<Bits> {
     /// Adds the piece to bytes.
     pub fn write_bits(&self, to: &mut Vec<u8>) {
         count(to, self.number);
         count(to, self.len());
         count(to, self.seen.len());
-        for point in self.points() {
-            point.write_bits(to);
+        for (task, own) in self.runs() {
+            to.extend_from_slice(self.tasks[task].some(own));
         }
         for extent in &self.seen {
             numbers(to, &[extent.least, extent.greatest]);
@@ -45,7 +72,9 @@ impl Piece {
             to.extend(extent.outside.to_le_bytes());
         }
     }
+}
 
+impl Piece {
     /// Takes a piece from the front of bytes; absent where they hold none.
     pub fn read_bits(from: &mut &[u8]) -> Option<Self> {
         let [number, points, seen] = [take_count(from)?, take_count(from)?, take_count(from)?];
@@ -294,7 +323,7 @@ mod tests {
     #[test]
     fn every_bit_comes_back() {
         let mut bytes = Vec::new();
-        piece().write_bits(&mut bytes);
+        piece().made(0, &Bits::of).write_bits(&mut bytes);
         let mut from = &bytes[..];
         let read = Piece::read_bits(&mut from).unwrap();
         assert!(from.is_empty());
@@ -303,14 +332,14 @@ mod tests {
             (5, piece().points().collect(), &piece().seen)
         );
         let mut again = Vec::new();
-        read.write_bits(&mut again);
+        read.made(0, &Bits::of).write_bits(&mut again);
         assert_eq!(bytes, again);
     }
 
     #[test]
     fn fewer_bytes_are_no_piece() {
         let mut bytes = Vec::new();
-        piece().write_bits(&mut bytes);
+        piece().made(0, &Bits::of).write_bits(&mut bytes);
         for length in 0..bytes.len() {
             assert!(Piece::read_bits(&mut &bytes[..length]).is_none(), "{length} bytes");
         }

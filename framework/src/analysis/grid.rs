@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{OilTemperature, Piece, solve_pieces};
+use super::{OilTemperature, Piece, held, solve_pieces};
 use crate::document::Diagnostic;
 use crate::evaluate::PowerFlow;
 use crate::flow::Status;
@@ -221,7 +221,7 @@ pub fn run_grid(
 ) -> Result<Option<GridResult>, Vec<Diagnostic>> {
     let numbers: Vec<usize> = (0..points.field.pieces()).collect();
     let mut all = GridResult::default();
-    let whole = solve_pieces(transmission, points, &numbers, progress, &mut |piece| {
+    let whole = solve_pieces(transmission, points, &numbers, &held, progress, &mut |piece| {
         all.add(piece);
         true
     })?;

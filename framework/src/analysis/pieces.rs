@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
@@ -15,49 +16,63 @@ use crate::transmission::Transmission;
 /// Points of a piece that is no part of a grid.
 const PIECE: usize = 1024;
 
-/// Points that are solved at once: at least one piece, at most as many pieces as make this number.
-const TOGETHER: usize = LANES * 1024;
+/// The most points of a piece that is a part of a grid: so many that a square map of 10^7 points has full blocks.
+const LARGEST: usize = LANES * 3200;
 
-/// The most solved points that are held while a field is solved piece by piece.
-pub const MOST_HELD: usize = 2 * TOGETHER;
+/// Points that are solved at once: at least one piece, at most as many pieces as make this number.
+const TOGETHER: usize = LANES * 2048;
+
+/// Of how many points something is held at most while a field is solved piece by piece.
+pub const MOST_HELD: usize = 2 * LARGEST;
 
 /// Points of a task, where a piece has more of them. Each begins anew, without what the speeds before say.
 const TASK: usize = 2048;
 
-/// Some points of a field that follow each other, solved.
+/// Some points of a field that follow each other, solved: what became of them, by tasks.
 #[derive(Debug, Clone)]
-pub struct Piece {
+pub struct Piece<T = Vec<PointResult>> {
     /// Number of the piece among those of the field.
     pub number: usize,
-    /// The points in the order of the field, in runs as they were solved: joining them would cost as much as solving some.
-    runs: Vec<Vec<PointResult>>,
+    /// What became of the points of each task, which are in the order of the field.
+    pub tasks: Vec<T>,
+    /// Number of a task and how many of its next points follow in the order of the field.
+    runs: Vec<(usize, usize)>,
     /// What was seen of limits and observed quantities over these points.
     pub seen: Vec<Extent>,
 }
 
-impl Piece {
-    /// A piece of points in the order of the field, and what was seen of limits and observed quantities over them.
-    pub fn new(number: usize, points: Vec<PointResult>, seen: Vec<Extent>) -> Self {
-        Self {
-            number,
-            runs: vec![points],
-            seen,
+/// Points with their numbers in the field, rising.
+pub type Numbered<'a> = [(usize, &'a PointResult)];
+
+/// The points themselves, where they are still wanted.
+pub fn held(points: &Numbered<'_>) -> Vec<PointResult> {
+    points.iter().map(|(_, point)| (*point).clone()).collect()
+}
+
+impl<T> Piece<T> {
+    /// The order of the points in the field: number of a task and its points that follow.
+    pub fn runs(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
+        let mut done = vec![0; self.tasks.len()];
+        self.runs.iter().map(move |(task, count)| {
+            let start = done[*task];
+            done[*task] += count;
+            (*task, start..start + count)
+        })
+    }
+
+    /// The piece with something else in place of what became of each task.
+    pub fn map<U>(self, other: impl FnMut(T) -> U) -> Piece<U> {
+        Piece {
+            number: self.number,
+            tasks: self.tasks.into_iter().map(other).collect(),
+            runs: self.runs,
+            seen: self.seen,
         }
-    }
-
-    /// The points, in the order of the field.
-    pub fn points(&self) -> impl Iterator<Item = &PointResult> + Clone {
-        self.runs.iter().flatten()
-    }
-
-    /// The same, without the piece.
-    pub fn into_points(self) -> impl Iterator<Item = PointResult> {
-        self.runs.into_iter().flatten()
     }
 
     /// Number of points.
     pub fn len(&self) -> usize {
-        self.runs.iter().map(Vec::len).sum()
+        self.runs.iter().map(|(_, count)| count).sum()
     }
 
     /// True without points.
@@ -66,13 +81,51 @@ impl Piece {
     }
 }
 
+impl Piece {
+    /// A piece of points in the order of the field, and what was seen of limits and observed quantities over them.
+    pub fn new(number: usize, points: Vec<PointResult>, seen: Vec<Extent>) -> Self {
+        Self {
+            number,
+            runs: vec![(0, points.len())],
+            tasks: vec![points],
+            seen,
+        }
+    }
+
+    /// The points, in the order of the field.
+    pub fn points(&self) -> impl Iterator<Item = &PointResult> {
+        self.runs().flat_map(|(task, own)| &self.tasks[task][own])
+    }
+
+    /// The same, without the piece.
+    pub fn into_points(self) -> impl Iterator<Item = PointResult> {
+        let mut tasks: Vec<_> = self.tasks.into_iter().map(Vec::into_iter).collect();
+        self.runs.into_iter().flat_map(move |(task, count)| {
+            let own: Vec<PointResult> = tasks[task].by_ref().take(count).collect();
+            own
+        })
+    }
+
+    /// What becomes of points that were solved elsewhere, the first of which has a number in the field.
+    pub fn made<T: Send>(&self, first: usize, make: &(dyn Fn(&Numbered<'_>) -> T + Sync)) -> Piece<T> {
+        let points: Vec<(usize, &PointResult)> = (first..).zip(self.points()).collect();
+        let tasks = || points.par_chunks(TASK);
+        Piece {
+            number: self.number,
+            tasks: tasks().with_max_len(1).map(make).collect(),
+            runs: points.chunks(TASK).map(<[_]>::len).enumerate().collect(),
+            seen: self.seen.clone(),
+        }
+    }
+}
+
 impl Field {
     /// Points of a piece. On a grid a piece is made of whole lines of one torque, so many that blocks of one speed are full
     /// where memory allows it.
     fn piece(&self) -> usize {
         match self {
-            Self::Grid { speeds, .. } if (1..=TOGETHER).contains(&speeds.len()) => {
-                speeds.len() * (TOGETHER / speeds.len()).min(LANES)
+            Self::Grid { speeds, .. } if (1..=LARGEST).contains(&speeds.len()) => {
+                speeds.len() * (LARGEST / speeds.len()).min(LANES)
             }
             _ => PIECE,
         }
@@ -84,7 +137,7 @@ impl Field {
     }
 
     /// Numbers of the points of a piece.
-    fn of_piece(&self, number: usize) -> Range<usize> {
+    pub fn of_piece(&self, number: usize) -> Range<usize> {
         let piece = self.piece();
         number * piece..((number + 1) * piece).min(self.len())
     }
@@ -93,10 +146,11 @@ impl Field {
     fn in_order(&self, number: usize) -> Vec<usize> {
         let own = self.of_piece(number);
         if let Self::Grid { speeds, .. } = self {
-            let columns = own.start..(own.start + speeds.len()).min(own.end);
-            return columns
-                .flat_map(|first| (first..own.end).step_by(speeds.len()))
-                .collect();
+            let mut numbers = Vec::with_capacity(own.len());
+            for first in own.start..(own.start + speeds.len()).min(own.end) {
+                numbers.extend((first..own.end).step_by(speeds.len()));
+            }
+            return numbers;
         }
         let mut numbers: Vec<usize> = own.collect();
         numbers.sort_by(|a, b| {
@@ -108,56 +162,79 @@ impl Field {
     }
 }
 
-/// Solves the pieces of given numbers and hands them over in this order, so that no more points are held than
-/// [`MOST_HELD`]: while some are taken, the next are solved. `progress` hears how many more are solved; where it or `take`
-/// answers false the work is broken off, and so does this answer.
+/// What became of a task.
+struct Task<T> {
+    made: T,
+    /// Number of a point, and how many follow in the order of the field with it.
+    runs: Vec<(usize, usize)>,
+    seen: Vec<Extent>,
+}
+
+/// Solves the pieces of given numbers and hands them over in this order. What is wanted of the points `make` takes from them
+/// where they were solved, while they are in the caches, on all threads; a point itself does not last, but where that is what it
+/// makes ([`held`]). Of no more points than [`MOST_HELD`] something is held: while some are taken, the next are solved.
+/// `progress` hears how many more are solved; where it or `take` answers false the work is broken off, and so does this answer.
 ///
 /// # Errors
 /// If the case does not fit.
-pub fn solve_pieces(
+pub fn solve_pieces<T: Send>(
     transmission: &Transmission,
     points: &Points,
     numbers: &[usize],
+    make: &(dyn Fn(&Numbered<'_>) -> T + Sync),
     progress: &(dyn Fn(usize) -> bool + Sync),
-    take: &mut dyn FnMut(Piece) -> bool,
+    take: &mut dyn FnMut(Piece<T>) -> bool,
 ) -> Result<bool, Vec<Diagnostic>> {
     let case = points.case(transmission)?;
     let solver = Solver::new(transmission, &case, points);
     let going = AtomicBool::new(true);
-    let solve = |space: &mut Space, task: &[usize]| {
+    // As many as tasks run at once, kept from task to task.
+    let spaces: Mutex<Vec<Space>> = Mutex::default();
+    let solve = |task: &[usize]| {
         if !going.load(Ordering::Relaxed) {
-            return (Vec::new(), Vec::new());
+            return None;
         }
-        let solved = solver.solve(task, space);
-        if !progress(solved.len()) {
+        let spare = spaces.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let mut space = spare.unwrap_or_else(|| solver.space());
+        let solved = solver.solve(task, &mut space);
+        let mut points: Vec<(usize, &PointResult)> = task.iter().copied().zip(solved).collect();
+        // They rise in runs, which this sort merges.
+        points.sort_by_key(|(number, _)| *number);
+        let made = make(&points);
+        if !progress(task.len()) {
             going.store(false, Ordering::Relaxed);
         }
-        (runs(solved, task), space.take_seen())
+        let runs = points.chunk_by(|a, b| b.0 == a.0 + 1);
+        let runs = runs.map(|run| (run[0].0, run.len())).collect();
+        let seen = space.take_seen();
+        spaces.lock().unwrap_or_else(PoisonError::into_inner).push(space);
+        Some(Task { made, runs, seen })
     };
-    let solve_all = |numbers: &[usize]| -> Vec<Piece> {
+    // Pieces that were broken off are none.
+    let solve_all = |numbers: &[usize]| -> Vec<Piece<T>> {
         let orders: Vec<Vec<usize>> = numbers.iter().map(|number| points.field.in_order(*number)).collect();
         let tasks: Vec<&[usize]> = orders.iter().flat_map(|order| order.chunks(TASK)).collect();
-        let mut solved: Vec<(Vec<Run>, Vec<Extent>)> =
-            tasks.into_par_iter().map_init(|| solver.space(), solve).collect();
-        let mut solved = solved.drain(..);
+        // One by one, or the last threads would have several left while others have none.
+        let solved: Option<Vec<Task<T>>> = tasks.into_par_iter().with_max_len(1).map(solve).collect();
+        let mut solved = solved.into_iter().flatten();
         let piece = |(number, order): (&usize, &Vec<usize>)| {
-            let mut seen = Vec::new();
-            let own = solved.by_ref().take(order.len().div_ceil(TASK));
-            let mut runs = Vec::new();
-            for (own, totals) in own {
-                merge(&mut seen, &totals);
-                runs.extend(own);
+            let (mut seen, mut tasks, mut runs) = (Vec::new(), Vec::new(), Vec::new());
+            for (i, task) in solved.by_ref().take(order.len().div_ceil(TASK)).enumerate() {
+                merge(&mut seen, &task.seen);
+                tasks.push(task.made);
+                runs.extend(task.runs.into_iter().map(|(first, count)| (first, i, count)));
             }
-            runs.sort_by_key(|(first, _)| *first);
+            runs.sort_unstable();
             Piece {
                 number: *number,
-                runs: runs.into_iter().map(|(_, points)| points).collect(),
+                tasks,
+                runs: runs.into_iter().map(|(_, task, count)| (task, count)).collect(),
                 seen,
             }
         };
         numbers.iter().zip(&orders).map(piece).collect()
     };
-    let mut ready: Vec<Piece> = Vec::new();
+    let mut ready: Vec<Piece<T>> = Vec::new();
     let mut groups = numbers.chunks((TOGETHER / points.field.piece()).max(1));
     loop {
         let next = groups.next();
@@ -178,20 +255,4 @@ pub fn solve_pieces(
         }
         ready = solved;
     }
-}
-
-/// The number of a point, and with it those that follow in the order of the field.
-type Run = (usize, Vec<PointResult>);
-
-/// The points of a task of given numbers as runs, while they are still in the caches.
-fn runs(solved: Vec<PointResult>, numbers: &[usize]) -> Vec<Run> {
-    let mut order: Vec<usize> = (0..solved.len()).collect();
-    order.sort_by_key(|i| numbers[*i]);
-    let mut solved: Vec<Option<PointResult>> = solved.into_iter().map(Some).collect();
-    let run = |own: &[usize]| {
-        let mut points = Vec::with_capacity(own.len());
-        points.extend(own.iter().filter_map(|i| solved[*i].take()));
-        (numbers[own[0]], points)
-    };
-    order.chunk_by(|a, b| numbers[*b] == numbers[*a] + 1).map(run).collect()
 }

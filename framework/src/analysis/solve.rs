@@ -27,6 +27,9 @@ pub(super) struct Solver<'a> {
 pub(super) struct Space {
     single: Scratch,
     rows: Option<RowScratch>,
+    results: Vec<PointResult>,
+    /// Room for the parts of points.
+    spare: Vec<Vec<f64>>,
     torques: Vec<f64>,
     speeds: Vec<f64>,
 }
@@ -74,14 +77,17 @@ impl<'a> Solver<'a> {
         Space {
             single: self.transmission.scratch(self.case),
             rows: None,
+            results: Vec::new(),
+            spare: Vec::new(),
             torques: vec![0.0; self.case.torque_ports.len()],
             speeds: vec![0.0; self.case.speed_ports.len()],
         }
     }
 
     /// Solves the points of given numbers, in their order; neighbours with one speed and temperature are solved together.
-    pub fn solve(&self, numbers: &[usize], space: &mut Space) -> Vec<PointResult> {
-        let mut results = Vec::with_capacity(numbers.len());
+    pub fn solve<'s>(&self, numbers: &[usize], space: &'s mut Space) -> &'s [PointResult] {
+        let mut results = std::mem::take(&mut space.results);
+        space.spare.extend(results.drain(..).map(|point| point.parts));
         // Or the numbers would hang on what this thread solved before.
         if let Some(rows) = &mut space.rows {
             rows.forget();
@@ -103,7 +109,8 @@ impl<'a> Solver<'a> {
                 _ => results.extend(run.iter().map(|number| self.single(given(number), space))),
             }
         }
-        results
+        space.results = results;
+        &space.results
     }
 
     fn single(&self, given: Given, space: &mut Space) -> PointResult {
@@ -150,7 +157,11 @@ impl<'a> Solver<'a> {
 
     fn row(&self, run: &[usize], speed: f64, oil: f64, space: &mut Space, results: &mut Vec<PointResult>) {
         let Space {
-            rows, torques, speeds, ..
+            rows,
+            torques,
+            speeds,
+            spare,
+            ..
         } = space;
         if let Some(first) = speeds.first_mut() {
             *first = speed;
@@ -188,7 +199,7 @@ impl<'a> Solver<'a> {
             let given = &given[..some.len()];
             let start = results.len();
             let block = row.follow(given);
-            self.of_block(given, speed, oil, &block, results);
+            self.of_block(given, speed, oil, &block, spare, results);
             let alone: [bool; LANES] = std::array::from_fn(|lane| block.alone(lane));
             for (lane, torque) in given.iter().enumerate().filter(|(lane, _)| alone[*lane]) {
                 let given = Given {
@@ -202,7 +213,15 @@ impl<'a> Solver<'a> {
     }
 
     /// The points of a block; those that have to be evaluated alone stand for their place only.
-    fn of_block(&self, torques: &[f64], speed: f64, oil: f64, block: &Block<'_>, results: &mut Vec<PointResult>) {
+    fn of_block(
+        &self,
+        torques: &[f64],
+        speed: f64,
+        oil: f64,
+        block: &Block<'_>,
+        spare: &mut Vec<Vec<f64>>,
+        results: &mut Vec<PointResult>,
+    ) {
         let mut sums = [Lane::ZERO; 6];
         let mut terms = Vec::new();
         if self.points.terms {
@@ -221,6 +240,9 @@ impl<'a> Solver<'a> {
             let loss = block.losses()[lane];
             let reference_speed = block.speed(self.reference);
             let balance = block.balance(lane);
+            let mut parts = spare.pop().unwrap_or_default();
+            parts.clear();
+            parts.extend(block.watts().iter().map(|watts| watts[lane]));
             results.push(PointResult {
                 torque: *torque,
                 speed,
@@ -239,7 +261,7 @@ impl<'a> Solver<'a> {
                 input: Some(balance.input),
                 output: Some(balance.output),
                 sums: std::array::from_fn(|k| sums[k][lane]),
-                parts: block.watts().iter().map(|watts| watts[lane]).collect(),
+                parts,
                 terms: terms
                     .iter()
                     .map(|terms| std::array::from_fn(|k| terms[k][lane]))

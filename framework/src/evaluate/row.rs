@@ -88,6 +88,8 @@ pub struct Row<'a> {
 /// Some solved points of a row.
 pub struct Block<'a> {
     transmission: &'a Transmission,
+    /// Number of the reference port.
+    reference: usize,
     s: &'a RowScratch,
 }
 
@@ -195,6 +197,7 @@ impl Row<'_> {
         }
         Block {
             transmission: self.transmission,
+            reference: self.transmission.reference_port(),
             s: self.s,
         }
     }
@@ -582,7 +585,7 @@ impl Block<'_> {
 
     /// What the transmission does.
     pub fn status(&self, lane: usize) -> Status {
-        Status::of(self.powers(lane), self.transmission.reference_port())
+        Status::of(self.powers(lane), self.reference)
     }
 
     /// Power in and out. \[W\]

@@ -281,7 +281,11 @@ impl Identification<'_> {
                 ProfileFault::Failed(reason) | ProfileFault::Meaningless(reason) => reason,
             }))
         };
-        (0..self.parameters.len()).into_par_iter().map(of).collect()
+        (0..self.parameters.len())
+            .into_par_iter()
+            .with_max_len(1)
+            .map(of)
+            .collect()
     }
 
     /// The best that is left when one parameter is held at a coordinate, from coordinates of all.
@@ -370,7 +374,11 @@ impl Identification<'_> {
             let all = self.residuals(&fit.theta)?;
             Ok(fold.points.iter().map(|i| (*i, all[*i])).collect())
         };
-        let found: Vec<Vec<(usize, f64)>> = folds.par_iter().map(leave_out).collect::<Result<_, _>>()?;
+        let found: Vec<Vec<(usize, f64)>> = folds
+            .par_iter()
+            .with_max_len(1)
+            .map(leave_out)
+            .collect::<Result<_, _>>()?;
         let mut errors = vec![0.0; torques.len()];
         for (i, error) in found.into_iter().flatten() {
             errors[i] = error;

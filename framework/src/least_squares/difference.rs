@@ -40,8 +40,11 @@ impl From<Miss> for Gap {
 impl Differences<'_> {
     /// The Jacobian at a point with its residual, all columns at the same time.
     pub fn jacobian(&self, u: &[f64], r: &DVector<f64>) -> Result<DMatrix<f64>, NoDerivative> {
-        let columns: Vec<Result<DVector<f64>, NoDerivative>> =
-            (0..u.len()).into_par_iter().map(|j| self.column(u, r, j)).collect();
+        let columns: Vec<Result<DVector<f64>, NoDerivative>> = (0..u.len())
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|j| self.column(u, r, j))
+            .collect();
         let mut jacobian = DMatrix::zeros(r.len(), u.len());
         for (j, column) in columns.into_iter().enumerate() {
             jacobian.set_column(j, &column?);

@@ -79,7 +79,11 @@ pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -
     let first = solve_from(problem, options, &space)?;
     let (others, looked) = even_starts(problem, options, &space, starts.saturating_sub(1))?;
     let solve_other = |start: &Vec<f64>| solve_from(problem, options, &space.starting(start));
-    let others: Vec<Fit> = others.par_iter().map(solve_other).collect::<Result<_, _>>()?;
+    let others: Vec<Fit> = others
+        .par_iter()
+        .with_max_len(1)
+        .map(solve_other)
+        .collect::<Result<_, _>>()?;
     // The cost at the user's start.
     let begun = first.log.first().map_or(first.cost, |step| step.cost);
     let mut fits: Vec<(usize, Fit)> = std::iter::once(first).chain(others).enumerate().collect();

@@ -121,7 +121,7 @@ impl Sample {
             let rows: Vec<usize> = (0..count).map(|_| generator.below(count)).collect();
             self.raw(&rows)
         };
-        let again: Option<Vec<Raw>> = (0..resamples).into_par_iter().map(resample).collect();
+        let again: Option<Vec<Raw>> = (0..resamples).into_par_iter().with_max_len(1).map(resample).collect();
         let again = again?;
         let estimate = |value: f64, list: &dyn Fn(&Raw) -> f64| {
             let mut list: Vec<f64> = again.iter().map(list).collect();

@@ -24,7 +24,7 @@ where
         }
     };
     // All runs end before a fault is looked for, so that it is the same one on any number of threads.
-    let all: Vec<Result<Vec<f64>, String>> = (0..count).into_par_iter().map(run).collect();
+    let all: Vec<Result<Vec<f64>, String>> = (0..count).into_par_iter().with_max_len(1).map(run).collect();
     let all = all.into_iter().collect::<Result<Vec<_>, _>>()?;
     let width = all.first().map_or(0, Vec::len);
     match all.iter().position(|list| list.len() != width) {

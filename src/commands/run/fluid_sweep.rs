@@ -314,7 +314,7 @@ fn sweep<'a>(
         bar.inc(1);
         result
     };
-    keep(values.par_iter().map(one).collect(), &mut fluids)?;
+    keep(values.par_iter().with_max_len(1).map(one).collect(), &mut fluids)?;
     if entry.refine {
         // Each round asks, for every duty, where a parabola through the three best oils is least.
         for _ in 0..least::ROUNDS {
@@ -332,7 +332,7 @@ fn sweep<'a>(
                 bar.inc(1);
                 result
             };
-            keep(wanted.par_iter().map(one).collect(), &mut fluids)?;
+            keep(wanted.par_iter().with_max_len(1).map(one).collect(), &mut fluids)?;
         }
     }
     bar.finish_and_clear();

@@ -8,10 +8,11 @@ mod pictures;
 mod plan;
 mod results;
 mod rows;
+mod taken;
 
 use std::rc::Rc;
 
-use gearloss_framework::analysis::{Field, Note, OilTemperature, Piece, PointResult, merge, notes};
+use gearloss_framework::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, merge, notes};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::measured::{Measured, Row};
@@ -19,11 +20,12 @@ use gearloss_framework::study::MapEntry;
 use serde_json::Value;
 
 use self::files::Files;
-use self::kept::{Brief, Kept, Shown};
+use self::kept::{Brief, Kept, Shown, Wanted};
 use self::over_bound::over_bound;
 use self::pictures::pictures;
 pub(super) use self::plan::Planned;
 use self::rows::RowsOf;
+use self::taken::{Taken, Taker};
 use super::super::solve::{RPM, outside};
 use super::{Built, Runner};
 use crate::output::{Failure, Out, Table, number};
@@ -129,10 +131,20 @@ fn on_grid<'s>(
     let mut files = Files::new(runner, name, entry, &bound, &all)?;
     let mut maps = Vec::new();
     for (number, plan) in planned.iter().enumerate() {
-        let kept = Kept::new(Some(&plan.axes), !entry.export.is_empty());
+        let whole = !entry.export.is_empty();
+        let wanted = Wanted::new(Some(&plan.axes), whole);
+        let taker = Taker {
+            field: &plan.points.field,
+            rows: RowsOf::new(&plan.built, &plan.points.gear, &plan.bound, &files.parts),
+            shape: files.table.shape(),
+            wanted: &wanted,
+            waits: files.waited.is_some(),
+        };
+        let kept = Kept::new(Some(&plan.axes), whole);
         let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, kept);
-        runner.solve_pieces(&plan.built, &plan.points, Some((name, number)), &mut |piece| {
-            map.take(&plan.points.field, &piece, &mut files)
+        let take = |points: &Numbered<'_>| taker.take(points);
+        runner.solve_pieces(&plan.built, &plan.points, Some((name, number)), &take, &mut |piece| {
+            map.add(&wanted, piece, &mut files)
         })?;
         map.notes = notes(&plan.built.transmission, &map.seen);
         maps.push(map);
@@ -181,9 +193,17 @@ fn on_list<'s>(
             });
             let points: Vec<PointResult> = of_map.map(|((_, _, point), _)| point.clone()).collect();
             let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
+            let wanted = Wanted::new(None, false);
+            let taker = Taker {
+                field: &Field::List(Vec::new()),
+                rows: RowsOf::new(&built[place], &gear, &bound, &files.parts),
+                shape: files.table.shape(),
+                wanted: &wanted,
+                waits: files.waited.is_some(),
+            };
             let mut map = Map::new(&built[place], &bound, &gear, oil, Kept::new(None, false));
-            let piece = Piece::new(0, points, Vec::new());
-            map.take(&Field::List(Vec::new()), &piece, &mut files)?;
+            let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
+            map.add(&wanted, piece, &mut files)?;
             map.notes.clone_from(&solved.notes);
             maps.push(map);
         }
@@ -239,16 +259,22 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// Writes the rows of a piece that follows, and keeps of its points what is still needed.
-    fn take(&mut self, field: &Field, piece: &Piece, files: &mut Files) -> Result<(), Failure> {
-        let rows = RowsOf::new(&self.built, &self.gear, &self.bound, &files.parts);
-        rows.write(piece, &mut files.table)?;
-        if let Some(waited) = &mut files.waited {
-            self.waiting.push(waited.append(piece)?);
-        }
+    /// Adds what was taken from a piece that follows: writes its rows, and keeps what is still needed.
+    fn add(&mut self, wanted: &Wanted, piece: Piece<Taken>, files: &mut Files) -> Result<(), Failure> {
         merge(&mut self.seen, &piece.seen);
-        self.passes += piece.points().map(|p| p.passes).sum::<usize>();
-        self.kept.add(field, piece);
+        let order: Vec<_> = piece.runs().collect();
+        let (mut rows, mut picked) = (Vec::new(), Vec::new());
+        let waiting = piece.map(|taken| {
+            self.passes += taken.passes;
+            rows.push(taken.rows);
+            picked.push(taken.picked);
+            taken.waiting
+        });
+        files.table.push_rows(rows, order)?;
+        if let Some(waited) = &mut files.waited {
+            self.waiting.push(waited.append(&waiting)?);
+        }
+        self.kept.add(wanted, picked);
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! Tables as Parquet: the columns of the CSV, numbers as double precision with gaps, everything else as text.
 
 use std::io::Write;
+use std::ops::Range;
 use std::sync::Arc;
 
 use bytes::Bytes;
@@ -13,7 +14,7 @@ use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedW
 use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type};
 use rayon::prelude::*;
 
-use super::write::Cell;
+use super::columns::{Column, Columns, number, word};
 
 /// Columns that hold names, whatever their cells look like.
 const NAMES: [&str; 9] = [
@@ -37,23 +38,183 @@ const REPEATED: [&str; 3] = ["torque_nm", "speed_rpm", "oil_temperature_degc"];
 /// A table that is written in groups of rows.
 pub struct ParquetTable<W: Write + Send> {
     header: Vec<String>,
-    columns: Vec<Column>,
-    rows: usize,
+    /// Rows of the present group.
+    rows: Vec<Ordered>,
+    count: usize,
     state: State<W>,
+}
+
+/// Rows that were made together by several, and their order: number of who made them, and which of them follow.
+struct Ordered {
+    made: Vec<Columns>,
+    order: Vec<(usize, Range<usize>)>,
 }
 
 /// Whether the file was begun, which needs the kinds of all columns.
 enum State<W: Write + Send> {
     Waiting(Option<W>),
-    Begun(Box<SerializedFileWriter<W>>),
+    Begun {
+        writer: Box<SerializedFileWriter<W>>,
+        /// Columns of a group that was packed and is to be written.
+        packed: Vec<Packed>,
+    },
 }
 
-/// Cells of the present group in one column.
-enum Column {
-    /// Texts that may all be numbers; what they are is told by the first group.
-    Open(Vec<Option<String>>),
-    Numbers(Filled<f64>),
-    Texts(Filled<ByteArray>),
+/// Bytes of a column of a group.
+type Packed = (Bytes, ColumnCloseResult);
+
+impl<W: Write + Send> ParquetTable<W> {
+    /// A table with its columns.
+    pub fn new(header: &[String], to: W) -> Self {
+        Self {
+            header: header.to_vec(),
+            rows: Vec::new(),
+            count: 0,
+            state: State::Waiting(Some(to)),
+        }
+    }
+
+    /// Adds rows that were made together, in an order.
+    ///
+    /// # Errors
+    /// A text in a column that held numbers before; rows of another length than the header; what the writer says.
+    pub fn push(&mut self, made: Vec<Columns>, order: Vec<(usize, Range<usize>)>) -> Result<(), String> {
+        if made.iter().any(|columns| columns.all().len() != self.header.len()) {
+            return Err("bug: rows of another length than the header".to_owned());
+        }
+        self.count += order.iter().map(|(_, own)| own.len()).sum::<usize>();
+        self.rows.push(Ordered { made, order });
+        if self.count < GROUP { Ok(()) } else { self.group() }
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// As [`ParquetTable::push`].
+    pub fn finish(mut self) -> Result<(), String> {
+        self.group()?;
+        match self.state {
+            State::Begun { mut writer, packed } => {
+                let written = write(&mut writer, packed);
+                written
+                    .and_then(|()| (*writer).close().map(|_| ()))
+                    .map_err(|e| e.to_string())
+            }
+            State::Waiting(_) => Ok(()),
+        }
+    }
+
+    /// Packs the rows so far as a group, on all threads; one of them writes the group before.
+    fn group(&mut self) -> Result<(), String> {
+        self.count = 0;
+        let rows = std::mem::take(&mut self.rows);
+        if let State::Waiting(to) = &mut self.state {
+            let to = to.take().ok_or("the file was begun twice")?;
+            let writer = begun(&self.header, &rows, to).map_err(|e| e.to_string())?;
+            self.state = State::Begun {
+                writer: Box::new(writer),
+                packed: Vec::new(),
+            };
+        }
+        if let State::Begun { writer, packed } = &mut self.state {
+            let schema = writer.schema_descr().columns().to_vec();
+            let properties = writer.properties().clone();
+            let before = std::mem::take(packed);
+            let columns = schema.par_iter().enumerate().with_max_len(1);
+            let pack = || {
+                if rows.is_empty() {
+                    return Ok(Vec::new());
+                }
+                let own = |(place, description)| column(&rows, place, description, &properties);
+                columns.map(own).collect::<Result<_, _>>()
+            };
+            let (written, done) = rayon::join(|| write(writer, before), pack);
+            written.map_err(|e| e.to_string())?;
+            *packed = done?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes a group that was packed, if one was.
+fn write<W: Write + Send>(writer: &mut SerializedFileWriter<W>, packed: Vec<Packed>) -> Result<(), ParquetError> {
+    if packed.is_empty() {
+        return Ok(());
+    }
+    let mut group = writer.next_row_group()?;
+    for (bytes, end) in packed {
+        group.append_column(&bytes, end)?;
+    }
+    group.close().map(|_| ())
+}
+
+/// Whether a column holds texts: one of names, or with a cell that is no number.
+fn is_text(name: &str, rows: &[Ordered], place: usize) -> bool {
+    let mut columns = rows
+        .iter()
+        .flat_map(|rows| &rows.made)
+        .map(|columns| &columns.all()[place]);
+    let texts = |column: &Column| match column {
+        Column::Texts(texts) => texts.kinds().any(|text| parsed(text).is_err()),
+        Column::Numbers(_) => false,
+    };
+    NAMES.contains(&name) || columns.any(texts)
+}
+
+fn parsed(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| format!("`{text}` is no number"))
+}
+
+fn begun<W: Write + Send>(header: &[String], rows: &[Ordered], to: W) -> Result<SerializedFileWriter<W>, ParquetError> {
+    let mut properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by(concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned());
+    let mut fields = Vec::new();
+    for (place, name) in header.iter().enumerate() {
+        let field = if is_text(name, rows, place) {
+            Type::primitive_type_builder(name, Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String))
+        } else {
+            if !REPEATED.contains(&name.as_str()) {
+                properties = properties.set_column_dictionary_enabled(ColumnPath::from(vec![name.clone()]), false);
+            }
+            Type::primitive_type_builder(name, Physical::DOUBLE)
+        };
+        fields.push(Arc::new(field.with_repetition(Repetition::OPTIONAL).build()?));
+    }
+    let schema = Type::group_type_builder("results").with_fields(fields).build()?;
+    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties.build()))
+}
+
+/// The bytes of one column of a group.
+fn column(
+    rows: &[Ordered],
+    place: usize,
+    description: &ColumnDescPtr,
+    properties: &WriterPropertiesPtr,
+) -> Result<Packed, String> {
+    let orders = rows.iter().flat_map(|rows| &rows.order);
+    let count: usize = orders.map(|(_, own)| own.len()).sum();
+    let mut bytes = TrackedWrite::new(Vec::with_capacity(count * size_of::<f64>()));
+    let pages = Box::new(SerializedPageWriter::new(&mut bytes));
+    let mut writer = get_column_writer(description.clone(), properties.clone(), pages);
+    let runs = rows.iter().flat_map(|rows| {
+        let own = |(made, own): &(usize, Range<usize>)| (&rows.made[*made].all()[place], own.clone());
+        rows.order.iter().map(own)
+    });
+    let written = match &mut writer {
+        ColumnWriter::DoubleColumnWriter(to) => {
+            let cells: Filled<f64> = numbers(count, runs)?;
+            to.write_batch(&cells.values, Some(&cells.levels), None)
+        }
+        ColumnWriter::ByteArrayColumnWriter(to) => {
+            let cells: Filled<ByteArray> = texts(count, runs);
+            to.write_batch(&cells.values, Some(&cells.levels), None)
+        }
+        _ => Err(ParquetError::General("a column of another kind".to_owned())),
+    };
+    let end = written.and_then(|_| writer.close()).map_err(|e| e.to_string())?;
+    let bytes = bytes.into_inner().map_err(|e| e.to_string())?;
+    Ok((bytes.into(), end))
 }
 
 /// Values, and for each cell one where it has a value.
@@ -63,11 +224,11 @@ struct Filled<T> {
 }
 
 impl<T> Filled<T> {
-    /// So many gaps.
-    fn gaps(count: usize) -> Self {
+    /// None yet of so many cells.
+    fn new(count: usize) -> Self {
         Self {
-            values: Vec::new(),
-            levels: vec![0; count],
+            values: Vec::with_capacity(count),
+            levels: Vec::with_capacity(count),
         }
     }
 
@@ -75,217 +236,47 @@ impl<T> Filled<T> {
         self.levels.push(i16::from(value.is_some()));
         self.values.extend(value);
     }
-
-    fn clear(&mut self) {
-        self.values.clear();
-        self.levels.clear();
-    }
 }
 
-impl Column {
-    /// Adds the cells of some rows.
-    fn push_all<'c>(&mut self, cells: impl Iterator<Item = &'c Cell<'c>>) -> Result<(), String> {
-        let mut cells = cells.peekable();
-        while cells.peek().is_some() {
-            if let Self::Numbers(numbers) = self {
-                while let Some(cell) = cells.next_if(|cell| matches!(cell, Cell::Number(_) | Cell::Gap)) {
-                    numbers.push(if let Cell::Number(x) = cell { Some(*x) } else { None });
+/// Cells of a column as numbers.
+fn numbers<'r>(count: usize, runs: impl Iterator<Item = (&'r Column, Range<usize>)>) -> Result<Filled<f64>, String> {
+    let mut cells = Filled::new(count);
+    for (column, own) in runs {
+        match column {
+            Column::Numbers(numbers) => {
+                let own = &numbers[own];
+                if own.iter().filter(|x| x.is_nan()).count() == 0 {
+                    cells.values.extend_from_slice(own);
+                    cells.levels.resize(cells.levels.len() + own.len(), 1);
+                } else {
+                    for x in own {
+                        cells.push(number(*x));
+                    }
                 }
             }
-            if let Some(cell) = cells.next() {
-                self.push(cell)?;
+            Column::Texts(texts) => {
+                for text in texts.cells(own) {
+                    cells.push(text.map(|text| parsed(word(text))).transpose()?);
+                }
             }
         }
-        Ok(())
     }
-
-    fn push(&mut self, cell: &Cell<'_>) -> Result<(), String> {
-        match (&mut *self, cell) {
-            // A number before any text tells that the column is one of numbers.
-            (Self::Open(cells), Cell::Number(x)) if cells.iter().all(Option::is_none) => {
-                let mut numbers = Filled::gaps(cells.len());
-                numbers.push(Some(*x));
-                *self = Self::Numbers(numbers);
-            }
-            (Self::Open(cells), cell) => cells.push(cell.text()),
-            (Self::Numbers(numbers), Cell::Number(x)) => numbers.push(Some(*x)),
-            (Self::Numbers(numbers), Cell::Text(text)) if !text.is_empty() => numbers.push(Some(number(text)?)),
-            (Self::Numbers(numbers), _) => numbers.push(None),
-            (Self::Texts(texts), Cell::Text(text)) if !text.is_empty() => {
-                // Most names are those of the row before, whose bytes are shared.
-                let same = texts.values.last().filter(|last| last.data() == text.as_bytes());
-                let value = same.cloned().unwrap_or_else(|| ByteArray::from(*text));
-                texts.push(Some(value));
-            }
-            (Self::Texts(texts), cell) => texts.push(cell.text().map(|text| ByteArray::from(text.as_str()))),
-        }
-        Ok(())
-    }
-
-    /// Settles whether the column holds texts: one of names, or with a cell that is no number.
-    fn settle(&mut self, name: &str) -> Result<(), String> {
-        let Self::Open(cells) = self else {
-            return Ok(());
-        };
-        let cells = std::mem::take(cells);
-        let is_text = NAMES.contains(&name) || cells.iter().flatten().any(|text| number(text).is_err());
-        if is_text {
-            let mut texts = Filled::gaps(0);
-            for cell in cells {
-                texts.push(cell.map(|text| ByteArray::from(text.as_str())));
-            }
-            *self = Self::Texts(texts);
-        } else {
-            let mut numbers = Filled::gaps(0);
-            for cell in cells {
-                numbers.push(cell.map(|text| number(&text)).transpose()?);
-            }
-            *self = Self::Numbers(numbers);
-        }
-        Ok(())
-    }
+    Ok(cells)
 }
 
-fn number(text: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| format!("`{text}` is no number"))
-}
-
-impl<W: Write + Send> ParquetTable<W> {
-    /// A table with its columns.
-    pub fn new(header: &[String], to: W) -> Self {
-        let column = |name: &String| {
-            if NAMES.contains(&name.as_str()) {
-                Column::Texts(Filled::gaps(0))
-            } else {
-                Column::Open(Vec::new())
+/// Cells of a column as texts.
+fn texts<'r>(count: usize, runs: impl Iterator<Item = (&'r Column, Range<usize>)>) -> Filled<ByteArray> {
+    let mut cells = Filled::new(count);
+    for (column, own) in runs {
+        match column {
+            Column::Numbers(numbers) => {
+                let text = |x: f64| ByteArray::from(x.to_string().as_str());
+                numbers[own].iter().for_each(|x| cells.push(number(*x).map(text)));
             }
-        };
-        Self {
-            header: header.to_vec(),
-            columns: header.iter().map(column).collect(),
-            rows: 0,
-            state: State::Waiting(Some(to)),
+            Column::Texts(texts) => texts.cells(own).for_each(|text| cells.push(text.cloned())),
         }
     }
-
-    /// Adds rows, whose cells follow each other.
-    ///
-    /// # Errors
-    /// A text in a column that held numbers before; rows of another length than the header.
-    pub fn push(&mut self, rows: &[Cell<'_>]) -> Result<(), String> {
-        let width = self.columns.len();
-        if !rows.len().is_multiple_of(width.max(1)) {
-            return Err("bug: rows of another length than the header".to_owned());
-        }
-        for (place, column) in self.columns.iter_mut().enumerate() {
-            column.push_all(rows.iter().skip(place).step_by(width))?;
-        }
-        self.rows += rows.len() / width.max(1);
-        Ok(())
-    }
-
-    /// Writes the rows so far, if they make a group. To be called after all rows that came at once: threads that pack columns are
-    /// then not taken from those that make the rows.
-    ///
-    /// # Errors
-    /// What the writer says.
-    pub fn pause(&mut self) -> Result<(), String> {
-        if self.rows < GROUP { Ok(()) } else { self.group() }
-    }
-
-    /// Ends the file.
-    ///
-    /// # Errors
-    /// As [`ParquetTable::pause`].
-    pub fn finish(mut self) -> Result<(), String> {
-        self.group()?;
-        match self.state {
-            State::Begun(writer) => (*writer).close().map(|_| ()).map_err(|e| e.to_string()),
-            State::Waiting(_) => Ok(()),
-        }
-    }
-
-    fn group(&mut self) -> Result<(), String> {
-        self.rows = 0;
-        if let State::Waiting(to) = &mut self.state {
-            for (column, name) in self.columns.iter_mut().zip(&self.header) {
-                column.settle(name)?;
-            }
-            let to = to.take().ok_or("the file was begun twice")?;
-            let writer = begun(&self.header, &self.columns, to).map_err(|e| e.to_string())?;
-            self.state = State::Begun(Box::new(writer));
-        }
-        match &mut self.state {
-            State::Begun(writer) => written(writer, &mut self.columns).map_err(|e| e.to_string()),
-            State::Waiting(_) => Ok(()),
-        }
-    }
-}
-
-fn begun<W: Write + Send>(
-    header: &[String],
-    columns: &[Column],
-    to: W,
-) -> Result<SerializedFileWriter<W>, ParquetError> {
-    let fields = header.iter().zip(columns).map(|(name, column)| {
-        let field = match column {
-            Column::Numbers(_) => Type::primitive_type_builder(name, Physical::DOUBLE),
-            Column::Open(_) | Column::Texts(_) => {
-                Type::primitive_type_builder(name, Physical::BYTE_ARRAY).with_logical_type(Some(LogicalType::String))
-            }
-        };
-        field.with_repetition(Repetition::OPTIONAL).build().map(Arc::new)
-    });
-    let fields = fields.collect::<Result<Vec<_>, _>>()?;
-    let schema = Type::group_type_builder("results").with_fields(fields).build()?;
-    let mut properties = WriterProperties::builder()
-        .set_compression(Compression::SNAPPY)
-        .set_created_by(concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned());
-    for (name, column) in header.iter().zip(columns) {
-        if matches!(column, Column::Numbers(_)) && !REPEATED.contains(&name.as_str()) {
-            properties = properties.set_column_dictionary_enabled(ColumnPath::from(vec![name.clone()]), false);
-        }
-    }
-    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties.build()))
-}
-
-/// Writes the present group, whose columns are packed side by side.
-fn written<W: Write + Send>(writer: &mut SerializedFileWriter<W>, columns: &mut [Column]) -> Result<(), ParquetError> {
-    let (schema, properties) = (writer.schema_descr().columns(), writer.properties());
-    let packed: Vec<(Bytes, ColumnCloseResult)> = columns
-        .par_iter_mut()
-        .zip(schema)
-        .map(|(column, description)| packed(column, description, properties))
-        .collect::<Result<_, _>>()?;
-    let mut group = writer.next_row_group()?;
-    for (bytes, end) in packed {
-        group.append_column(&bytes, end)?;
-    }
-    group.close().map(|_| ())
-}
-
-/// The bytes of one column of a group, which is emptied.
-fn packed(
-    column: &mut Column,
-    description: &ColumnDescPtr,
-    properties: &WriterPropertiesPtr,
-) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
-    let mut bytes = TrackedWrite::new(Vec::new());
-    let pages = Box::new(SerializedPageWriter::new(&mut bytes));
-    let mut writer = get_column_writer(description.clone(), properties.clone(), pages);
-    match (&mut writer, column) {
-        (ColumnWriter::DoubleColumnWriter(to), Column::Numbers(own)) => {
-            to.write_batch(&own.values, Some(&own.levels), None)?;
-            own.clear();
-        }
-        (ColumnWriter::ByteArrayColumnWriter(to), Column::Texts(own)) => {
-            to.write_batch(&own.values, Some(&own.levels), None)?;
-            own.clear();
-        }
-        _ => return Err(ParquetError::General("a column of another kind".to_owned())),
-    }
-    let end = writer.close()?;
-    Ok((bytes.into_inner()?.into(), end))
+    cells
 }
 
 #[cfg(test)]
@@ -296,6 +287,32 @@ mod tests {
 
     use super::*;
 
+    #[derive(Clone, Copy)]
+    enum Cell<'a> {
+        Gap,
+        Number(f64),
+        Text(&'a str),
+    }
+
+    fn add(columns: &mut Columns, row: &[Cell<'_>]) {
+        for cell in row {
+            match cell {
+                Cell::Gap => columns.numbers([None].into_iter()),
+                Cell::Number(x) => columns.numbers([Some(*x)].into_iter()),
+                Cell::Text(text) => columns.texts([*text].into_iter()),
+            }
+        }
+        columns.end(row.len()).unwrap();
+    }
+
+    fn push<W: Write + Send>(table: &mut ParquetTable<W>, rows: &[Vec<Cell<'_>>]) -> Result<(), String> {
+        let mut columns = Columns::new(rows.len());
+        for row in rows {
+            add(&mut columns, row);
+        }
+        table.push(vec![columns], vec![(0, 0..rows.len())])
+    }
+
     fn texts(row: &[String]) -> Vec<Cell<'_>> {
         row.iter().map(|text| Cell::Text(text)).collect()
     }
@@ -304,8 +321,7 @@ mod tests {
         let path = std::env::temp_dir().join(format!("gearloss-parquet-{}-{}", std::process::id(), rows.len()));
         let mut table = ParquetTable::new(header, std::fs::File::create(&path).unwrap());
         for row in rows {
-            table.push(&texts(row)).unwrap();
-            table.pause().unwrap();
+            push(&mut table, &[texts(row)]).unwrap();
         }
         table.finish().unwrap();
         std::fs::read(path).unwrap()
@@ -345,7 +361,7 @@ mod tests {
             [Cell::Text("1"), Cell::Number(0.1 + 0.2), Cell::Text("5 mm2/s")],
             [Cell::Gap, Cell::Text("2.50"), Cell::Number(3.0)],
         ] {
-            table.push(&row).unwrap();
+            push(&mut table, &[row.to_vec()]).unwrap();
         }
         table.finish().unwrap();
         let reader = SerializedFileReader::new(std::fs::File::open(path).unwrap()).unwrap();
@@ -359,7 +375,9 @@ mod tests {
 
     #[test]
     fn a_table_without_rows_is_a_file() {
-        assert!(!parquet(&["torque_nm".to_owned()], &[]).is_empty());
+        let bytes = Bytes::from(parquet(&["torque_nm".to_owned()], &[]));
+        let reader = SerializedFileReader::new(bytes).unwrap();
+        assert_eq!(reader.metadata().file_metadata().num_rows(), 0);
     }
 
     #[test]
@@ -372,11 +390,49 @@ mod tests {
             (2, i64::try_from(GROUP + 3).unwrap())
         );
         let mut table = ParquetTable::new(&["loss_w".to_owned()], Vec::new());
-        for row in &rows[..GROUP] {
-            table.push(&texts(row)).unwrap();
-        }
-        table.pause().unwrap();
-        let late = table.push(&[Cell::Text("none")]);
+        let group: Vec<Vec<Cell<'_>>> = rows[..GROUP].iter().map(|row| texts(row)).collect();
+        push(&mut table, &group).unwrap();
+        push(&mut table, &[vec![Cell::Text("none")]]).unwrap();
+        let late = table.finish();
         assert!(late.unwrap_err().contains("`none` is no number"));
+    }
+
+    #[test]
+    fn rows_of_several_makers_stand_in_their_order_in_every_group() {
+        let header = ["gear", "loss_w", "bound"].map(str::to_owned);
+        let path = std::env::temp_dir().join(format!("gearloss-parquet-{}-order", std::process::id()));
+        let mut table = ParquetTable::new(&header, std::fs::File::create(&path).unwrap());
+        let names: Vec<String> = (0..2 * GROUP).map(|i| format!("gear {}", i % 3)).collect();
+        for half in 0..2 {
+            // Two makers have every other pair of rows; one in five has no loss.
+            let mut made = vec![Columns::new(GROUP), Columns::new(GROUP)];
+            let mut order = Vec::new();
+            let mut done = [0; 2];
+            for i in (0..GROUP).step_by(2) {
+                let maker = (i / 2) % 2;
+                for row in [half * GROUP + i, half * GROUP + i + 1] {
+                    let loss = if row % 5 == 0 {
+                        Cell::Gap
+                    } else {
+                        Cell::Number(row as f64)
+                    };
+                    add(&mut made[maker], &[Cell::Text(&names[row]), loss, Cell::Gap]);
+                }
+                order.push((maker, done[maker]..done[maker] + 2));
+                done[maker] += 2;
+            }
+            table.push(made, order).unwrap();
+        }
+        table.finish().unwrap();
+        let reader = SerializedFileReader::new(std::fs::File::open(path).unwrap()).unwrap();
+        assert_eq!(reader.num_row_groups(), 2);
+        let mut count = 0;
+        for (i, row) in reader.get_row_iter(None).unwrap().map(Result::unwrap).enumerate() {
+            assert_eq!(row.get_string(0).unwrap(), &names[i]);
+            assert_eq!(row.get_double(1).ok(), (i % 5 != 0).then_some(i as f64));
+            assert!(row.get_double(2).is_err());
+            count += 1;
+        }
+        assert_eq!(count, 2 * GROUP);
     }
 }

@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::Piece;
+use gearloss_framework::analysis::{Bits, Piece};
 
 use super::write::fnv1a_64;
 
@@ -76,7 +76,7 @@ impl PieceFile {
     }
 
     /// Adds a piece and tells its place.
-    pub fn append(&mut self, piece: &Piece) -> io::Result<Place> {
+    pub fn append(&mut self, piece: &Piece<Bits>) -> io::Result<Place> {
         self.bytes.clear();
         self.bytes.resize(HEAD, 0);
         piece.write_bits(&mut self.bytes);
@@ -131,7 +131,7 @@ impl Waiting {
         PieceFile::create(path.to_owned()).map(Self)
     }
 
-    pub fn append(&mut self, piece: &Piece) -> io::Result<Place> {
+    pub fn append(&mut self, piece: &Piece<Bits>) -> io::Result<Place> {
         self.0.append(piece)
     }
 

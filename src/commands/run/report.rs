@@ -2,6 +2,7 @@
 
 mod point;
 
+use std::io::Write as _;
 use std::path::Path;
 
 use gearloss_framework::description::AssumedEntry;
@@ -13,9 +14,9 @@ use serde_json::Value;
 
 use super::super::solve::RPM;
 use super::Runner;
-use super::write::{REPORT, keep};
+use super::write::{Place, REPORT};
 use crate::output::Failure;
-use crate::report::{Frame, GearboxPage, PageTable};
+use crate::report::{Frame, GearboxPage, PageFault, PageTable};
 
 /// The user's template, where there is one.
 pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
@@ -50,13 +51,16 @@ pub fn write(runner: &Runner<'_>, template: Option<&str>) -> Result<(), Failure>
             .collect(),
         study: runner.study.text.clone(),
     };
-    let html = runner.report.borrow().html(&frame, template).map_err(|e| {
-        Failure::input(
+    let (place, mut to) = Place::new(runner, REPORT)?;
+    let written = runner.report.borrow().html(&frame, template, &mut to);
+    written.map_err(|fault| match fault {
+        PageFault::Template(e) => Failure::input(
             format!("the template of the report: {e}"),
             "correct it, or leave --template out",
-        )
+        ),
+        PageFault::Write(e) => place.cannot(&e),
     })?;
-    keep(runner, REPORT, Ok(html.into_bytes()))
+    place.done(to.flush().map_err(|e| e.to_string()))
 }
 
 /// What every analysis starts from, as a sentence.

@@ -3,7 +3,9 @@
 use std::cell::{Cell, RefCell};
 use std::path::PathBuf;
 
-use gearloss_framework::analysis::{Field, Given, GridResult, Piece, Points, merge, notes, solve_pieces};
+use gearloss_framework::analysis::{
+    Field, Given, GridResult, Numbered, Piece, Points, held, merge, notes, solve_pieces,
+};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
@@ -182,45 +184,50 @@ impl Runner<'_> {
     /// Solves all points and holds them.
     pub(super) fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
         let mut all = GridResult::default();
-        self.solve_pieces(built, points, None, &mut |piece| {
+        self.solve_pieces(built, points, None, &held, &mut |piece| {
             all.add(piece);
             Ok(())
         })?;
         Ok(all)
     }
 
-    /// Solves all points and hands them over piece by piece. Those `of` a map, its analysis and its number there, come from
-    /// the shards where they are merged.
-    pub(super) fn solve_pieces(
+    /// Solves all points and hands over what `make` takes from them, piece by piece. Those `of` a map, its analysis and its
+    /// number there, come from the shards where they are merged.
+    pub(super) fn solve_pieces<T: Send>(
         &self,
         built: &Built<'_>,
         points: &Points,
         of: Option<(&str, usize)>,
-        take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
+        make: &(dyn Fn(&Numbered<'_>) -> T + Sync),
+        take: &mut dyn FnMut(Piece<T>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let mut seen = Vec::new();
-        let mut counted = |piece: Piece| {
+        let mut counted = |piece: Piece<T>| {
             merge(&mut seen, &piece.seen);
             take(piece)
         };
         let solved = self.parts.as_ref().zip(of).and_then(|(parts, of)| parts.pieces(of));
         if let Some(mut solved) = solved {
-            solved.try_for_each(|piece| counted(piece?))?;
+            solved.try_for_each(|piece| {
+                let piece = piece?;
+                counted(piece.made(points.field.of_piece(piece.number).start, make))
+            })?;
         } else {
             let numbers: Vec<usize> = (0..points.field.pieces()).collect();
-            self.evaluate(built, points, &numbers, &mut counted)?;
+            self.evaluate(built, points, &numbers, make, &mut counted)?;
         }
         self.seen(&built.transmission, &seen);
         Ok(())
     }
 
     /// Solves pieces of given numbers, however they are wanted.
-    pub(super) fn evaluate(
+    pub(super) fn evaluate<T: Send>(
         &self,
         built: &Built<'_>,
         points: &Points,
         numbers: &[usize],
-        take: &mut dyn FnMut(Piece) -> Result<(), Failure>,
+        make: &(dyn Fn(&Numbered<'_>) -> T + Sync),
+        take: &mut dyn FnMut(Piece<T>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let count = points.field.len();
         let own = count * numbers.len() / points.field.pieces().max(1);
@@ -230,7 +237,7 @@ impl Runner<'_> {
             !interrupt::pressed()
         };
         let mut fault = None;
-        let whole = solve_pieces(&built.transmission, points, numbers, &going, &mut |piece| {
+        let whole = solve_pieces(&built.transmission, points, numbers, make, &going, &mut |piece| {
             fault = take(piece).err();
             fault.is_none()
         });

@@ -4,6 +4,7 @@ use std::fmt;
 use std::fs;
 use std::str::FromStr;
 
+use gearloss_framework::analysis::Bits;
 use gearloss_framework::language::Language;
 use gearloss_framework::study::{Analysis, Study};
 use serde::{Deserialize, Serialize};
@@ -215,7 +216,7 @@ fn of_map(
         .filter(|piece| found.iter().all(|(there, _)| there != *piece));
     let missing: Vec<usize> = missing.copied().collect();
     count.kept += own.len() - missing.len();
-    runner.evaluate(&map.plan.built, &map.plan.points, &missing, &mut |piece| {
+    runner.evaluate(&map.plan.built, &map.plan.points, &missing, &Bits::of, &mut |piece| {
         file.append(&piece)?;
         count.computed += 1;
         Ok(())

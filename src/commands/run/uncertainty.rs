@@ -131,7 +131,7 @@ fn sample(
         let left = left(&transmission, &solved.seen).collect();
         Ok((values, solved.points, left))
     };
-    let all: Vec<_> = (0..entry.samples).into_par_iter().map(one).collect();
+    let all: Vec<_> = (0..entry.samples).into_par_iter().with_max_len(1).map(one).collect();
     ProgressBar::finish_and_clear(&bar);
     if interrupt::pressed() {
         return Err(Failure::Interrupted);

@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 use std::fs;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
@@ -10,11 +9,10 @@ use std::rc::Rc;
 
 use gearloss_framework::report::Figure;
 use gearloss_framework::study::{Study, Write};
-use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::parquet::ParquetTable;
+use super::table::TableFile;
 use super::{Built, Runner};
 use crate::output::Failure;
 
@@ -91,7 +89,7 @@ pub fn write(
     value: &impl Serialize,
 ) -> Result<(), Failure> {
     let mut table = TableFile::new(runner, name, formats, header)?;
-    table.push_texts(rows)?;
+    table.push_all(rows)?;
     table.finish()?;
     write_json(runner, name, formats, value)
 }
@@ -108,7 +106,7 @@ pub fn write_json(runner: &Runner<'_>, name: &str, formats: &[Write], value: &im
 }
 
 /// A file that is written beside its place and moved there when it is whole; until then its name is held for it.
-struct Place {
+pub struct Place {
     name: String,
     names: Names,
     part: PathBuf,
@@ -119,7 +117,7 @@ struct Place {
 pub type Names = Rc<RefCell<BTreeSet<String>>>;
 
 impl Place {
-    fn new(runner: &Runner<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
+    pub fn new(runner: &Runner<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
         // Names of analyses, sets and products are joined with hyphens, which they may hold themselves.
         if !runner.names.borrow_mut().insert(name.to_owned()) {
             return Err(Failure::input(
@@ -141,7 +139,7 @@ impl Place {
         }
     }
 
-    fn cannot(&self, e: &dyn std::fmt::Display) -> Failure {
+    pub fn cannot(&self, e: &dyn std::fmt::Display) -> Failure {
         Failure::input(
             format!("cannot write {}: {e}", self.path.display()),
             "name another folder with -o",
@@ -149,7 +147,7 @@ impl Place {
     }
 
     /// Moves the file to its place, if it was written whole.
-    fn done(mut self, written: Result<(), String>) -> Result<(), Failure> {
+    pub fn done(mut self, written: Result<(), String>) -> Result<(), Failure> {
         let moved = written.and_then(|()| fs::rename(&self.part, &self.path).map_err(|e| e.to_string()));
         moved.map_err(|e| self.cannot(&e))?;
         self.name.clear();
@@ -165,148 +163,6 @@ impl Drop for Place {
             self.names.borrow_mut().remove(&self.name);
         }
     }
-}
-
-/// A table that is written some rows at a time, so that it never stands in memory as a whole.
-pub struct TableFile {
-    csv: Option<(Place, BufWriter<fs::File>)>,
-    parquet: Option<(Place, ParquetTable<BufWriter<fs::File>>)>,
-    /// Number of columns.
-    width: usize,
-}
-
-/// Rows whose text is made by one thread.
-const SHARE: usize = 2048;
-
-/// Rows that go to the columns together, so few that they stay in the caches.
-const BLOCK: usize = 128;
-
-/// A cell of a table.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Cell<'a> {
-    Gap,
-    Number(f64),
-    Text(&'a str),
-}
-
-impl From<Option<f64>> for Cell<'_> {
-    fn from(value: Option<f64>) -> Self {
-        value.map_or(Self::Gap, Self::Number)
-    }
-}
-
-impl Cell<'_> {
-    /// The cell as text; absent for a gap.
-    pub fn text(&self) -> Option<String> {
-        match self {
-            Self::Gap | Self::Text("") => None,
-            Self::Number(x) => Some(format!("{x}")),
-            Self::Text(text) => Some((*text).to_owned()),
-        }
-    }
-}
-
-impl TableFile {
-    pub fn new(runner: &Runner<'_>, name: &str, formats: &[Write], header: &[String]) -> Result<Self, Failure> {
-        let mut table = Self {
-            csv: None,
-            parquet: None,
-            width: header.len(),
-        };
-        if formats.contains(&Write::Csv) {
-            let (place, mut file) = Place::new(runner, &format!("{name}.csv"))?;
-            let head = lines(&[()], header.len(), |(), row| {
-                row.extend(header.iter().map(|name| Cell::Text(name)));
-            });
-            let written = head.and_then(|head| file.write_all(&head).map_err(|e| e.to_string()));
-            written.map_err(|e| place.cannot(&e))?;
-            table.csv = Some((place, file));
-        }
-        if formats.contains(&Write::Parquet) {
-            let (place, file) = Place::new(runner, &format!("{name}.parquet"))?;
-            table.parquet = Some((place, ParquetTable::new(header, file)));
-        }
-        Ok(table)
-    }
-
-    /// Adds a row of texts.
-    pub fn push(&mut self, row: &[String]) -> Result<(), Failure> {
-        self.push_texts(&[row])
-    }
-
-    /// Adds rows of texts.
-    fn push_texts<R: AsRef<[String]> + Sync>(&mut self, rows: &[R]) -> Result<(), Failure> {
-        self.push_rows(rows, |row, cells| {
-            cells.extend(row.as_ref().iter().map(|text| Cell::Text(text)));
-        })
-    }
-
-    /// Adds a row for each item, whose cells are asked for; numbers become texts in the CSV only.
-    pub fn push_rows<'i, T: Sync>(
-        &mut self,
-        items: &'i [T],
-        cells: impl Fn(&'i T, &mut Vec<Cell<'i>>) + Sync,
-    ) -> Result<(), Failure> {
-        if let Some((place, file)) = &mut self.csv {
-            let width = self.width;
-            let shares: Result<Vec<Vec<u8>>, String> = items
-                .par_chunks(SHARE)
-                .map(|share| lines(share, width, &cells))
-                .collect();
-            let written = shares.and_then(|shares| {
-                let written = shares.iter().try_for_each(|text| file.write_all(text));
-                written.map_err(|e| e.to_string())
-            });
-            written.map_err(|e| place.cannot(&e))?;
-        }
-        if let Some((place, table)) = &mut self.parquet {
-            let mut rows = Vec::new();
-            for some in items.chunks(BLOCK) {
-                rows.clear();
-                for item in some {
-                    cells(item, &mut rows);
-                }
-                table.push(&rows).map_err(|e| place.cannot(&e))?;
-            }
-            table.pause().map_err(|e| place.cannot(&e))?;
-        }
-        Ok(())
-    }
-
-    pub fn finish(self) -> Result<(), Failure> {
-        if let Some((place, mut file)) = self.csv {
-            place.done(file.flush().map_err(|e| e.to_string()))?;
-        }
-        if let Some((place, table)) = self.parquet {
-            place.done(table.finish())?;
-        }
-        Ok(())
-    }
-}
-
-/// Rows as lines of CSV.
-fn lines<'i, T>(items: &'i [T], width: usize, cells: impl Fn(&'i T, &mut Vec<Cell<'i>>)) -> Result<Vec<u8>, String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let (mut row, mut digits) = (Vec::new(), String::new());
-    for item in items {
-        row.clear();
-        cells(item, &mut row);
-        if row.len() != width {
-            return Err("bug: a row of another length than the header".to_owned());
-        }
-        let written = row.iter().try_for_each(|cell| match cell {
-            Cell::Gap => writer.write_field(""),
-            Cell::Text(text) => writer.write_field(text),
-            Cell::Number(x) => {
-                digits.clear();
-                let _ = write!(digits, "{x}");
-                writer.write_field(&digits)
-            }
-        });
-        let ended = written.and_then(|()| writer.write_record(None::<&[u8]>));
-        ended.map_err(|e| e.to_string())?;
-    }
-    writer.into_inner().map_err(|e| e.to_string())
 }
 
 /// Puts a picture into the report, and writes it as a file where that is asked for.

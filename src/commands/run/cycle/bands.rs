@@ -76,7 +76,7 @@ pub fn sample(
         bar.inc(1);
         Ok((values, losses, seen))
     };
-    let all: Vec<Result<Sample, String>> = (0..entry.samples).into_par_iter().map(one).collect();
+    let all: Vec<Result<Sample, String>> = (0..entry.samples).into_par_iter().with_max_len(1).map(one).collect();
     bar.finish_and_clear();
     if interrupt::pressed() {
         return Err(Failure::Interrupted);

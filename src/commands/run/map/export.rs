@@ -3,7 +3,7 @@
 //! Sources of the formats: VECTO's user manual (Transmission Loss Map), the Powertrain Blockset's block Gearbox, and the
 //! documentation of `Modelica.Mechanics.Rotational.Components.LossyGear`.
 
-use gearloss_framework::analysis::{Given, Statistics};
+use gearloss_framework::analysis::{Given, Statistics, held};
 use gearloss_framework::study::Export;
 
 use super::super::super::solve::RPM;
@@ -87,7 +87,7 @@ fn between(runner: &Runner<'_>, table: &Table<'_>) -> Result<String, Failure> {
     }
     let points = runner.listed(t, &table.map.gear, list);
     let (mut gaps, mut means) = (Vec::new(), means.into_iter());
-    runner.solve_pieces(&table.map.built, &points, None, &mut |piece| {
+    runner.solve_pieces(&table.map.built, &points, None, &held, &mut |piece| {
         let pairs = piece.points().zip(means.by_ref());
         gaps.extend(pairs.filter_map(|(p, mean)| Some(mean - p.loss_torque?)));
         Ok(())

@@ -2,7 +2,8 @@
 
 use gearloss_framework::study::MapEntry;
 
-use super::super::write::{TableFile, head, write_json};
+use super::super::table::TableFile;
+use super::super::write::{head, write_json};
 use super::super::{Built, Runner};
 use super::Map;
 use super::results::Waited;

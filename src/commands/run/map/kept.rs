@@ -1,6 +1,6 @@
 //! What is kept of the points of a map once their rows are written.
 
-use gearloss_framework::analysis::{Field, Piece, PointResult};
+use gearloss_framework::analysis::{Field, Numbered, PointResult};
 
 use super::Axes;
 
@@ -52,12 +52,34 @@ pub struct Kept {
     /// All points of a list; those of a grid that are shown.
     pub points: Vec<Brief>,
     pub grid: Option<Shown>,
-    /// How many were solved.
-    pub solved: usize,
     /// Every torque and speed of a grid with all values, where they are asked for.
     pub whole: Option<Whole>,
-    /// For each torque and each speed of the grid its number among those that are shown.
-    lines: [Vec<Option<usize>>; 2],
+    /// Torques and speeds of the grid.
+    size: Option<(usize, usize)>,
+}
+
+/// Which points are kept.
+pub struct Wanted {
+    /// Whether the values of all places are.
+    whole: bool,
+    /// What is shown of a grid; absent for a list, of which all is.
+    lines: Option<Lines>,
+}
+
+/// For each torque and each speed of a grid its number among those that are shown.
+struct Lines {
+    torques: Vec<Option<usize>>,
+    speeds: Vec<Option<usize>>,
+    /// How many speeds are shown.
+    columns: usize,
+}
+
+/// What is kept of some points.
+pub struct Picked {
+    /// Points that are shown, with their places on the grid.
+    shown: Vec<(usize, Brief)>,
+    /// Efficiency and loss torque at the places of the grid.
+    values: Vec<(usize, [Option<f64>; 2])>,
 }
 
 /// All values of a grid.
@@ -88,76 +110,116 @@ impl Whole {
     }
 }
 
-impl Kept {
-    /// Nothing of a map yet: of a grid with its axes, or of a list. `whole` keeps the values of all places.
+impl Wanted {
+    /// Of a grid with its axes, or of a list. `whole` keeps the values of all places.
     pub fn new(grid: Option<&Axes>, whole: bool) -> Self {
-        let Some(axes) = grid else {
-            return Self {
-                points: Vec::new(),
-                grid: None,
-                solved: 0,
-                whole: None,
-                lines: [Vec::new(), Vec::new()],
-            };
-        };
-        let count = axes.torques.len() * axes.speeds.len();
-        let most = if count > MOST_SHOWN { LINES } else { usize::MAX };
-        let [torques, speeds] = [&axes.torques, &axes.speeds].map(|axis| super::some(axis.len(), most));
-        let numbers = |shown: &[usize], count: usize| {
-            let mut numbers = vec![None; count];
+        let numbers = |lines: &[f64], shown: &[usize]| {
+            let mut numbers = vec![None; lines.len()];
             for (k, i) in shown.iter().enumerate() {
                 numbers[*i] = Some(k);
             }
             numbers
         };
         Self {
-            points: Vec::new(),
-            lines: [
-                numbers(&torques, axes.torques.len()),
-                numbers(&speeds, axes.speeds.len()),
-            ],
-            grid: Some(Shown {
+            whole,
+            lines: grid.map(|axes| {
+                let [torques, speeds] = axes.shown();
+                Lines {
+                    torques: numbers(&axes.torques, &torques),
+                    speeds: numbers(&axes.speeds, &speeds),
+                    columns: speeds.len(),
+                }
+            }),
+        }
+    }
+
+    /// What is kept of some points.
+    pub fn pick(&self, field: &Field, points: &Numbered<'_>) -> Picked {
+        let mut picked = Picked {
+            shown: Vec::new(),
+            values: Vec::new(),
+        };
+        for (number, point) in points {
+            let place = field.place(*number);
+            if self.whole {
+                picked.values.push((place, [point.efficiency, point.loss_torque]));
+            }
+            if self.place(place).is_some() {
+                picked.shown.push((place, (*point).into()));
+            }
+        }
+        picked
+    }
+
+    /// Where a point is shown, by its place; absent where it is not.
+    fn place(&self, place: usize) -> Option<usize> {
+        let Some(lines) = &self.lines else {
+            return Some(place);
+        };
+        let speeds = lines.speeds.len();
+        let (row, column) = (lines.torques[place / speeds]?, lines.speeds[place % speeds]?);
+        Some(row * lines.columns + column)
+    }
+}
+
+impl Axes {
+    /// Numbers of the torques and of the speeds that are shown.
+    fn shown(&self) -> [Vec<usize>; 2] {
+        let count = self.torques.len() * self.speeds.len();
+        let most = if count > MOST_SHOWN { LINES } else { usize::MAX };
+        [&self.torques, &self.speeds].map(|axis| super::some(axis.len(), most))
+    }
+}
+
+impl Kept {
+    /// Nothing yet of a map over a grid with its axes, or of a list. `whole` keeps the values of all places.
+    pub fn new(grid: Option<&Axes>, whole: bool) -> Self {
+        let shown = |axes: &Axes| {
+            let [torques, speeds] = axes.shown();
+            Shown {
                 places: vec![None; torques.len() * speeds.len()],
                 axes: Axes {
                     torques: torques.iter().map(|i| axes.torques[*i]).collect(),
                     speeds: speeds.iter().map(|i| axes.speeds[*i]).collect(),
                     shares: axes.shares,
                 },
-            }),
-            solved: 0,
-            whole: whole.then(|| Whole {
+            }
+        };
+        Self {
+            points: Vec::new(),
+            grid: grid.map(shown),
+            whole: grid.filter(|_| whole).map(|axes| Whole {
                 axes: axes.clone(),
-                values: vec![None; count],
+                values: vec![None; axes.torques.len() * axes.speeds.len()],
             }),
+            size: grid.map(|axes| (axes.torques.len(), axes.speeds.len())),
         }
     }
 
-    /// Adds the points of a piece that follows.
-    pub fn add(&mut self, field: &Field, piece: &Piece) {
-        for point in piece.points() {
-            let place = field.place(self.solved);
-            self.solved += 1;
+    /// Adds what was picked from the points of a piece that follows.
+    pub fn add(&mut self, wanted: &Wanted, picked: Vec<Picked>) {
+        let mut more = Vec::new();
+        for picked in picked {
+            more.extend(picked.shown);
             if let Some(whole) = &mut self.whole {
-                whole.values[place] = Some([point.efficiency, point.loss_torque]);
+                for (place, values) in picked.values {
+                    whole.values[place] = Some(values);
+                }
             }
-            let Some(shown) = &mut self.grid else {
-                self.points.push(point.into());
-                continue;
-            };
-            let [torques, speeds] = &self.lines;
-            if let (Some(row), Some(column)) = (torques[place / speeds.len()], speeds[place % speeds.len()]) {
-                shown.places[row * shown.axes.speeds.len() + column] = Some(self.points.len());
-                self.points.push(point.into());
+        }
+        // Tasks hold points of many places.
+        more.sort_unstable_by_key(|(place, _)| *place);
+        for (place, point) in more {
+            if let (Some(shown), Some(place)) = (&mut self.grid, wanted.place(place)) {
+                shown.places[place] = Some(self.points.len());
             }
+            self.points.push(point);
         }
     }
 
     /// Torques and speeds of the grid; points of a list and one.
     pub fn size(&self) -> (usize, usize) {
-        match &self.grid {
-            Some(_) => (self.lines[0].len(), self.lines[1].len()),
-            None => (self.points.len(), 1),
-        }
+        self.size.unwrap_or((self.points.len(), 1))
     }
 
     /// Says where pictures show fewer points than there are.

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use gearloss_framework::analysis::{Note, Piece, PointResult, SUMS, WeakPoint, evidence};
+use gearloss_framework::analysis::{Bits, Note, Piece, PointResult, SUMS, WeakPoint, evidence};
 use gearloss_framework::flow::Status;
 use gearloss_framework::study::Write;
 use gearloss_framework::thermal::Outcome;
@@ -36,7 +36,7 @@ impl Waited {
     }
 
     /// Adds a piece and tells its place.
-    pub fn append(&mut self, piece: &Piece) -> Result<u64, Failure> {
+    pub fn append(&mut self, piece: &Piece<Bits>) -> Result<u64, Failure> {
         Ok(self.0.get_mut().append(piece)?)
     }
 

@@ -1,14 +1,13 @@
 //! The table of a map: its columns, and the rows of the points as they are solved.
 
-use gearloss_framework::analysis::{Piece, PointResult, SUMS};
+use gearloss_framework::analysis::{Numbered, SUMS};
 use gearloss_framework::thermal::Outcome;
 use serde_json::Value;
 
 use super::super::super::solve::RPM;
 use super::super::Built;
-use super::super::write::{Cell, TableFile};
+use super::super::columns::Columns;
 use super::{loss_of, sums, tidy, word};
-use crate::output::Failure;
 
 /// Names of the columns.
 pub fn header(bound: &[String], parts: &[String]) -> Vec<String> {
@@ -55,32 +54,34 @@ impl<'a> RowsOf<'a> {
         }
     }
 
-    /// Writes the rows of a piece that follows.
-    pub fn write(&self, piece: &Piece, table: &mut TableFile) -> Result<(), Failure> {
-        let points: Vec<&PointResult> = piece.points().collect();
-        table.push_rows(&points, |point, row| {
-            row.extend([Cell::Text(self.set), Cell::Text(self.gear)]);
-            row.extend(self.bound.iter().map(|word| Cell::Text(word)));
-            row.extend([
-                Cell::Number(point.torque),
-                Cell::Number(tidy(point.speed * RPM)),
-                point.oil.into(),
-                point.surface.into(),
-                Cell::Text(point.balance.map_or("", Outcome::name)),
-                Cell::Text(point.status.name()),
-                point.efficiency.into(),
-                point.loss.into(),
-                point.loss_torque.into(),
-                point.input.into(),
-                point.output.into(),
-            ]);
-            let sums = sums(point);
-            row.extend((0..SUMS.len()).map(|i| Cell::from(sums.map(|s| s[i]))));
-            row.extend(
-                self.columns
-                    .iter()
-                    .map(|c| Cell::from(c.and_then(|c| loss_of(point, c)))),
-            );
-        })
+    /// The cells of some points.
+    pub fn cells(&self, points: &Numbered<'_>, to: &mut Columns) {
+        let points = || points.iter().map(|(_, point)| *point);
+        for same in [self.set, self.gear]
+            .into_iter()
+            .chain(self.bound.iter().map(String::as_str))
+        {
+            to.texts(points().map(|_| same));
+        }
+        to.numbers(points().map(|p| Some(p.torque)));
+        to.numbers(points().map(|p| Some(tidy(p.speed * RPM))));
+        to.numbers(points().map(|p| p.oil));
+        to.numbers(points().map(|p| p.surface));
+        to.texts(points().map(|p| p.balance.map_or("", Outcome::name)));
+        to.texts(points().map(|p| p.status.name()));
+        to.numbers(points().map(|p| p.efficiency));
+        to.numbers(points().map(|p| p.loss));
+        to.numbers(points().map(|p| p.loss_torque));
+        to.numbers(points().map(|p| p.input));
+        to.numbers(points().map(|p| p.output));
+        for sum in 0..SUMS.len() {
+            to.numbers(points().map(|p| sums(p).map(|sums| sums[sum])));
+        }
+        for part in &self.columns {
+            match part {
+                Some(part) => to.numbers(points().map(|p| loss_of(p, *part))),
+                None => to.numbers(points().map(|_| None)),
+            }
+        }
     }
 }

@@ -75,7 +75,7 @@ pub fn pairs(
         bar.inc(1);
         (pair(entry, rows.measured, at, solved), seen)
     };
-    let all: Vec<(Pair, Left)> = (0..count).into_par_iter().map(one).collect();
+    let all: Vec<(Pair, Left)> = (0..count).into_par_iter().with_max_len(1).map(one).collect();
     ProgressBar::finish_and_clear(&bar);
     if interrupt::pressed() {
         return Err(Failure::Interrupted);

@@ -1,0 +1,140 @@
+//! Rows of a table column by column, as threads make them.
+
+use std::ops::Range;
+
+use parquet::data_type::ByteArray;
+
+/// Some rows. They are added some at a time, those of one column after those of the column before.
+pub struct Columns {
+    all: Vec<Column>,
+    /// How many rows are expected.
+    rows: usize,
+    /// Columns that have got the rows which are being added.
+    filled: usize,
+}
+
+/// The cells of some rows in one column.
+pub enum Column {
+    /// Numbers and, as those that are none, gaps.
+    Numbers(Vec<f64>),
+    Texts(Texts),
+}
+
+/// Texts, of which neighbours are often the same.
+#[derive(Default)]
+pub struct Texts {
+    /// Those that differ from the one before.
+    kinds: Vec<ByteArray>,
+    /// For each cell the number of its text; absent for a gap.
+    of: Vec<Option<u32>>,
+}
+
+impl Columns {
+    /// No rows yet of so many that are expected.
+    pub fn new(rows: usize) -> Self {
+        Self {
+            all: Vec::new(),
+            rows,
+            filled: 0,
+        }
+    }
+
+    /// Numbers and gaps of the next column.
+    #[inline]
+    pub fn numbers(&mut self, cells: impl Iterator<Item = Option<f64>>) {
+        let own = match self.all.get_mut(self.filled) {
+            Some(own) => own,
+            None => self.all.push_mut(Column::Numbers(Vec::with_capacity(self.rows))),
+        };
+        match own {
+            Column::Numbers(numbers) => numbers.extend(cells.map(|x| x.unwrap_or(f64::NAN))),
+            Column::Texts(texts) => cells.for_each(|x| texts.push(&x.map_or_else(String::new, |x| x.to_string()))),
+        }
+        self.filled += 1;
+    }
+
+    /// Texts of the next column; empty ones are gaps.
+    pub fn texts<'t>(&mut self, cells: impl Iterator<Item = &'t str>) {
+        let own = match self.all.get_mut(self.filled) {
+            Some(own) => own,
+            None => self.all.push_mut(Column::Texts(Texts::default())),
+        };
+        if let Column::Numbers(numbers) = own {
+            let mut texts = Texts::default();
+            for x in &*numbers {
+                texts.push(&text(*x));
+            }
+            *own = Column::Texts(texts);
+        }
+        if let Column::Texts(texts) = own {
+            cells.for_each(|text| texts.push(text));
+        }
+        self.filled += 1;
+    }
+
+    /// Ends the rows that were being added.
+    ///
+    /// # Errors
+    /// Columns of another number than there are in the table, or of different lengths.
+    pub fn end(&mut self, width: usize) -> Result<(), &'static str> {
+        let rows = self.all.first().map_or(0, Column::len);
+        let equal = self.all.iter().all(|column| column.len() == rows);
+        if std::mem::take(&mut self.filled) == width && self.all.len() == width && equal {
+            Ok(())
+        } else {
+            Err("rows of another length than the header")
+        }
+    }
+
+    /// The columns.
+    pub fn all(&self) -> &[Column] {
+        &self.all
+    }
+}
+
+impl Column {
+    /// How many cells there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Numbers(numbers) => numbers.len(),
+            Self::Texts(texts) => texts.of.len(),
+        }
+    }
+}
+
+impl Texts {
+    fn push(&mut self, text: &str) {
+        if text.is_empty() {
+            return self.of.push(None);
+        }
+        if self.kinds.last().is_none_or(|last| last.data() != text.as_bytes()) {
+            self.kinds.push(ByteArray::from(text));
+        }
+        self.of.push(Some(self.kinds.len() as u32 - 1));
+    }
+
+    /// Texts of some cells, whose bytes are shared; absent for a gap.
+    pub fn cells(&self, own: Range<usize>) -> impl Iterator<Item = Option<&ByteArray>> {
+        self.of[own].iter().map(|kind| kind.map(|k| &self.kinds[k as usize]))
+    }
+
+    /// All texts that there are.
+    pub fn kinds(&self) -> impl Iterator<Item = &str> {
+        self.kinds.iter().map(word)
+    }
+}
+
+/// The number of a cell; absent for a gap.
+pub fn number(x: f64) -> Option<f64> {
+    (!x.is_nan()).then_some(x)
+}
+
+/// The text of a number, empty for a gap.
+fn text(x: f64) -> String {
+    number(x).map_or_else(String::new, |x| x.to_string())
+}
+
+/// A text as words.
+pub fn word(text: &ByteArray) -> &str {
+    text.as_utf8().unwrap_or_default()
+}
