@@ -206,6 +206,47 @@ fn failures_and_denials_are_those_of_the_single_run() {
     assert!(text(&output.stdout).contains("denied: extrapolation"));
 }
 
+/// A piece of a map that several tasks solve has its points where they belong, in every file.
+#[test]
+fn pieces_of_several_tasks_keep_the_order_of_the_grid() {
+    let folder = folder("tasks");
+    fs::copy(
+        common::file("examples/two-speed-ev/gearbox.yaml"),
+        folder.join("gearbox.yaml"),
+    )
+    .unwrap();
+    let study = "
+gearloss: study/1
+gearboxes: { ours: gearbox.yaml }
+conditions: { torque_at: input, speed_at: input, oil_temperature: 80 degC }
+grids:
+  field: { gear: first, torque: { from: 1 Nm, to: 70 Nm, step: 1 Nm }, speed: { from: 100 rpm, to: 8000 rpm, step: 100 rpm } }
+analyses:
+  map: { type: map, grid: field, export: [lossy_gear], write: [csv, json, parquet] }
+";
+    fs::write(folder.join("study.yaml"), study).unwrap();
+    same_as_single(&folder, "study.yaml", 2, &[]);
+    let csv = fs::read_to_string(folder.join("results/map.csv")).unwrap();
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().unwrap();
+    let [torque, speed] = ["torque_nm", "speed_rpm"].map(|name| head.iter().position(|h| *h == name).unwrap());
+    let json: serde_json::Value = serde_json::from_slice(&fs::read(folder.join("results/map.json")).unwrap()).unwrap();
+    let points = json["maps"][0]["points"].as_array().unwrap();
+    let mut count = 0;
+    for (i, line) in lines.enumerate() {
+        let (t, n) = ((i / 80 + 1) as f64, (100 * (i % 80 + 1)) as f64);
+        let number = |text: &str| text.parse::<f64>().unwrap();
+        assert_eq!((number(line[torque]), number(line[speed])), (t, n), "line {i}");
+        assert_eq!(
+            (&points[i]["torque_nm"], &points[i]["speed_rpm"]),
+            (&t.into(), &n.into()),
+            "{i}"
+        );
+        count += 1;
+    }
+    assert_eq!((count, points.len()), (5600, 5600));
+}
+
 /// `shard 1/2: 3 of 9 units in FOLDER, 2 of them from before`: the units of the shard, and those from before.
 fn counted(output: &Output) -> (usize, usize) {
     let line = text(&output.stdout).lines().next().unwrap().to_owned();

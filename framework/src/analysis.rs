@@ -15,7 +15,7 @@ pub use bits::Bits;
 pub use cycle::{Driven, Ride, Stretch, drive};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use notes::{Note, Stated, WeakPoint, evidence, notes};
-pub use pieces::{MOST_HELD, Numbered, Piece, held, solve_pieces};
+pub use pieces::{MOST_HELD, Make, Numbered, Piece, held, solve_pieces};
 pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
 pub use statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use sums::{SUMS, sum_of};

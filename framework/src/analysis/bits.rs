@@ -41,7 +41,7 @@ pub struct Bits {
 
 impl Bits {
     /// Points as bytes; what becomes of them as [`super::solve_pieces`] understands it.
-    pub fn of(points: &Numbered<'_>) -> Self {
+    pub fn of(points: &mut Numbered<'_>) -> Self {
         let mut bits = Self::default();
         for (_, point) in points {
             point.write_bits(&mut bits.bytes);

@@ -1,5 +1,6 @@
 //! Many points, solved in parallel piece by piece, so that few of them are held.
 
+use std::iter::repeat_n;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -34,26 +35,35 @@ pub struct Piece<T = Vec<PointResult>> {
     /// Number of the piece among those of the field.
     pub number: usize,
     /// What became of the points of each task, which are in the order of the field.
-    pub tasks: Vec<T>,
-    /// Number of a task and how many of its next points follow in the order of the field.
-    runs: Vec<(usize, usize)>,
+    pub(super) tasks: Vec<T>,
+    /// The order of the field: number of a task and how many of its next points follow.
+    order: Vec<(usize, usize)>,
     /// What was seen of limits and observed quantities over these points.
     pub seen: Vec<Extent>,
 }
 
 /// Points with their numbers in the field, rising.
-pub type Numbered<'a> = [(usize, &'a PointResult)];
+pub type Numbered<'a> = [(usize, &'a mut PointResult)];
 
-/// The points themselves, where they are still wanted.
-pub fn held(points: &Numbered<'_>) -> Vec<PointResult> {
-    points.iter().map(|(_, point)| (*point).clone()).collect()
+/// What is made of the points of a task where they were solved.
+pub type Make<'a, T> = dyn Fn(&mut Numbered<'_>) -> T + Sync + 'a;
+
+/// The points themselves, where they are still wanted; what is left has no parts, terms and nodes.
+pub fn held(points: &mut Numbered<'_>) -> Vec<PointResult> {
+    let taken = |(_, point): &mut (usize, &mut PointResult)| PointResult {
+        nodes: std::mem::take(&mut point.nodes),
+        parts: std::mem::take(&mut point.parts),
+        terms: std::mem::take(&mut point.terms),
+        ..**point
+    };
+    points.iter_mut().map(taken).collect()
 }
 
 impl<T> Piece<T> {
     /// The order of the points in the field: number of a task and its points that follow.
     pub fn runs(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
         let mut done = vec![0; self.tasks.len()];
-        self.runs.iter().map(move |(task, count)| {
+        self.order.iter().map(move |(task, count)| {
             let start = done[*task];
             done[*task] += count;
             (*task, start..start + count)
@@ -65,14 +75,14 @@ impl<T> Piece<T> {
         Piece {
             number: self.number,
             tasks: self.tasks.into_iter().map(other).collect(),
-            runs: self.runs,
+            order: self.order,
             seen: self.seen,
         }
     }
 
     /// Number of points.
     pub fn len(&self) -> usize {
-        self.runs.iter().map(|(_, count)| count).sum()
+        self.order.iter().map(|(_, count)| count).sum()
     }
 
     /// True without points.
@@ -86,7 +96,7 @@ impl Piece {
     pub fn new(number: usize, points: Vec<PointResult>, seen: Vec<Extent>) -> Self {
         Self {
             number,
-            runs: vec![(0, points.len())],
+            order: vec![(0, points.len())],
             tasks: vec![points],
             seen,
         }
@@ -100,21 +110,20 @@ impl Piece {
     /// The same, without the piece.
     pub fn into_points(self) -> impl Iterator<Item = PointResult> {
         let mut tasks: Vec<_> = self.tasks.into_iter().map(Vec::into_iter).collect();
-        self.runs.into_iter().flat_map(move |(task, count)| {
-            let own: Vec<PointResult> = tasks[task].by_ref().take(count).collect();
-            own
-        })
+        let in_order = self.order.into_iter().flat_map(|(task, count)| repeat_n(task, count));
+        in_order.filter_map(move |task| tasks[task].next())
     }
 
     /// What becomes of points that were solved elsewhere, the first of which has a number in the field.
-    pub fn made<T: Send>(&self, first: usize, make: &(dyn Fn(&Numbered<'_>) -> T + Sync)) -> Piece<T> {
-        let points: Vec<(usize, &PointResult)> = (first..).zip(self.points()).collect();
-        let tasks = || points.par_chunks(TASK);
+    pub fn made<T: Send>(self, first: usize, make: &Make<'_, T>) -> Piece<T> {
+        let (number, seen) = (self.number, self.seen.clone());
+        let mut points: Vec<PointResult> = self.into_points().collect();
+        let mut points: Vec<(usize, &mut PointResult)> = (first..).zip(&mut points).collect();
         Piece {
-            number: self.number,
-            tasks: tasks().with_max_len(1).map(make).collect(),
-            runs: points.chunks(TASK).map(<[_]>::len).enumerate().collect(),
-            seen: self.seen.clone(),
+            number,
+            order: points.chunks(TASK).map(<[_]>::len).enumerate().collect(),
+            tasks: points.par_chunks_mut(TASK).with_max_len(1).map(make).collect(),
+            seen,
         }
     }
 }
@@ -181,7 +190,7 @@ pub fn solve_pieces<T: Send>(
     transmission: &Transmission,
     points: &Points,
     numbers: &[usize],
-    make: &(dyn Fn(&Numbered<'_>) -> T + Sync),
+    make: &Make<'_, T>,
     progress: &(dyn Fn(usize) -> bool + Sync),
     take: &mut dyn FnMut(Piece<T>) -> bool,
 ) -> Result<bool, Vec<Diagnostic>> {
@@ -197,10 +206,10 @@ pub fn solve_pieces<T: Send>(
         let spare = spaces.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let mut space = spare.unwrap_or_else(|| solver.space());
         let solved = solver.solve(task, &mut space);
-        let mut points: Vec<(usize, &PointResult)> = task.iter().copied().zip(solved).collect();
+        let mut points: Vec<(usize, &mut PointResult)> = task.iter().copied().zip(solved).collect();
         // They rise in runs, which this sort merges.
         points.sort_by_key(|(number, _)| *number);
-        let made = make(&points);
+        let made = make(&mut points);
         if !progress(task.len()) {
             going.store(false, Ordering::Relaxed);
         }
@@ -210,25 +219,28 @@ pub fn solve_pieces<T: Send>(
         spaces.lock().unwrap_or_else(PoisonError::into_inner).push(space);
         Some(Task { made, runs, seen })
     };
-    // Pieces that were broken off are none.
     let solve_all = |numbers: &[usize]| -> Vec<Piece<T>> {
         let orders: Vec<Vec<usize>> = numbers.iter().map(|number| points.field.in_order(*number)).collect();
         let tasks: Vec<&[usize]> = orders.iter().flat_map(|order| order.chunks(TASK)).collect();
         // One by one, or the last threads would have several left while others have none.
         let solved: Option<Vec<Task<T>>> = tasks.into_par_iter().with_max_len(1).map(solve).collect();
-        let mut solved = solved.into_iter().flatten();
+        // Nothing, where the work was broken off.
+        let Some(solved) = solved else {
+            return Vec::new();
+        };
+        let mut solved = solved.into_iter();
         let piece = |(number, order): (&usize, &Vec<usize>)| {
-            let (mut seen, mut tasks, mut runs) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut seen, mut made, mut runs) = (Vec::new(), Vec::new(), Vec::new());
             for (i, task) in solved.by_ref().take(order.len().div_ceil(TASK)).enumerate() {
                 merge(&mut seen, &task.seen);
-                tasks.push(task.made);
+                made.push(task.made);
                 runs.extend(task.runs.into_iter().map(|(first, count)| (first, i, count)));
             }
             runs.sort_unstable();
             Piece {
                 number: *number,
-                tasks,
-                runs: runs.into_iter().map(|(_, task, count)| (task, count)).collect(),
+                tasks: made,
+                order: runs.into_iter().map(|(_, task, count)| (task, count)).collect(),
                 seen,
             }
         };

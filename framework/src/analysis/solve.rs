@@ -23,7 +23,7 @@ pub(super) struct Solver<'a> {
     terms: Vec<(usize, usize, usize)>,
 }
 
-/// Space for solving; one for each thread.
+/// Space for solving; as many as tasks are solved at once.
 pub(super) struct Space {
     single: Scratch,
     rows: Option<RowScratch>,
@@ -85,8 +85,9 @@ impl<'a> Solver<'a> {
     }
 
     /// Solves the points of given numbers, in their order; neighbours with one speed and temperature are solved together.
-    pub fn solve<'s>(&self, numbers: &[usize], space: &'s mut Space) -> &'s [PointResult] {
+    pub fn solve<'s>(&self, numbers: &[usize], space: &'s mut Space) -> &'s mut [PointResult] {
         let mut results = std::mem::take(&mut space.results);
+        space.spare.clear();
         space.spare.extend(results.drain(..).map(|point| point.parts));
         // Or the numbers would hang on what this thread solved before.
         if let Some(rows) = &mut space.rows {
@@ -110,7 +111,7 @@ impl<'a> Solver<'a> {
             }
         }
         space.results = results;
-        &space.results
+        &mut space.results
     }
 
     fn single(&self, given: Given, space: &mut Space) -> PointResult {

@@ -11,6 +11,8 @@ pub struct Columns {
     rows: usize,
     /// Columns that have got the rows which are being added.
     filled: usize,
+    /// Whether a column got numbers and texts.
+    mixed: bool,
 }
 
 /// The cells of some rows in one column.
@@ -36,6 +38,7 @@ impl Columns {
             all: Vec::new(),
             rows,
             filled: 0,
+            mixed: false,
         }
     }
 
@@ -48,7 +51,7 @@ impl Columns {
         };
         match own {
             Column::Numbers(numbers) => numbers.extend(cells.map(|x| x.unwrap_or(f64::NAN))),
-            Column::Texts(texts) => cells.for_each(|x| texts.push(&x.map_or_else(String::new, |x| x.to_string()))),
+            Column::Texts(_) => self.mixed = true,
         }
         self.filled += 1;
     }
@@ -59,15 +62,9 @@ impl Columns {
             Some(own) => own,
             None => self.all.push_mut(Column::Texts(Texts::default())),
         };
-        if let Column::Numbers(numbers) = own {
-            let mut texts = Texts::default();
-            for x in &*numbers {
-                texts.push(&text(*x));
-            }
-            *own = Column::Texts(texts);
-        }
-        if let Column::Texts(texts) = own {
-            cells.for_each(|text| texts.push(text));
+        match own {
+            Column::Texts(texts) => cells.for_each(|text| texts.push(text)),
+            Column::Numbers(_) => self.mixed = true,
         }
         self.filled += 1;
     }
@@ -75,11 +72,11 @@ impl Columns {
     /// Ends the rows that were being added.
     ///
     /// # Errors
-    /// Columns of another number than there are in the table, or of different lengths.
+    /// Columns of another number than there are in the table, of different lengths, or of numbers and texts.
     pub fn end(&mut self, width: usize) -> Result<(), &'static str> {
         let rows = self.all.first().map_or(0, Column::len);
         let equal = self.all.iter().all(|column| column.len() == rows);
-        if std::mem::take(&mut self.filled) == width && self.all.len() == width && equal {
+        if std::mem::take(&mut self.filled) == width && self.all.len() == width && equal && !self.mixed {
             Ok(())
         } else {
             Err("rows of another length than the header")
@@ -127,11 +124,6 @@ impl Texts {
 /// The number of a cell; absent for a gap.
 pub fn number(x: f64) -> Option<f64> {
     (!x.is_nan()).then_some(x)
-}
-
-/// The text of a number, empty for a gap.
-fn text(x: f64) -> String {
-    number(x).map_or_else(String::new, |x| x.to_string())
 }
 
 /// A text as words.

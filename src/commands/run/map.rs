@@ -142,9 +142,9 @@ fn on_grid<'s>(
         };
         let kept = Kept::new(Some(&plan.axes), whole);
         let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, kept);
-        let take = |points: &Numbered<'_>| taker.take(points);
+        let take = |points: &mut Numbered<'_>| taker.take(points);
         runner.solve_pieces(&plan.built, &plan.points, Some((name, number)), &take, &mut |piece| {
-            map.add(&wanted, piece, &mut files)
+            map.add(piece, &mut files)
         })?;
         map.notes = notes(&plan.built.transmission, &map.seen);
         maps.push(map);
@@ -203,7 +203,7 @@ fn on_list<'s>(
             };
             let mut map = Map::new(&built[place], &bound, &gear, oil, Kept::new(None, false));
             let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
-            map.add(&wanted, piece, &mut files)?;
+            map.add(piece, &mut files)?;
             map.notes.clone_from(&solved.notes);
             maps.push(map);
         }
@@ -260,7 +260,7 @@ impl<'a> Map<'a> {
     }
 
     /// Adds what was taken from a piece that follows: writes its rows, and keeps what is still needed.
-    fn add(&mut self, wanted: &Wanted, piece: Piece<Taken>, files: &mut Files) -> Result<(), Failure> {
+    fn add(&mut self, piece: Piece<Taken>, files: &mut Files) -> Result<(), Failure> {
         merge(&mut self.seen, &piece.seen);
         let order: Vec<_> = piece.runs().collect();
         let (mut rows, mut picked) = (Vec::new(), Vec::new());
@@ -274,7 +274,7 @@ impl<'a> Map<'a> {
         if let Some(waited) = &mut files.waited {
             self.waiting.push(waited.append(&waiting)?);
         }
-        self.kept.add(wanted, picked);
+        self.kept.add(picked);
         Ok(())
     }
 }

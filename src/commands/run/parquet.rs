@@ -77,11 +77,8 @@ impl<W: Write + Send> ParquetTable<W> {
     /// Adds rows that were made together, in an order.
     ///
     /// # Errors
-    /// A text in a column that held numbers before; rows of another length than the header; what the writer says.
+    /// A text in a column that held numbers before; what the writer says.
     pub fn push(&mut self, made: Vec<Columns>, order: Vec<(usize, Range<usize>)>) -> Result<(), String> {
-        if made.iter().any(|columns| columns.all().len() != self.header.len()) {
-            return Err("bug: rows of another length than the header".to_owned());
-        }
         self.count += order.iter().map(|(_, own)| own.len()).sum::<usize>();
         self.rows.push(Ordered { made, order });
         if self.count < GROUP { Ok(()) } else { self.group() }
@@ -104,7 +101,7 @@ impl<W: Write + Send> ParquetTable<W> {
         }
     }
 
-    /// Packs the rows so far as a group, on all threads; one of them writes the group before.
+    /// Packs the rows so far as a group, on all threads, while this one writes the group before.
     fn group(&mut self) -> Result<(), String> {
         self.count = 0;
         let rows = std::mem::take(&mut self.rows);
@@ -128,7 +125,11 @@ impl<W: Write + Send> ParquetTable<W> {
                 let own = |(place, description)| column(&rows, place, description, &properties);
                 columns.map(own).collect::<Result<_, _>>()
             };
-            let (written, done) = rayon::join(|| write(writer, before), pack);
+            let (mut written, mut done) = (Ok(()), Ok(Vec::new()));
+            rayon::in_place_scope(|scope| {
+                scope.spawn(|_| done = pack());
+                written = write(writer, before);
+            });
             written.map_err(|e| e.to_string())?;
             *packed = done?;
         }

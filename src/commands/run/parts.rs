@@ -57,7 +57,8 @@ impl Manifest {
             }
         }
         Self {
-            format: "gearloss-shard/1".to_owned(),
+            // 2: longer pieces.
+            format: "gearloss-shard/2".to_owned(),
             gearloss: env!("CARGO_PKG_VERSION").to_owned(),
             packages: language.registry().packages().iter().map(ToString::to_string).collect(),
             inputs: all,
@@ -99,7 +100,10 @@ impl Manifest {
             )
         })?;
         let mut changed: Vec<String> = Vec::new();
-        if (&other.format, &other.gearloss) != (&self.format, &self.gearloss) {
+        if other.format != self.format {
+            changed.push(format!("parts of the form {} are now {}", other.format, self.format));
+        }
+        if other.gearloss != self.gearloss {
             changed.push(format!("gearloss {} is now {}", other.gearloss, self.gearloss));
         }
         if other.packages != self.packages {
@@ -273,7 +277,8 @@ impl Parts {
                             let path = piece_file(part, work.name, number);
                             let found = PieceFile::read_only(path.clone()).map(|(_, found)| found);
                             // A shard that has no piece of a map has no file for it.
-                            for (piece, place) in found.unwrap_or_default() {
+                            let found = found.unwrap_or_default().into_iter();
+                            for (piece, place) in found.filter(|(piece, _)| *piece < map.pieces()) {
                                 places.insert(piece, (path.clone(), place));
                             }
                         }

@@ -3,9 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::path::PathBuf;
 
-use gearloss_framework::analysis::{
-    Field, Given, GridResult, Numbered, Piece, Points, held, merge, notes, solve_pieces,
-};
+use gearloss_framework::analysis::{Field, Given, GridResult, Make, Piece, Points, held, merge, notes, solve_pieces};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
@@ -198,7 +196,7 @@ impl Runner<'_> {
         built: &Built<'_>,
         points: &Points,
         of: Option<(&str, usize)>,
-        make: &(dyn Fn(&Numbered<'_>) -> T + Sync),
+        make: &Make<'_, T>,
         take: &mut dyn FnMut(Piece<T>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let mut seen = Vec::new();
@@ -210,7 +208,19 @@ impl Runner<'_> {
         if let Some(mut solved) = solved {
             solved.try_for_each(|piece| {
                 let piece = piece?;
-                counted(piece.made(points.field.of_piece(piece.number).start, make))
+                let own = points.field.of_piece(piece.number);
+                if piece.len() != own.len() {
+                    return Err(Failure::input(
+                        format!(
+                            "piece {} of a map has {} points, not {}",
+                            piece.number,
+                            piece.len(),
+                            own.len()
+                        ),
+                        "take the folders of the shards away and run them again",
+                    ));
+                }
+                counted(piece.made(own.start, make))
             })?;
         } else {
             let numbers: Vec<usize> = (0..points.field.pieces()).collect();
@@ -226,7 +236,7 @@ impl Runner<'_> {
         built: &Built<'_>,
         points: &Points,
         numbers: &[usize],
-        make: &(dyn Fn(&Numbered<'_>) -> T + Sync),
+        make: &Make<'_, T>,
         take: &mut dyn FnMut(Piece<T>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let count = points.field.len();

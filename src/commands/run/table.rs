@@ -141,14 +141,12 @@ impl TableFile {
         }
     }
 
-    /// Adds a row of texts.
-    pub fn push(&mut self, row: &[String]) -> Result<(), Failure> {
-        self.push_all(&[row])
-    }
-
     /// Adds rows of texts.
     pub fn push_all<R: AsRef<[String]>>(&mut self, rows: &[R]) -> Result<(), Failure> {
         let width = self.width;
+        if rows.is_empty() {
+            return Ok(());
+        }
         if rows.iter().any(|row| row.as_ref().len() != width) {
             return Err(bug("rows of another length than the header"));
         }

@@ -55,6 +55,7 @@ fn points(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
         "leverage",
     ]);
     let mut table = TableFile::new(runner, name, &entry.write, &header)?;
+    let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let measured = o.identification.measured();
         let leverage = o.fitted.inference.leverage();
@@ -88,9 +89,10 @@ fn points(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
                 leverage[i],
             ];
             cells.extend(numbers.map(|x| cell(Some(x))));
-            table.push(&cells)?;
+            rows.push(cells);
         }
     }
+    table.push_all(&rows)?;
     table.finish()
 }
 
@@ -113,6 +115,7 @@ fn shares(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
         "share_high",
     ]);
     let mut table = TableFile::new(runner, &format!("{name}-shares"), &entry.write, &header)?;
+    let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let Ok(shares) = &o.shares else { continue };
         for (i, breakdown) in shares.rows.iter().enumerate() {
@@ -141,10 +144,11 @@ fn shares(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
                 cells.extend([0, 1].map(|e| cell(band.map(|b| b[e]))));
                 cells.push(cell(share.map(|(share, _)| share.value)));
                 cells.extend([0, 1].map(|e| cell(ends.map(|b| b[e]))));
-                table.push(&cells)?;
+                rows.push(cells);
             }
         }
     }
+    table.push_all(&rows)?;
     table.finish()
 }
 
@@ -182,6 +186,7 @@ fn parameters(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Out
         "sentence",
     ]);
     let mut table = TableFile::new(runner, &format!("{name}-parameters"), &entry.write, &header)?;
+    let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let inference = &o.fitted.inference;
         for (k, (parameter, theta)) in o.identification.parameters().iter().zip(o.fitted.theta()).enumerate() {
@@ -207,9 +212,10 @@ fn parameters(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Out
                 verdict(inference.determination_widened(k, o.widening().unwrap_or(1.0)).verdict),
                 inference.sentence(k),
             ]);
-            table.push(&cells)?;
+            rows.push(cells);
         }
     }
+    table.push_all(&rows)?;
     table.finish()
 }
 
@@ -225,6 +231,7 @@ fn next(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome<'
         "places_in_plan",
     ]);
     let mut table = TableFile::new(runner, &format!("{name}-next"), &entry.write, &header)?;
+    let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let Some(Ok(next)) = &o.next else { continue };
         for (i, at) in next.candidates.iter().enumerate() {
@@ -242,9 +249,10 @@ fn next(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome<'
                 cell(Some(next.plan.gains[i])),
                 places.join(" "),
             ]);
-            table.push(&cells)?;
+            rows.push(cells);
         }
     }
+    table.push_all(&rows)?;
     table.finish()
 }
 

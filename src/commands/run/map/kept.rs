@@ -76,7 +76,7 @@ struct Lines {
 
 /// What is kept of some points.
 pub struct Picked {
-    /// Points that are shown, with their places on the grid.
+    /// Points that are shown, with the places where they are.
     shown: Vec<(usize, Brief)>,
     /// Efficiency and loss torque at the places of the grid.
     values: Vec<(usize, [Option<f64>; 2])>,
@@ -144,8 +144,8 @@ impl Wanted {
             if self.whole {
                 picked.values.push((place, [point.efficiency, point.loss_torque]));
             }
-            if self.place(place).is_some() {
-                picked.shown.push((place, (*point).into()));
+            if let Some(shown) = self.place(place) {
+                picked.shown.push((shown, (&**point).into()));
             }
         }
         picked
@@ -197,7 +197,7 @@ impl Kept {
     }
 
     /// Adds what was picked from the points of a piece that follows.
-    pub fn add(&mut self, wanted: &Wanted, picked: Vec<Picked>) {
+    pub fn add(&mut self, picked: Vec<Picked>) {
         let mut more = Vec::new();
         for picked in picked {
             more.extend(picked.shown);
@@ -210,7 +210,7 @@ impl Kept {
         // Tasks hold points of many places.
         more.sort_unstable_by_key(|(place, _)| *place);
         for (place, point) in more {
-            if let (Some(shown), Some(place)) = (&mut self.grid, wanted.place(place)) {
+            if let Some(shown) = &mut self.grid {
                 shown.places[place] = Some(self.points.len());
             }
             self.points.push(point);

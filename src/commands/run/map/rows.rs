@@ -56,7 +56,7 @@ impl<'a> RowsOf<'a> {
 
     /// The cells of some points.
     pub fn cells(&self, points: &Numbered<'_>, to: &mut Columns) {
-        let points = || points.iter().map(|(_, point)| *point);
+        let points = || points.iter().map(|(_, point)| &**point);
         for same in [self.set, self.gear]
             .into_iter()
             .chain(self.bound.iter().map(String::as_str))

@@ -27,7 +27,7 @@ pub struct Taken {
 }
 
 impl Taker<'_> {
-    pub fn take(&self, points: &Numbered<'_>) -> Taken {
+    pub fn take(&self, points: &mut Numbered<'_>) -> Taken {
         Taken {
             rows: self.shape.rows(points, |some, to| self.rows.cells(some, to)),
             picked: self.wanted.pick(self.field, points),
