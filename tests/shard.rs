@@ -17,6 +17,14 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
+/// The same, with the gearbox of the two-speed example.
+fn with_gearbox(name: &str) -> PathBuf {
+    let folder = folder(name);
+    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
+    fs::copy(gearbox, folder.join("gearbox.yaml")).unwrap();
+    folder
+}
+
 /// The program in a folder, so that what it prints of its results is the same wherever that lies.
 fn gearloss(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gearloss"));
@@ -168,13 +176,8 @@ analyses:
 
 /// Writes the study with what it names into a folder.
 fn small(name: &str) -> PathBuf {
-    let folder = folder(name);
+    let folder = with_gearbox(name);
     fs::write(folder.join("study.yaml"), STUDY).unwrap();
-    fs::copy(
-        common::file("examples/two-speed-ev/gearbox.yaml"),
-        folder.join("gearbox.yaml"),
-    )
-    .unwrap();
     fs::write(
         folder.join("points.csv"),
         "torque [Nm],speed [rpm]\n5,3000\n8,12000\n-3,4000\n",
@@ -209,12 +212,7 @@ fn failures_and_denials_are_those_of_the_single_run() {
 /// A piece of a map that several tasks solve has its points where they belong, in every file.
 #[test]
 fn pieces_of_several_tasks_keep_the_order_of_the_grid() {
-    let folder = folder("tasks");
-    fs::copy(
-        common::file("examples/two-speed-ev/gearbox.yaml"),
-        folder.join("gearbox.yaml"),
-    )
-    .unwrap();
+    let folder = with_gearbox("tasks");
     let study = "
 gearloss: study/1
 gearboxes: { ours: gearbox.yaml }
@@ -360,12 +358,7 @@ fn parts_of_anything_else_are_refused() {
 
 #[test]
 fn more_shards_than_pieces_are_fine_and_wrong_numbers_are_told() {
-    let folder = folder("many");
-    fs::copy(
-        common::file("examples/two-speed-ev/gearbox.yaml"),
-        folder.join("gearbox.yaml"),
-    )
-    .unwrap();
+    let folder = with_gearbox("many");
     let study = "gearloss: study/1\ngearboxes: { ours: gearbox.yaml }\ngrids:\n  few: { gear: first, torque: [5 Nm, 10 Nm], speed: [2000 rpm, 8000 rpm] }\nanalyses:\n  map: { type: map, grid: few, write: [csv] }\n";
     fs::write(folder.join("study.yaml"), study).unwrap();
     same_as_single(&folder, "study.yaml", 4, &[]);

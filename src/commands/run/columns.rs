@@ -79,7 +79,7 @@ impl Columns {
         if std::mem::take(&mut self.filled) == width && self.all.len() == width && equal && !self.mixed {
             Ok(())
         } else {
-            Err("rows of another length than the header")
+            Err("rows that do not fit the header")
         }
     }
 

@@ -152,11 +152,7 @@ impl TableFile {
         }
         let made = self.shape().rows(rows, |rows, columns| {
             for place in 0..width {
-                columns.texts(
-                    rows.iter()
-                        .filter_map(|row| row.as_ref().get(place))
-                        .map(String::as_str),
-                );
+                columns.texts(rows.iter().map(|row| row.as_ref()[place].as_str()));
             }
         });
         self.push_rows(vec![made], vec![(0, 0..rows.len())])
