@@ -362,14 +362,9 @@ fn an_editor_with_the_schema_of_the_in_house_program() {
     let folder = install::target().join("editor/in-house");
     std::fs::create_dir_all(&folder).unwrap();
     let schema = folder.join("gearbox.schema.json");
-    let program = install::target().join(format!(
-        "in-house/debug/in-house-plugin{}",
-        std::env::consts::EXE_SUFFIX
-    ));
+    let program = install::target().join(format!("debug/in-house-plugin{}", std::env::consts::EXE_SUFFIX));
     if !program.is_file() {
-        skipped(
-            "the in-house program is not built; `CARGO_TARGET_DIR=target/in-house cargo test` with its Cargo.toml does it",
-        );
+        skipped("the in-house program is not built; `CARGO_TARGET_DIR=target cargo test` with its Cargo.toml does it");
         return;
     }
     let mut program = Command::new(program);
