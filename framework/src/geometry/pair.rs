@@ -179,6 +179,19 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// Force normal to the flanks under a torque of the first gear in N m. \[N\]
+    // Written so that a loop over torques divides once.
+    #[inline(always)]
+    pub fn normal_force(&self, torque: f64) -> f64 {
+        torque * (1.0 / (self.base_radius[0] * self.cos_base_helix))
+    }
+
+    /// A force in N per face width. \[N/m\]
+    #[inline(always)]
+    pub fn line_load(&self, force: f64) -> f64 {
+        force * (1.0 / self.facewidth)
+    }
+
     /// Solves the geometry.
     ///
     /// # Errors

@@ -65,7 +65,7 @@ impl<'a> MeanFrictionAt<'a> {
         let part = at.part;
         let pair = &part.pair;
         let tangential = at.torque / pair.base_radius[0];
-        let normal_force = tangential / pair.cos_base_helix;
+        let normal_force = pair.normal_force(at.torque);
         let pitch_speed = at.speed.abs() * pair.working_radius[0];
         Self {
             part,

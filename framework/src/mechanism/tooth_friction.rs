@@ -276,7 +276,7 @@ impl<'a> PathAt<'a> {
             nodes,
             extent,
             speed: mean.speed,
-            line_load: mean.normal_force / mean.part.pair.facewidth,
+            line_load: mean.part.pair.line_load(mean.normal_force),
             modulus: mean.part.modulus,
             length,
             ra: mean.ra,

@@ -287,8 +287,8 @@ impl Integral {
         let (forces, line_loads, none) = wide(
             #[inline(always)]
             || {
-                let forces = over(torques, |torque| torque / pair.base_radius[0] / pair.cos_base_helix);
-                let line_loads = over(&forces, |force| force / pair.facewidth);
+                let forces = over(torques, |torque| pair.normal_force(torque));
+                let line_loads = over(&forces, |force| pair.line_load(force));
                 (forces, line_loads, count(|i| torques[i] == 0.0))
             },
         );

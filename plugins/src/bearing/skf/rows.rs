@@ -356,11 +356,17 @@ fn radial(fr: f64, rolling: f64, sliding: f64) -> (f64, f64) {
 
 /// The same under both loads.
 fn combined(fr: f64, fa: f64, c0: f64, (rolling, r2): (f64, f64), sliding: (f64, f64)) -> (f64, f64) {
-    let pushed = fa / sine(angle(ln(fa / c0)));
+    let pushed = fa / sine(angle(ln(share(fa, c0))));
     (
         radial_rolling(ln(fr + r2 * pushed), rolling),
         combined_sliding(fr, fa, pushed, sliding),
     )
+}
+
+/// The axial load as a share of C0, so that a loop over loads divides once.
+#[inline(always)]
+fn share(fa: f64, c0: f64) -> f64 {
+    fa * (1.0 / c0)
 }
 
 #[inline(always)]
@@ -415,7 +421,7 @@ impl Variables {
             return (Lane::ZERO, Lane::ZERO);
         };
         let (mut g_rr, mut g_sl) = (Lane::ZERO, Lane::ZERO);
-        let ratio = over(fa, |fa| fa / c0);
+        let ratio = over(fa, |fa| share(fa, c0));
         let unpushed = count(|i| ratio[i] == 0.0);
         // Loops of one function each: their steps wait for each other in a lane, and need not in others.
         if unpushed > 0 || blend.is_some() {
@@ -460,7 +466,7 @@ impl Variables {
                 c0,
             } => {
                 // Also where the quotient underflows: an angle of zero has no sine to divide by.
-                if fa / c0 == 0.0 {
+                if share(fa, c0) == 0.0 {
                     return radial(fr, rolling, sliding[0]);
                 }
                 let combined = combined(fr, fa, c0, (rolling, r2), (sliding[1], s2));
