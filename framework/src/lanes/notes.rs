@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::{LANES, Lane, count, each, wide};
+use super::{LANES, Lane, count, wide};
 use crate::loss::{Extent, Limit, NoteBase, Notes, Observed};
 
 /// Where one model instance notes what it sees in the lanes of a block: what is the same in all of them, what a loop over the
@@ -123,7 +123,8 @@ impl<'a> LaneNotes<'a> {
         (seen.least, seen.greatest)
     }
 
-    /// The least and the greatest number of the lanes that count; absent where one of them is no number. What rises or falls with them has its own least and greatest values there, which serve [`check_range`](Self::check_range) and
+    /// The least and the greatest number of the lanes that count; absent where one of them is no number. What rises or falls with them
+    /// has its own least and greatest values there, which serve [`check_range`](Self::check_range) and
     /// [`observe_range`](Self::observe_range).
     pub fn range(&self, lane: &Lane) -> Option<(f64, f64)> {
         let ((least, greatest), unknown) = wide(
@@ -136,29 +137,35 @@ impl<'a> LaneNotes<'a> {
         (unknown == 0 && self.points > 0).then_some((least, greatest))
     }
 
-    /// As [`check`](Self::check) for the least and the greatest value over all lanes; false, with nothing noted, where they are
-    /// outside, so that it matters which lanes are.
-    pub fn check_range(&self, limit: &Limit, least: f64, greatest: f64) -> bool {
-        let inside = |x: f64| x >= limit.least && x <= limit.greatest;
-        let noted = inside(least) && inside(greatest);
-        if noted {
-            self.merge(self.base.limits + limit.index, least, greatest);
+    /// As [`check`](Self::check) for the range over all lanes of the least value of a lane, and of its greatest; false, with nothing
+    /// noted, where some lanes are outside and others are not, so that it matters which.
+    pub fn check_range(&self, limit: &Limit, least: (f64, f64), greatest: (f64, f64)) -> bool {
+        let all_inside = least.0 >= limit.least && greatest.1 <= limit.greatest;
+        let all_outside = least.1 < limit.least || greatest.0 > limit.greatest;
+        if all_outside {
+            for (outside, counted) in self.outside.iter().zip(self.counted) {
+                outside.set(outside.get() | counted);
+            }
         }
-        noted
+        if all_inside || all_outside {
+            let outside = if all_outside { self.points } else { 0 };
+            self.merge(self.base.limits + limit.index, least.0, greatest.1, outside);
+        }
+        all_inside || all_outside
     }
 
     /// As [`observe`](Self::observe) for the least and the greatest value over all lanes.
     pub fn observe_range(&self, observed: &Observed, least: f64, greatest: f64) {
-        self.merge(self.base.observed + observed.index, least, greatest);
+        self.merge(self.base.observed + observed.index, least, greatest, 0);
     }
 
-    fn merge(&self, cell: usize, least: f64, greatest: f64) {
+    fn merge(&self, cell: usize, least: f64, greatest: f64, outside: u32) {
         if let Some(cell) = self.totals.get(cell) {
             cell.set(cell.get().merge(Extent {
                 least,
                 greatest,
                 seen: self.points,
-                outside: 0,
+                outside,
             }));
         }
     }
@@ -188,12 +195,16 @@ impl<'a> LaneNotes<'a> {
             let inside = |x: f64| x >= limit.least && x <= limit.greatest;
             // Mostly all lanes are; else it matters which are not.
             if unknown > 0 || !(inside(seen.least) && inside(seen.greatest)) {
-                for i in (0..LANES).filter(|i| self.counted[*i]) {
-                    if !(inside(least[i]) && inside(greatest[i])) {
-                        seen.outside += 1;
-                        self.outside[i].set(true);
-                    }
-                }
+                seen.outside = wide(
+                    #[inline(always)]
+                    || {
+                        let out = |i: usize| self.counted[i] & !(inside(least[i]) & inside(greatest[i]));
+                        for (i, outside) in self.outside.iter().enumerate() {
+                            outside.set(outside.get() | out(i));
+                        }
+                        count(out) as u32
+                    },
+                );
             }
         }
         cell.set(cell.get().merge(seen));
@@ -203,17 +214,18 @@ impl<'a> LaneNotes<'a> {
 /// The least and the greatest number of the lanes that count; what is no number passes by.
 #[inline(always)]
 fn extremes(lane: &Lane, counted: &[bool; LANES]) -> (f64, f64) {
-    let take = |i: usize| counted[i] && !lane[i].is_nan();
-    let mut least = each(|i| if take(i) { lane[i] } else { f64::INFINITY });
-    let mut greatest = each(|i| if take(i) { lane[i] } else { f64::NEG_INFINITY });
-    let mut half = LANES / 2;
-    while half > 0 {
-        for i in 0..half {
-            let (low, high) = (least[i + half], greatest[i + half]);
-            least[i] = if low < least[i] { low } else { least[i] };
-            greatest[i] = if high > greatest[i] { high } else { greatest[i] };
+    /// As many as the widest instructions take.
+    const WIDE: usize = 8;
+    let (mut least, mut greatest) = ([f64::INFINITY; WIDE], [f64::NEG_INFINITY; WIDE]);
+    for (own, counted) in lane.as_chunks::<WIDE>().0.iter().zip(counted.as_chunks::<WIDE>().0) {
+        for i in 0..WIDE {
+            let own = if counted[i] { own[i] } else { f64::NAN };
+            least[i] = if own < least[i] { own } else { least[i] };
+            greatest[i] = if own > greatest[i] { own } else { greatest[i] };
         }
-        half /= 2;
     }
-    (least[0], greatest[0])
+    (
+        least.into_iter().fold(f64::INFINITY, f64::min),
+        greatest.into_iter().fold(f64::NEG_INFINITY, f64::max),
+    )
 }

@@ -10,7 +10,7 @@ mod series;
 
 use std::f64::consts::LOG10_E;
 
-use gearloss_framework::lanes::{LANES, Lane, LaneNotes, each, exp, ln, over, wide};
+use gearloss_framework::lanes::{Lane, LaneNotes, each, exp, ln, over, wide};
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
@@ -39,10 +39,6 @@ const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
 /// What a logarithm of friction may err by.
 const ROUNDING: f64 = 1e-13;
-/// Places of a path that is walked for one load.
-const MOST: usize = 64;
-/// Loads for which the path is walked one by one; for more of them all at once is faster.
-const FEW: usize = 8;
 
 /// Which roughness counts as S.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -182,7 +178,7 @@ impl ToothFrictionModel for Xu {
     }
 
     fn note_lanes(&self, path: &PathAt<'_>, line_loads: &Lane, mu: &[Lane], notes: LaneNotes<'_>) {
-        note_ranges(self.roughness, path, line_loads, notes);
+        note_ranges(self.roughness, path, line_loads, notes.range(line_loads), notes);
         let (mut least, mut greatest) = (Lane::all(f64::INFINITY), Lane::all(0.0));
         wide(
             #[inline(always)]
@@ -197,12 +193,21 @@ impl ToothFrictionModel for Xu {
     }
 }
 
-/// Notes all limits, which need no walk along the path.
-fn note_ranges(roughness: Roughness, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) {
+/// Notes all limits, which need no walk along the path; `range` has the least and the greatest line load.
+fn note_ranges(
+    roughness: Roughness,
+    path: &PathAt<'_>,
+    line_loads: &Lane,
+    range: Option<(f64, f64)>,
+    notes: LaneNotes<'_>,
+) {
     let _ = check_oil(path.notes, path.eta, roughness.of(path.ra, path.rq));
     let pressure = |line_load: f64, end: usize| unit_pressure(line_load, path.modulus) * path.extent.root_load[end];
-    let range = notes.range(line_loads);
-    if !range.is_some_and(|(low, high)| notes.check_range(&PRESSURE, pressure(low, 0), pressure(high, 1))) {
+    let noted = range.is_some_and(|(low, high)| {
+        let [least, greatest] = [0, 1].map(|end| (pressure(low, end), pressure(high, end)));
+        notes.check_range(&PRESSURE, least, greatest)
+    });
+    if !noted {
         let [least, greatest] = wide(
             #[inline(always)]
             || {
@@ -272,25 +277,28 @@ impl WeightedFriction for Weighted {
     }
 
     fn note(&self, path: &PathAt<'_>, line_loads: &Lane, notes: LaneNotes<'_>) -> bool {
-        let Some(along) = self.common(path) else { return false };
-        let unit = |line_load: f64| unit_pressure(line_load, path.modulus);
+        let (Some(along), Some(range)) = (self.common(path), notes.range(line_loads)) else {
+            return false;
+        };
+        let [low, high] = [range.0, range.1].map(|line_load| unit_pressure(line_load, path.modulus));
         let at = |unit: f64| -along.fall(unit);
         let (seen, greatest_seen) = notes.seen(&MU);
         let (ln_least, ln_greatest) = (seen.ln() + ROUNDING, greatest_seen.ln() - ROUNDING);
         // Where friction was seen above and below already, a path adds nothing. Mostly bounds for all loads together tell that: what is
         // common rises with load, and the rest falls.
-        let bounds = |(low, high): (f64, f64)| {
-            let [below, _] = self.series.bounds(at(unit(high)))?;
-            let [_, above] = self.series.bounds(at(unit(low)))?;
-            Some([along.common(unit(low)) + below, along.common(unit(high)) + above])
+        let (Some([below, _]), Some([_, above])) = (self.series.bounds(at(high)), self.series.bounds(at(low))) else {
+            return false;
         };
-        let bounds = notes.range(line_loads).and_then(bounds);
-        if bounds.is_some_and(|[below, above]| below >= ln_least && above <= ln_greatest) {
+        if along.common(low) + below >= ln_least && along.common(high) + above <= ln_greatest {
             notes.observe_range(&MU, seen, greatest_seen);
-            note_ranges(self.roughness, path, line_loads, notes);
+            note_ranges(self.roughness, path, line_loads, Some(range), notes);
             return true;
         }
-        let (units, commons) = wide(
+        // Else only the places count where friction might be the least or the greatest of the path.
+        let Some(ends) = self.series.ends(at(low), at(high)) else {
+            return false;
+        };
+        let (least, greatest) = wide(
             #[inline(always)]
             || {
                 let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
@@ -299,30 +307,37 @@ impl WeightedFriction for Weighted {
                     #[inline(always)]
                     |unit| along.common(unit),
                 );
-                (units, commons)
+                let falls = over(&units, |unit| along.fall(unit));
+                let (mut least, mut greatest) = (Lane::all(f64::INFINITY), Lane::all(f64::NEG_INFINITY));
+                for (_, node) in path.nodes.iter().enumerate().filter(|(k, _)| ends >> k & 1 == 1) {
+                    let geometry = geometry(node);
+                    let exponents = each(
+                        #[inline(always)]
+                        |i| {
+                            let x = falls[i] * node.slide_roll * node.root_load;
+                            commons[i] + geometry - B[3] * x + B[4] * exp(x)
+                        },
+                    );
+                    least = each(|i| {
+                        if exponents[i] < least[i] {
+                            exponents[i]
+                        } else {
+                            least[i]
+                        }
+                    });
+                    greatest = each(|i| {
+                        if exponents[i] > greatest[i] {
+                            exponents[i]
+                        } else {
+                            greatest[i]
+                        }
+                    });
+                }
+                (over(&least, exp), over(&greatest, exp))
             },
         );
-        let mut mu = [0.0; MOST];
-        let Some(mu) = mu.get_mut(..path.nodes.len()) else {
-            return false;
-        };
-        let (mut least, mut greatest) = (Lane::all(seen), Lane::all(greatest_seen));
-        let mut walks = 0;
-        for i in (0..LANES).filter(|i| notes.wanted(*i)) {
-            let bounds = self.series.bounds(at(units[i]));
-            let within = |[below, above]: [f64; 2]| commons[i] + below >= ln_least && commons[i] + above <= ln_greatest;
-            if bounds.is_some_and(within) {
-                continue;
-            }
-            walks += 1;
-            if walks > FEW {
-                return false;
-            }
-            walk(path, commons[i], along.fall(units[i]), mu);
-            [least[i], greatest[i]] = ends(mu);
-        }
         notes.observe(&MU, &least, &greatest);
-        note_ranges(self.roughness, path, line_loads, notes);
+        note_ranges(self.roughness, path, line_loads, Some(range), notes);
         true
     }
 }
@@ -360,7 +375,7 @@ fn ends(mu: &[f64]) -> [f64; 2] {
 /// Hertz pressure per `root_load` of a node. \[GPa m^0.5\]
 #[inline(always)]
 fn unit_pressure(line_load: f64, modulus: f64) -> f64 {
-    (line_load * modulus / (2.0 * std::f64::consts::PI)).sqrt() * 1e-9
+    (line_load * (modulus / (2.0 * std::f64::consts::PI))).sqrt() * 1e-9
 }
 
 /// What a node adds to the exponent.
