@@ -14,9 +14,6 @@ use crate::lanes::{LANES, Lane, count, each, over, wide};
 /// Passes after which a lane is left alone; before, the loop for single points changes nothing in its pace.
 const FEW: usize = PATIENCE - 2;
 
-/// A mismatch below this share of the greatest one may be rounding, and says nothing of how fast it falls.
-const NEGLIGIBLE: f64 = 1e-3;
-
 const ZERO: Lane = Lane::all(0.0);
 
 /// What one block needs and leaves.
@@ -37,10 +34,10 @@ pub struct WorkLanes {
     /// Passes over the loss models.
     pub passes: [usize; LANES],
     rolling: Vec<Lane>,
-    /// A guess: multipliers of the meshes, then unknown torques of ports.
-    guess: Vec<Lane>,
     /// The share of an error that one pass leaves.
     rate: Lane,
+    /// What the first pass moved the guess by. \[W\]
+    moved: Lane,
     largest: Lane,
     /// What the models answered for the meshes. \[W\]
     asked: Vec<Lane>,
@@ -89,7 +86,7 @@ pub struct FlowLanes<'a> {
     pub done: &'a [bool; LANES],
     /// Loss of each mesh, all copies together, to be written. \[W\]
     pub mesh_loss: &'a mut [Lane],
-    /// Torques on all columns from drags, to be written; they oppose motion. \[Nm\]
+    /// Torques on all columns from drags, all to be written; they oppose motion. \[Nm\]
     pub drags: &'a mut [Lane],
 }
 
@@ -208,8 +205,8 @@ impl Flow {
             done: [false; LANES],
             passes: [0; LANES],
             rolling: lanes(k),
-            guess: lanes(k + self.unknown.len()),
             rate: ZERO,
+            moved: ZERO,
             largest: ZERO,
             asked: lanes(k),
             used: lanes(2 * k + n),
@@ -258,10 +255,10 @@ impl Flow {
         if work.alone.contains(&true) {
             return trail.clear();
         }
-        if !guessed {
+        if !guessed || work.passes.iter().any(|passes| *passes > 1) {
             trail.rate = Some(work.rate);
         }
-        trail.push(task.torques, at, &work.drives, self.trailed(work), guessed);
+        trail.push(task.torques, at, &work.drives, &work.unknown[..self.size], guessed);
     }
 
     /// Passes over models and equilibrium until they agree: from the beginning, or after a first one from a guess. `pass` is the
@@ -299,7 +296,6 @@ impl Flow {
     fn ask_abreast(&self, work: &mut WorkLanes, losses: &mut impl FnMut(&mut FlowLanes<'_>)) {
         work.asked.fill(ZERO);
         let drags = 2 * self.meshes.len();
-        work.answer[drags..].fill(ZERO);
         losses(&mut FlowLanes {
             multipliers: &work.multipliers,
             drives: &work.drives,
@@ -308,12 +304,6 @@ impl Flow {
             mesh_loss: &mut work.asked,
             drags: &mut work.answer[drags..],
         });
-    }
-
-    /// The torques that the models ask for, which a trail keeps: multipliers of the meshes and unknown torques of ports.
-    fn trailed<'a>(&'a self, work: &'a WorkLanes) -> impl Iterator<Item = &'a Lane> {
-        let meshes = self.meshes.iter().map(|mesh| &work.multipliers[mesh.row]);
-        meshes.chain(self.unknown.iter().map(|port| &work.ports[*port]))
     }
 
     /// Guesses the torques of a first pass from a trail; false where it says nothing.
@@ -325,24 +315,11 @@ impl Flow {
         }
         self.prepare_abreast(task, work);
         work.drives.copy_from_slice(&trail.drives);
-        let k = self.meshes.len();
-        let mut largest = ZERO;
-        for (place, port) in (k..).zip(&self.unknown) {
-            work.ports[*port] = trail.guess(&weights, place);
+        for (place, unknown) in work.unknown[..self.size].iter_mut().enumerate() {
+            *unknown = trail.guess(&weights, place);
         }
-        for (speed, torque) in task.speeds.iter().zip(&work.ports) {
-            largest = each(|i| larger(largest[i], (speed * torque[i]).abs()));
-        }
-        for (mesh, row) in self.meshes.iter().enumerate() {
-            let multiplier = trail.guess(&weights, mesh);
-            let relative = work.relative[mesh][1];
-            let rolling = over(&multiplier, |multiplier| -multiplier * row.z1 * relative);
-            largest = each(|i| larger(largest[i], rolling[i].abs()));
-            work.multipliers[row.row] = multiplier;
-            work.rolling[mesh] = rolling;
-        }
-        work.largest = largest;
-        (0..k).all(|mesh| all_drive(work.drives[mesh], &work.rolling[mesh], &largest))
+        self.torques_abreast(task.speeds, work);
+        (0..self.meshes.len()).all(|mesh| all_drive(work.drives[mesh], &work.rolling[mesh], &work.largest))
     }
 
     /// What follows a first pass from guessed torques: the equilibrium with its losses, and which lanes need no other pass. False
@@ -352,25 +329,27 @@ impl Flow {
         let k = self.meshes.len();
         work.answers();
         std::mem::swap(&mut work.used, &mut work.answer);
-        for (guess, row) in work.guess.iter_mut().zip(&self.meshes) {
-            *guess = work.multipliers[row.row];
+        // The guess is so close that the step from it is as good as a refined solution.
+        self.right_abreast(work);
+        self.friction_abreast(work);
+        self.refine_abreast(work);
+        for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
+            *unknown = each(|i| unknown[i] + step[i]);
         }
-        for (guess, port) in work.guess[k..].iter_mut().zip(&self.unknown) {
-            *guess = work.ports[*port];
-        }
-        self.solve_abreast(task.speeds, work, &[true; LANES]);
+        self.accept_abreast(task.speeds, work);
         // What rests has no power, but its torque loads what turns.
         let fastest = task.speeds.iter().fold(0.0, |most, speed| larger(most, speed.abs()));
         let speed = |speed: f64| if speed == 0.0 { fastest } else { speed.abs() };
         let mut moved = ZERO;
-        for ((mesh, row), guess) in self.meshes.iter().enumerate().zip(&work.guess) {
-            let (now, weight) = (&work.multipliers[row.row], row.z1.abs() * speed(work.relative[mesh][1]));
-            moved = each(|i| larger(moved[i], (now[i] - guess[i]).abs() * weight));
+        for (row, relative) in self.meshes.iter().zip(&work.relative) {
+            let (step, weight) = (&work.step[row.row], self.scale[row.row] * row.z1 * speed(relative[1]));
+            moved = each(|i| larger(moved[i], (step[i] * weight).abs()));
         }
-        for (port, guess) in self.unknown.iter().zip(&work.guess[k..]) {
-            let (now, weight) = (&work.ports[*port], speed(task.speeds[*port]));
-            moved = each(|i| larger(moved[i], (now[i] - guess[i]).abs() * weight));
+        for (port, step) in self.unknown.iter().zip(&work.step[self.rows..]) {
+            let weight = speed(task.speeds[*port]);
+            moved = each(|i| larger(moved[i], step[i].abs() * weight));
         }
+        work.moved = moved;
         work.rate = trail.rate.unwrap_or(Lane::all(1.0));
         let rate = &work.rate;
         let left = each(|i| to_come(moved[i], rate[i]));
@@ -395,12 +374,14 @@ impl Flow {
     fn prepare_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
         work.alone = [false; LANES];
         work.done = [false; LANES];
-        work.ports.fill(ZERO);
-        for (port, torque) in self.given.iter().zip(task.torques) {
-            work.ports[*port] = each(|i| work.ports[*port][i] + torque[i]);
+        // No other column is ever applied; torques of other ports than these follow from the unknowns.
+        for port in &self.given {
+            work.applied[*port] = ZERO;
         }
-        work.applied.fill(ZERO);
-        work.applied[..self.columns].copy_from_slice(&work.ports);
+        for (port, torque) in self.given.iter().zip(task.torques) {
+            work.applied[*port] = each(|i| work.applied[*port][i] + torque[i]);
+            work.ports[*port] = work.applied[*port];
+        }
         self.relative(task.speeds, &mut work.relative);
     }
 
@@ -459,19 +440,25 @@ impl Flow {
                 work.live.push(e);
             }
         }
-        let mut mismatch = ZERO;
-        for &e in &work.live {
-            let own = work.mismatch(e);
-            mismatch = each(|i| larger(mismatch[i], own[i].abs()));
-        }
         let left = if known {
-            let (left, rate) = work.remaining(&mismatch);
+            let (left, rate) = work.remaining();
             if !rated {
                 work.rate = rate;
             }
             left
+        } else if rated {
+            // The first pass after one from a guess: what that one moved and what this one will may tell that errors fall slower.
+            let mut total = ZERO;
+            for &e in &work.live {
+                let own = work.mismatch(e);
+                total = each(|i| total[i] + own[i].abs());
+            }
+            let (done, moved, rate) = (&work.done, &work.moved, &work.rate);
+            let fallen = |i: usize| if total[i] < moved[i] { total[i] / moved[i] } else { 1.0 };
+            work.rate = each(|i| if done[i] { rate[i] } else { larger(rate[i], fallen(i)) });
+            each(|i| to_come(total[i], work.rate[i]))
         } else {
-            each(|i| to_come(mismatch[i], work.rate[i]))
+            ZERO
         };
         let judged = known || rated;
         let last: [bool; LANES] =
@@ -494,6 +481,27 @@ impl Flow {
     /// As [`Flow::solve`]; `kept` lanes are refined.
     #[inline(always)]
     fn solve_abreast(&self, speeds: &[f64], work: &mut WorkLanes, kept: &[bool; LANES]) {
+        self.right_abreast(work);
+        self.friction_abreast(work);
+        self.step_abreast(work);
+        work.unknown.copy_from_slice(&work.step);
+        if kept.contains(&true) {
+            self.refine_abreast(work);
+            let all = !kept.contains(&false);
+            for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
+                *unknown = if all {
+                    each(|i| unknown[i] + step[i])
+                } else {
+                    each(|i| if kept[i] { unknown[i] + step[i] } else { unknown[i] })
+                };
+            }
+        }
+        self.accept_abreast(speeds, work);
+    }
+
+    /// What is given and lost, on the right-hand side.
+    #[inline(always)]
+    fn right_abreast(&self, work: &mut WorkLanes) {
         let k = self.meshes.len();
         for (right, applied) in work.right.iter_mut().zip(&work.applied) {
             *right = over(applied, |x| -x);
@@ -515,35 +523,44 @@ impl Flow {
                 work.right[carrier] = each(|i| work.right[carrier][i] - torque[i]);
             }
         }
-        self.friction_abreast(work);
-        self.step_abreast(work);
-        work.unknown.copy_from_slice(&work.step);
-        if kept.contains(&true) {
-            self.sparse.base.product(&work.unknown, &mut work.residual);
-            for (right, residual) in work.right.iter_mut().zip(&work.residual) {
-                *right = each(|i| right[i] - residual[i]);
-            }
-            for &mesh in &work.active {
-                let (row, side) = (self.friction[mesh].row, usize::from(work.drives[mesh] == Drive::Second));
-                let (share, torque) = (&work.used[mesh], &work.unknown[row]);
-                let lost = each(|i| -(share[i] * torque[i]));
-                self.sparse.sides[mesh][side].0.add(&lost, &mut work.right);
-            }
-            self.step_abreast(work);
-            let all = !kept.contains(&false);
-            for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
-                *unknown = if all {
-                    each(|i| unknown[i] + step[i])
-                } else {
-                    each(|i| if kept[i] { unknown[i] + step[i] } else { unknown[i] })
-                };
-            }
+    }
+
+    /// The step from the unknowns that leaves nothing of what they lack.
+    #[inline(always)]
+    fn refine_abreast(&self, work: &mut WorkLanes) {
+        self.sparse.base.product(&work.unknown, &mut work.residual);
+        for (right, residual) in work.right.iter_mut().zip(&work.residual) {
+            *right = each(|i| right[i] - residual[i]);
         }
+        for &mesh in &work.active {
+            let (row, side) = (self.friction[mesh].row, usize::from(work.drives[mesh] == Drive::Second));
+            let (share, torque) = (&work.used[mesh], &work.unknown[row]);
+            let lost = each(|i| -(share[i] * torque[i]));
+            self.sparse.sides[mesh][side].0.add(&lost, &mut work.right);
+        }
+        self.step_abreast(work);
+    }
+
+    /// Torques and the losses used, from solved unknowns.
+    #[inline(always)]
+    fn accept_abreast(&self, speeds: &[f64], work: &mut WorkLanes) {
         let mut total = ZERO;
         for unknown in &work.unknown {
             total = each(|i| total[i] + unknown[i].abs());
         }
         work.leave_infinite(&total);
+        self.torques_abreast(speeds, work);
+        let k = self.meshes.len();
+        for mesh in 0..k {
+            let moves = work.relative[mesh][usize::from(work.drives[mesh] == Drive::Second)] != 0.0;
+            let (share, constant, rolling) = (&work.used[mesh], &work.used[k + mesh], &work.rolling[mesh]);
+            work.mesh_loss[mesh] = each(|i| share[i] * rolling[i].abs() + if moves { constant[i] } else { 0.0 });
+        }
+    }
+
+    /// Multipliers, torques of ports and powers, from the unknowns.
+    #[inline(always)]
+    fn torques_abreast(&self, speeds: &[f64], work: &mut WorkLanes) {
         for ((multiplier, x), scale) in work.multipliers.iter_mut().zip(&work.unknown).zip(&self.scale) {
             *multiplier = over(x, |x| x * scale);
         }
@@ -557,9 +574,6 @@ impl Flow {
                 -multiplier * row.z1 * relative[1]
             });
             largest = each(|i| larger(largest[i], rolling[i].abs()));
-            let moves = relative[usize::from(work.drives[mesh] == Drive::Second)] != 0.0;
-            let (share, constant) = (&work.used[mesh], &work.used[k + mesh]);
-            work.mesh_loss[mesh] = each(|i| share[i] * rolling[i].abs() + if moves { constant[i] } else { 0.0 });
             work.rolling[mesh] = rolling;
         }
         for (speed, torque) in speeds.iter().zip(&work.ports) {
@@ -724,10 +738,10 @@ impl WorkLanes {
         each(|i| (answer[i] - used[i]) * weight[i])
     }
 
-    /// As `remaining` of the loop for single points; and the greatest share that a pass leaves of any mismatch that counts beside the
-    /// greatest one. Where nothing moved that says nothing.
+    /// As `remaining` of the loop for single points; and the share that a pass leaves of the greatest error. Where nothing moved that
+    /// says nothing.
     #[inline(always)]
-    fn remaining(&self, greatest: &Lane) -> (Lane, Lane) {
+    fn remaining(&self) -> (Lane, Lane) {
         let (mut moved, mut followed) = (ZERO, ZERO);
         for &e in &self.live {
             let (used, before, weight) = (&self.used[e], &self.used_before[e], &self.weights[e]);
@@ -736,7 +750,7 @@ impl WorkLanes {
             followed = each(|i| larger(followed[i], ((answer[i] - before[i]) * weight[i]).abs()));
         }
         let common = each(|i| if moved[i] > 0.0 { followed[i] / moved[i] } else { 1.0 });
-        let (mut most, mut rate) = (ZERO, ZERO);
+        let mut most = ZERO;
         for &e in &self.live {
             let mismatch = self.mismatch(e);
             let (used, used_before) = (&self.used[e], &self.used_before[e]);
@@ -754,12 +768,11 @@ impl WorkLanes {
                     larger(most[i], left)
                 }
             });
-            rate = each(|i| {
-                let counts = mismatch[i].abs() > NEGLIGIBLE * greatest[i];
-                if counts { larger(rate[i], falls[i]) } else { rate[i] }
-            });
         }
-        (most, over(&rate, |rate| if rate > 0.0 { rate } else { 1.0 }))
+        (
+            most,
+            over(&common, |rate| if rate > 0.0 && rate < 1.0 { rate } else { 1.0 }),
+        )
     }
 
     /// As `secant` of the loop for single points.

@@ -7,8 +7,8 @@ use crate::lanes::{Lane, each};
 const DEPTH: usize = 4;
 /// Most that the errors of the torques before may add up to in a guess; a cubic over even steps has 15.
 const SPREAD: f64 = 16.0;
-/// Steps after which a block is solved without a guess again, which also measures anew how fast it converges.
-const LONGEST: usize = 128;
+/// Steps after which a block is solved without a guess once, which measures anew how fast it converges.
+const LONGEST: usize = 256;
 
 /// Torques of the points of a block over the speeds before.
 #[derive(Debug, Clone, Default)]
@@ -38,8 +38,11 @@ impl Trail {
 
     /// Weights of the steps for a guess at a speed, for the points with these given torques; empty where there is none.
     pub(super) fn weights(&mut self, torques: &[Lane], speed: f64) -> Vec<f64> {
-        if self.guesses == LONGEST || self.torques != torques || self.rate.is_none() {
+        if self.torques != torques {
             self.clear();
+        }
+        if self.guesses == LONGEST || self.rate.is_none() {
+            return Vec::new();
         }
         (0..self.steps.len())
             .map(|first| weights(&self.steps[first..], speed))
@@ -60,22 +63,19 @@ impl Trail {
     }
 
     /// Adds a step; `guessed` says whether it began with a guess.
-    pub(super) fn push<'a>(
-        &mut self,
-        given: &[Lane],
-        speed: f64,
-        drives: &[Drive],
-        torques: impl Iterator<Item = &'a Lane>,
-        guessed: bool,
-    ) {
-        if !guessed {
-            self.clear();
-            self.torques.clear();
-            self.torques.extend_from_slice(given);
-            self.drives.clear();
-            self.drives.extend_from_slice(drives);
+    pub(super) fn push(&mut self, given: &[Lane], speed: f64, drives: &[Drive], torques: &[Lane], guessed: bool) {
+        if guessed {
+            self.guesses += 1;
+        } else {
+            self.guesses = 0;
+            if self.torques != given || self.drives != drives {
+                self.steps.clear();
+                self.torques.clear();
+                self.torques.extend_from_slice(given);
+                self.drives.clear();
+                self.drives.extend_from_slice(drives);
+            }
         }
-        self.guesses += usize::from(guessed);
         let mut step = if self.steps.len() == DEPTH {
             self.steps.remove(0)
         } else {
@@ -86,7 +86,7 @@ impl Trail {
         };
         step.speed = speed;
         step.torques.clear();
-        step.torques.extend(torques);
+        step.torques.extend_from_slice(torques);
         self.steps.push(step);
     }
 }
@@ -108,7 +108,7 @@ mod tests {
     fn follow(trail: &mut Trail, speeds: &[f64], law: impl Fn(f64) -> f64) {
         for (i, speed) in speeds.iter().enumerate() {
             let torques = [Lane::all(law(*speed))];
-            trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], torques.iter(), i > 0);
+            trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], &torques, i > 0);
         }
         trail.rate = Some(Lane::all(0.1));
     }
