@@ -193,7 +193,10 @@ impl Row<'_> {
         assert!((1..=LANES).contains(&torques.len()), "1 to {LANES} torques");
         self.s.alone_lanes = [true; LANES];
         if self.together {
-            self.solve_together(torques, following);
+            wide(
+                #[inline(always)]
+                || self.solve_together(torques, following),
+            );
         }
         Block {
             transmission: self.transmission,
@@ -212,6 +215,7 @@ impl Row<'_> {
             .evaluate(self.case, &point, self.temperatures, &mut self.s.alone)
     }
 
+    #[inline(always)]
     fn solve_together(&mut self, torques: &[f64], following: bool) {
         let (t, case) = (self.transmission, self.case);
         let RowScratch {
@@ -239,12 +243,13 @@ impl Row<'_> {
             called,
             ..
         } = &mut *self.s;
-        given.fill(Lane::all(0.0));
-        for (lane, torque) in given.iter_mut().zip(self.point.torques) {
-            *lane = Lane::all(*torque);
+        for (number, lane) in given.iter_mut().enumerate() {
+            *lane = Lane::all(self.point.torques.get(number).copied().unwrap_or(0.0));
         }
         // Lanes without a point repeat the last one; nobody reads them.
-        given[0] = each(|i| torques[i.min(torques.len() - 1)]);
+        let (first, others) = given[0].split_at_mut(torques.len());
+        first.copy_from_slice(torques);
+        others.fill(torques[torques.len() - 1]);
         *alone_lanes = [false; LANES];
         let points: [bool; LANES] = std::array::from_fn(|i| i < torques.len());
         for losses in components.iter_mut().chain(&mut *meshes) {
@@ -293,13 +298,16 @@ impl Row<'_> {
                 let (component, speed) = (&t.components[i], settled.relative[i]);
                 let notes = Notes::MUTED.keeping(kept[i].as_array_of_cells());
                 *called += asked;
-                components[i].want(&wanted);
+                if asked < torques.len() {
+                    components[i].want(&wanted);
+                }
                 let untaken = ask(component, &state, loads, one, notes, &mut components[i]);
                 wide(
                     #[inline(always)]
                     || {
-                        components[i].leave_unsound(untaken);
-                        brake_lanes(component.between, speed, &components[i], component.count, flow.drags);
+                        let sum = components[i].sound_sum(untaken);
+                        let moment = components[i].moment(&sum, speed);
+                        brake_lanes(component.between, speed, &moment, component.count, flow.drags);
                     },
                 );
                 leave(alone_lanes, &components[i]);
@@ -310,14 +318,19 @@ impl Row<'_> {
                 }
                 let at = t.mesh_at(i, 0.0, flow.drives[i], &state, Notes::MUTED);
                 let radius = mesh.seat.pair.working_radius[0];
-                let torques_1 = each(|lane| (tangential[i][lane] * radius).abs());
+                let torques_1 = wide(
+                    #[inline(always)]
+                    || over(&tangential[i], |force| (force * radius).abs()),
+                );
                 *called += asked;
-                meshes[i].want(&wanted);
+                if asked < torques.len() {
+                    meshes[i].want(&wanted);
+                }
                 mesh.model.losses(&at, &torques_1, &mut meshes[i]);
                 wide(
                     #[inline(always)]
                     || {
-                        meshes[i].leave_unsound(&Lane::all(0.0));
+                        meshes[i].sound_sum(&NO_THRUST);
                         flow.mesh_loss[i] = if at.speed == 0.0 {
                             Lane::all(0.0)
                         } else {
@@ -358,7 +371,7 @@ impl Row<'_> {
             *called += torques.len();
             let notes = Notes::MUTED;
             let untaken = ask(&t.components[i], &state, loads, one, notes, &mut components[i]);
-            components[i].leave_unsound(untaken);
+            components[i].sound_sum(untaken);
             leave(alone_lanes, &components[i]);
         }
 
@@ -422,7 +435,7 @@ impl Row<'_> {
                 let notes = notes(mesh.model.notes);
                 let at = t.mesh_at(i, 0.0, work.drives[i], &state, notes.all());
                 let radius = mesh.seat.pair.working_radius[0];
-                let torques_1 = each(|lane| (tangential[i][lane] * radius).abs());
+                let torques_1 = over(&tangential[i], |force| (force * radius).abs());
                 mesh.model.note(&at, &torques_1, &meshes[i], notes);
                 gather(mesh.model.notes);
             }
@@ -513,9 +526,8 @@ fn leave(alone: &mut [bool; LANES], losses: &LossLanes) {
 
 /// As [`brake`] in all lanes.
 #[inline(always)]
-fn brake_lanes(between: [Option<u16>; 2], speed: f64, losses: &LossLanes, count: f64, drags: &mut [Lane]) {
-    let moment = losses.total_moment(speed);
-    let signed = over(&moment, |moment| moment * count * speed.signum());
+fn brake_lanes(between: [Option<u16>; 2], speed: f64, moment: &Lane, count: f64, drags: &mut [Lane]) {
+    let signed = over(moment, |moment| moment * count * speed.signum());
     if let Some(a) = between[0] {
         let drags = &mut drags[a as usize];
         *drags = each(|i| drags[i] - signed[i]);

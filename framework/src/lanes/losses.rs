@@ -157,13 +157,12 @@ impl LossLanes {
         total
     }
 
-    /// Moments of all terms about the relative speed in rad/s, which is not zero. \[Nm\]
+    /// Moments about the relative speed in rad/s, which is not zero, from the sums of all terms. \[Nm\]
     #[inline(always)]
-    pub(crate) fn total_moment(&self, speed: f64) -> Lane {
-        let sum = self.sum();
+    pub(crate) fn moment(&self, sum: &Lane, speed: f64) -> Lane {
         match self.measure {
-            Measure::Moment => sum,
-            Measure::Power => over(&sum, |sum| sum / speed.abs()),
+            Measure::Moment => *sum,
+            Measure::Power => over(sum, |sum| sum / speed.abs()),
         }
     }
 
@@ -179,9 +178,10 @@ impl LossLanes {
         total
     }
 
-    /// Leaves the lanes whose answer counts for nothing: negative, no number, or beside a thrust that nothing takes.
+    /// The sums of all terms, in their measure. Leaves the lanes whose answer counts for nothing: negative, no number, or beside a thrust
+    /// that nothing takes.
     #[inline(always)]
-    pub(crate) fn leave_unsound(&mut self, untaken: &Lane) {
+    pub(crate) fn sound_sum(&mut self, untaken: &Lane) -> Lane {
         let sum = self.sum();
         let mut least = Lane::all(0.0_f64);
         for values in &self.values[..self.terms] {
@@ -189,13 +189,13 @@ impl LossLanes {
             least = each(|i| if values[i] < least[i] { values[i] } else { least[i] });
         }
         // The greatest sum that is a number, or none beside such a thrust; a negative part is no sum.
-        let most = over(untaken, |untaken| if untaken == 0.0 { f64::MAX } else { 0.0 });
-        let sum = each(|i| if least[i] >= 0.0 { sum[i] } else { f64::INFINITY });
-        if count(|i| sum[i] <= most[i]) == LANES as u64 {
-            return;
+        let most = |i: usize| if untaken[i] == 0.0 { f64::MAX } else { 0.0 };
+        let sound = |i: usize| (least[i] >= 0.0) & (sum[i] <= most(i));
+        if count(sound) == LANES as u64 {
+            return sum;
         }
         for i in 0..LANES {
-            if sum[i].is_nan() || sum[i] > most[i] {
+            if !sound(i) {
                 self.alone[i] = true;
                 // Or torques of this lane would be no numbers, at which no model is asked.
                 for values in &mut self.values[..self.terms] {
@@ -203,6 +203,7 @@ impl LossLanes {
                 }
             }
         }
+        self.sum()
     }
 }
 
@@ -227,7 +228,7 @@ mod tests {
         }
         for i in 0..LANES {
             assert_eq!(lanes.total_watts(speed)[i], loss(i).total_watts(speed));
-            assert_eq!(lanes.total_moment(speed)[i], loss(i).total_moment(speed));
+            assert_eq!(lanes.moment(&lanes.sum(), speed)[i], loss(i).total_moment(speed));
             assert_eq!(lanes.watts(1, speed)[i], loss(i).watts(1, speed));
         }
     }
@@ -249,7 +250,8 @@ mod tests {
         lanes.put(5, Err(undefined));
         let mut untaken = Lane::all(0.0);
         untaken[6] = 3.0;
-        lanes.leave_unsound(&untaken);
+        let sum = lanes.sound_sum(&untaken);
+        assert_eq!((sum[0], sum[1], sum[6]), (1.0, 0.0, 0.0));
         let left: Vec<usize> = (0..LANES).filter(|i| lanes.alone()[*i]).collect();
         assert_eq!(left, [1, 2, 3, 4, 5, 6]);
         lanes.begin(&Loss::POWERS);

@@ -95,8 +95,11 @@ impl ShaftLoads {
             load.untaken = Lane::all(0.0);
         }
         let (passed, sizes) = passed.split_at_mut(self.order.len());
-        passed.fill(Lane::all(0.0));
-        sizes.fill(Lane::all(0.0));
+        // Without carriers nothing is ever passed on.
+        if self.order.iter().any(|member| member.carrier.is_some()) {
+            passed.fill(Lane::all(0.0));
+            sizes.fill(Lane::all(0.0));
+        }
         for (place, member) in self.order.iter().enumerate() {
             let mut thrust = over(&passed[place], |passed| member.always + passed);
             let mut scale = over(&sizes[place], |size| member.always.abs() + size);
