@@ -79,8 +79,8 @@ STARTS = 10
 
 
 def start_of(command):
-    """The least CPU time of a command for one point. What else runs can only add to it, and a start that was slow by chance would
-    make the map after it look fast."""
+    """The least CPU time of a command for one point, which is taken from both times of a map: by the clock, a start may be other work.
+    What else runs can only add to it, and a start that was slow by chance would make the map after it look fast."""
     return min(child(command)[0][1] for _ in range(STARTS))
 
 

@@ -329,7 +329,7 @@ impl Flow {
         let k = self.meshes.len();
         work.answers();
         std::mem::swap(&mut work.used, &mut work.answer);
-        // The guess is so close that the step from it is as good as a refined solution.
+        // Where the guess is close, the step from it is as good as a refined solution; elsewhere another pass follows.
         self.right_abreast(work);
         self.friction_abreast(work);
         self.refine_abreast(work);

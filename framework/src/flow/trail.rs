@@ -26,7 +26,8 @@ pub struct Trail {
 #[derive(Debug, Clone)]
 struct Step {
     speed: f64,
-    torques: Vec<Lane>,
+    /// What the equilibrium was solved for.
+    unknowns: Vec<Lane>,
 }
 
 impl Trail {
@@ -50,20 +51,20 @@ impl Trail {
             .unwrap_or_default()
     }
 
-    /// The guess of one torque.
+    /// The guess of one unknown.
     #[inline(always)]
     pub(super) fn guess(&self, weights: &[f64], place: usize) -> Lane {
         let used = &self.steps[self.steps.len() - weights.len()..];
         let mut sum = Lane::ZERO;
         for (step, weight) in used.iter().zip(weights) {
-            let own = &step.torques[place];
+            let own = &step.unknowns[place];
             sum = each(|i| sum[i] + weight * own[i]);
         }
         sum
     }
 
     /// Adds a step; `guessed` says whether it began with a guess.
-    pub(super) fn push(&mut self, given: &[Lane], speed: f64, drives: &[Drive], torques: &[Lane], guessed: bool) {
+    pub(super) fn push(&mut self, given: &[Lane], speed: f64, drives: &[Drive], unknowns: &[Lane], guessed: bool) {
         if guessed {
             self.guesses += 1;
         } else {
@@ -81,12 +82,12 @@ impl Trail {
         } else {
             Step {
                 speed,
-                torques: Vec::new(),
+                unknowns: Vec::new(),
             }
         };
         step.speed = speed;
-        step.torques.clear();
-        step.torques.extend_from_slice(torques);
+        step.unknowns.clear();
+        step.unknowns.extend_from_slice(unknowns);
         self.steps.push(step);
     }
 }
@@ -138,5 +139,18 @@ mod tests {
         let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
         follow(&mut trail, &many, |x| x);
         assert!(trail.weights(&[Lane::all(3.0)], 40.0).is_empty());
+    }
+
+    #[test]
+    fn steps_outlive_a_solution_without_a_guess_but_not_other_drivers() {
+        let mut trail = Trail::default();
+        let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
+        follow(&mut trail, &many, |x| x);
+        let (given, next) = ([Lane::all(3.0)], LONGEST as f64 + 1.0);
+        assert!(trail.weights(&given, next).is_empty());
+        trail.push(&given, next, &[Drive::First], &[Lane::all(next)], false);
+        assert_eq!(trail.weights(&given, next + 1.0).len(), DEPTH);
+        trail.push(&given, next + 1.0, &[Drive::Second], &[Lane::all(next)], false);
+        assert_eq!(trail.weights(&given, next + 2.0).len(), 1);
     }
 }

@@ -138,7 +138,7 @@ impl<'a> LaneNotes<'a> {
     }
 
     /// As [`check`](Self::check) for the range over all lanes of the least value of a lane, and of its greatest; false, with nothing
-    /// noted, where some lanes are outside and others are not, so that it matters which.
+    /// noted, where it is not plain from these that all lanes are inside, or all outside on one side.
     pub fn check_range(&self, limit: &Limit, least: (f64, f64), greatest: (f64, f64)) -> bool {
         let all_inside = least.0 >= limit.least && greatest.1 <= limit.greatest;
         let all_outside = least.1 < limit.least || greatest.0 > limit.greatest;

@@ -319,6 +319,7 @@ pub(crate) mod tests {
     use super::*;
     use gearloss_framework::geometry::{Pair, PairSpec};
     use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::Mechanism as _;
     use gearloss_framework::mechanism::gear_mesh::MeshPart;
     use gearloss_framework::registry::{Files, Registry};
     use serde_json::{Value, json};
@@ -437,6 +438,26 @@ pub(crate) mod tests {
         assert!((cycle / 183.716 - 1.0).abs() < 2e-4, "{cycle}");
         let travel = watts(&model(friction, "tooth_travel"));
         assert!((travel / 221.384 - 1.0).abs() < 2e-4, "{travel}");
+    }
+
+    #[test]
+    fn blocks_note_what_points_alone_do_under_every_load_sharing() {
+        let registry = Registry::linked().unwrap();
+        let files = Files::default();
+        for sharing in ["rigid", "ramp", "symmetric_ramp", "third", "uniform", "contact_lines"] {
+            for kind in [Kind::Spur, Kind::Swapped, Kind::Helical, Kind::Internal] {
+                let part = Arc::new(pair_of(kind));
+                let mut model = model(json!({ "type": "xu", "roughness": "composite_rms" }), "base_pitch");
+                model["load_sharing"] = sharing.into();
+                let mut build = Build::new(&registry, &files);
+                let slot = build.slot_at::<GearMesh>("model", &part, &model).unwrap();
+                for torque in [0.01, 2.0, 300.0] {
+                    let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| to.torque = torque);
+                    let fault = GearMesh::side_by_side(&*slot, &at, slot.notes);
+                    assert_eq!(fault, None, "{sharing} {kind:?} {torque}");
+                }
+            }
+        }
     }
 
     #[test]

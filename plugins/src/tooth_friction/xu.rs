@@ -295,7 +295,7 @@ impl WeightedFriction for Weighted {
             return true;
         }
         // Else only the places count where friction might be the least or the greatest of the path.
-        let Some(ends) = self.series.ends(at(low), at(high)) else {
+        let Some(places) = self.series.places(at(low), at(high)) else {
             return false;
         };
         let (least, greatest) = wide(
@@ -309,7 +309,7 @@ impl WeightedFriction for Weighted {
                 );
                 let falls = over(&units, |unit| along.fall(unit));
                 let (mut least, mut greatest) = (Lane::all(f64::INFINITY), Lane::all(f64::NEG_INFINITY));
-                for (_, node) in path.nodes.iter().enumerate().filter(|(k, _)| ends >> k & 1 == 1) {
+                for (_, node) in path.nodes.iter().enumerate().filter(|(k, _)| places >> k & 1 == 1) {
                     let geometry = geometry(node);
                     let exponents = each(
                         #[inline(always)]

@@ -369,6 +369,12 @@ fn share(fa: f64, c0: f64) -> f64 {
     fa * (1.0 / c0)
 }
 
+/// No axial load, or one so small that its logarithm is that of zero: an angle of zero has no sine to divide by.
+#[inline(always)]
+fn is_nothing(share: f64) -> bool {
+    share < f64::MIN_POSITIVE
+}
+
 #[inline(always)]
 fn radial_rolling(ln_load: f64, rolling: f64) -> f64 {
     rolling * exp(0.54 * ln_load)
@@ -422,7 +428,7 @@ impl Variables {
         };
         let (mut g_rr, mut g_sl) = (Lane::ZERO, Lane::ZERO);
         let ratio = over(fa, |fa| share(fa, c0));
-        let unpushed = count(|i| ratio[i] == 0.0);
+        let unpushed = count(|i| is_nothing(ratio[i]));
         // Loops of one function each: their steps wait for each other in a lane, and need not in others.
         if unpushed > 0 || blend.is_some() {
             let ln_fr = over(fr, ln);
@@ -449,7 +455,7 @@ impl Variables {
             let limit = to * fr[i];
             let blended = blended(fa[i] / limit, radial, combined);
             let both = if fa[i] < limit { blended } else { combined };
-            (g_rr[i], g_sl[i]) = if ratio[i] == 0.0 { radial } else { both };
+            (g_rr[i], g_sl[i]) = if is_nothing(ratio[i]) { radial } else { both };
         }
         (g_rr, g_sl)
     }
@@ -465,8 +471,7 @@ impl Variables {
                 s2,
                 c0,
             } => {
-                // Also where the quotient underflows: an angle of zero has no sine to divide by.
-                if share(fa, c0) == 0.0 {
+                if is_nothing(share(fa, c0)) {
                     return radial(fr, rolling, sliding[0]);
                 }
                 let combined = combined(fr, fa, c0, (rolling, r2), (sliding[1], s2));

@@ -79,8 +79,9 @@ impl Series {
             .array_windows()
             .map(|[start, end]| [0, 1].map(|k| (start[k], end[k] - start[k])));
         let apart = SAG + super::ROUNDING;
+        // A place without load or sliding has an exponent of minus infinity everywhere, and is not below another such place.
         let ends = lines.array_windows().map(|[start, end]| {
-            let surely_below = |a: usize, b: usize| start[a] + apart <= start[b] && end[a] + apart <= end[b];
+            let surely_below = |a: usize, b: usize| start[a] + apart < start[b] && end[a] + apart < end[b];
             let all = 0..nodes.len();
             let is_end = |k: &usize| {
                 !all.clone().any(|other| surely_below(other, *k)) || !all.clone().any(|other| surely_below(*k, other))
@@ -141,7 +142,7 @@ impl Series {
     }
 
     /// The places, as bits, whose exponent might be the least or the greatest at some `t` between two; absent where that is not known.
-    pub fn ends(&self, low: f64, high: f64) -> Option<u64> {
+    pub fn places(&self, low: f64, high: f64) -> Option<u64> {
         let [first, last] = [low, high].map(|t| (t * (self.scale * FINER)) as usize);
         Some(self.ends.get(first..=last)?.iter().fold(0, |all, ends| all | ends))
     }
@@ -203,7 +204,7 @@ mod tests {
             let t = end * (f64::from(i) + 0.37) / 2000.0;
             let (mut sum, mut least, mut greatest) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
             let (mut least_end, mut greatest_end) = (f64::INFINITY, f64::NEG_INFINITY);
-            let ends = series.ends(t, t).unwrap_or(0);
+            let ends = series.places(t, t).unwrap_or(0);
             for (k, (node, weight)) in nodes.iter().zip(&weights).enumerate() {
                 let x = -t * node.slide_roll * node.root_load;
                 let exponent = geometry(node) - B[3] * x + B[4] * x.exp();
@@ -233,6 +234,22 @@ mod tests {
         // A quarter of the places on the mean, or they would spare little.
         assert!(f64::from(places) / 2000.0 <= 3.0, "{places}");
         assert!(series.at(1.001 * end).is_nan() && series.bounds(1.001 * end).is_none());
-        assert!(series.ends(0.5 * end, 1.001 * end).is_none());
+        assert!(series.places(0.5 * end, 1.001 * end).is_none());
+    }
+
+    #[test]
+    fn places_without_load_have_the_least_friction() {
+        let mut nodes = nodes();
+        for unloaded in [0, 11] {
+            nodes[unloaded] = PathNode::new(0.002, 0.03, 0.006, 0.0);
+        }
+        let series = Series::new(&nodes, &[1.0; 12]);
+        let end = PIECES as f64 / series.scale;
+        for i in 0..100 {
+            let t = end * (f64::from(i) + 0.37) / 100.0;
+            let ends = series.places(t, t).unwrap_or(0);
+            assert!(ends & 1 == 1 && ends >> 11 & 1 == 1, "{ends:b}");
+            assert!(ends & 0x7FE != 0, "one with the greatest as well: {ends:b}");
+        }
     }
 }
