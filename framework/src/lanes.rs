@@ -8,6 +8,7 @@
 mod elementary;
 mod losses;
 mod notes;
+mod powers;
 
 use std::ops::{Deref, DerefMut};
 
@@ -15,6 +16,7 @@ pub use elementary::{cube_root, exp, ln, sine};
 pub use losses::LossLanes;
 pub use notes::LaneNotes;
 pub(crate) use notes::same_notes;
+pub use powers::Powers;
 
 /// Points of a block.
 pub const LANES: usize = 64;
@@ -76,6 +78,60 @@ pub fn count(mut holds: impl FnMut(usize) -> bool) -> u64 {
         count += u64::from(holds(i));
     }
     count
+}
+
+/// A lane from sums over some items: `step` adds an item to the `N` sums of a lane, given by its place, and `end` makes its number of
+/// them. The sums of several lanes at a time stay in registers over all items, where a loop over lanes for each item would write
+/// and read them again.
+#[inline(always)]
+pub fn gather<const N: usize, T: Copy>(
+    items: impl Iterator<Item = T> + Clone,
+    start: [f64; N],
+    step: impl Fn([f64; N], T, usize) -> [f64; N],
+    end: impl Fn([f64; N]) -> f64,
+) -> Lane {
+    /// Lanes at a time: a few of the widest registers for each sum.
+    const WIDE: usize = 16;
+    let mut lane = Lane::ZERO;
+    let mut first = 0;
+    while first < LANES {
+        let mut sums = [start; WIDE];
+        for item in items.clone() {
+            for i in 0..WIDE {
+                sums[i] = step(sums[i], item, first + i);
+            }
+        }
+        for i in 0..WIDE {
+            lane.0[first + i] = end(sums[i]);
+        }
+        first += WIDE;
+    }
+    lane
+}
+
+/// The greatest magnitude of some lanes, each times a factor; what is no number passes by.
+#[inline(always)]
+pub(crate) fn greatest<'a>(lanes: impl Iterator<Item = (f64, &'a Lane)> + Clone) -> Lane {
+    let step = |[most]: [f64; 1], (factor, lane): (f64, &Lane), i: usize| {
+        let own = (factor * lane[i]).abs();
+        [if own > most { own } else { most }]
+    };
+    gather(lanes, [0.0], step, |[most]| most)
+}
+
+/// The sum of some lanes, each times a factor.
+#[inline(always)]
+pub(crate) fn weighted<'a>(lanes: impl Iterator<Item = (f64, &'a Lane)> + Clone) -> Lane {
+    let step = |[sum]: [f64; 1], (factor, lane): (f64, &Lane), i: usize| [sum + factor * lane[i]];
+    gather(lanes, [0.0], step, |[sum]| sum)
+}
+
+/// Whether all lanes have the same number.
+#[inline(always)]
+pub(crate) fn is_even(lane: &Lane) -> bool {
+    let first = lane[0];
+    // Mostly the last one tells.
+    lane[LANES - 1] == first && count(|i| lane[i] == first) == LANES as u64
 }
 
 /// A lane from a function of its place.

@@ -98,6 +98,10 @@ pub trait Component: Mechanism<Answer = Loss> {
     fn losses(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _losses: &mut LossLanes) -> bool {
         false
     }
+    /// False where nothing that a model notes hangs on the load.
+    fn notes_hang_on_load(_model: &Self::Model) -> bool {
+        true
+    }
     /// Notes what models note at these loads; false where [`losses`](Self::losses) has no way of its own.
     fn note(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {
         false

@@ -103,6 +103,8 @@ pub(crate) struct Component {
     pub between: [Option<u16>; 2],
     /// True where its loss may depend on torque or load.
     pub loaded: bool,
+    /// False where its model notes the same at all loads.
+    pub notes_hang_on_load: bool,
     /// True where its model is `none`.
     pub off: bool,
     /// Number of its support, where it carries load.
@@ -121,6 +123,7 @@ impl Component {
         Self {
             between: placed.between(),
             loaded: placed.loaded(),
+            notes_hang_on_load: placed.notes_hang_on_load(),
             off: placed.off(),
             support: placed.support(),
             sharing: sharing.filter(|_| placed.loaded()),

@@ -8,7 +8,7 @@ use std::cell::Cell;
 use super::{Point, PowerFlow, Scratch, Solution};
 use crate::attach::State;
 use crate::flow::{Balance, FlowLanes, Status, TaskLanes, Trail, WorkLanes};
-use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, each, over, wide};
+use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, Powers, count, each, is_even, over, weighted, wide};
 use crate::loads::{LoadLanes, SupportLoad};
 use crate::loss::{Extent, NoteBase, Notes};
 use crate::transmission::{Case, PartKind, Transmission};
@@ -26,6 +26,8 @@ pub struct RowScratch {
     work: WorkLanes,
     /// One for each block of a row, in their order.
     trails: Vec<Trail>,
+    /// For each of these blocks what its components and meshes remember.
+    powers: Vec<Vec<Powers>>,
     /// The block that comes next.
     next: usize,
     /// All that is given of the row before, but its first speed and its first torque.
@@ -66,6 +68,7 @@ impl RowScratch {
     /// Forgets the rows before, so that [`Row::follow`] begins anew.
     pub fn forget(&mut self) {
         self.trails.iter_mut().for_each(Trail::clear);
+        self.powers.clear();
     }
 
     /// Calls of loss models for all points so far; a call for a block counts once for each of its points.
@@ -103,6 +106,7 @@ impl Transmission {
             alone: self.scratch(case),
             work: case.flow.work_abreast(),
             trails: Vec::new(),
+            powers: Vec::new(),
             next: 0,
             before: Vec::new(),
             given: lanes(case.torque_ports.len() + case.ruled_torques),
@@ -123,6 +127,40 @@ impl Transmission {
             own: vec![Extent::EMPTY; LANES * self.cells],
             totals: vec![Extent::EMPTY; self.cells],
             called: 0,
+        }
+    }
+
+    /// Notes what hangs on no load, once for all points of a row.
+    fn note_row(&self, s: &mut Scratch, totals: &mut [Extent]) {
+        let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
+        let kept = Cell::from_mut(s.kept.as_mut_slice()).as_slice_of_cells();
+        let state = State {
+            speeds: &s.speeds,
+            oils: &s.oils,
+            temperatures: &s.temperatures,
+            surface: s.surface,
+            loads: &s.loads,
+            asked: &s.asked,
+        };
+        for (i, component) in self.components.iter().enumerate() {
+            if !component.loaded || component.off || component.notes_hang_on_load {
+                continue;
+            }
+            let mut common = Notes::fresh(cells, component.notes);
+            if s.relative[i] != 0.0 {
+                common = common.keeping(kept[i].as_array_of_cells());
+            }
+            let notes = LaneNotes {
+                common,
+                own: &[],
+                totals: Cell::from_mut(&mut *totals).as_slice_of_cells(),
+                counted: &[false; LANES],
+                points: 0,
+                outside: &std::array::from_fn(|_| Cell::new(false)),
+                handed: &Cell::new(false),
+                base: component.notes,
+            };
+            component.placed.note(&state, &LoadLanes::NONE, notes);
         }
     }
 
@@ -159,6 +197,9 @@ impl Transmission {
         let cheap = self.meshes.iter().all(|mesh| mesh.model.off || !mesh.model.is_costly());
         let together =
             point.flow == PowerFlow::Real && !standing && !self.uneven && cheap && self.parts.iter().all(sound);
+        if together {
+            self.note_row(s, &mut scratch.totals);
+        }
         Row {
             transmission: self,
             case,
@@ -222,6 +263,7 @@ impl Row<'_> {
             state: settled,
             work,
             trails,
+            powers,
             next,
             given,
             ports,
@@ -255,6 +297,21 @@ impl Row<'_> {
         for losses in components.iter_mut().chain(&mut *meshes) {
             losses.clear(&points);
         }
+        let followed = self.point.speeds.first().filter(|_| following).map(|speed| {
+            let number = *next;
+            *next += 1;
+            if trails.len() == number {
+                trails.push(Trail::default());
+            }
+            (number, speed.abs().ln())
+        });
+        let mut remembered = followed.map(|(number, _)| {
+            while powers.len() <= number {
+                powers.push(vec![Powers::remembering(); components.len() + meshes.len()]);
+            }
+            &mut powers[number]
+        });
+        exchange(&mut remembered, components, meshes);
         let kept = Cell::from_mut(settled.kept.as_mut_slice()).as_slice_of_cells();
         let state = State {
             speeds: &settled.speeds,
@@ -280,6 +337,9 @@ impl Row<'_> {
                             }
                         });
                     }
+                    if corrected {
+                        loads.fill(LoadLanes::NONE);
+                    }
                     t.loads.evaluate_abreast(tangential, state.speeds, passed, loads);
                 },
             );
@@ -292,8 +352,16 @@ impl Row<'_> {
             for (drags, idle) in flow.drags.iter_mut().zip(&settled.idle_drags) {
                 *drags = Lane::all(*idle);
             }
-            let wanted: [bool; LANES] = std::array::from_fn(|i| points[i] && !flow.done[i] && !alone_lanes[i]);
-            let asked = wanted.iter().filter(|wanted| **wanted).count();
+            let (wanted, asked) = wide(
+                #[inline(always)]
+                || {
+                    let mut wanted = [false; LANES];
+                    for i in 0..LANES {
+                        wanted[i] = points[i] && !flow.done[i] && !alone_lanes[i];
+                    }
+                    (wanted, count(|i| wanted[i]) as usize)
+                },
+            );
             for &i in braking {
                 let (component, speed) = (&t.components[i], settled.relative[i]);
                 let notes = Notes::MUTED.keeping(kept[i].as_array_of_cells());
@@ -326,7 +394,12 @@ impl Row<'_> {
                 if asked < torques.len() {
                     meshes[i].want(&wanted);
                 }
-                mesh.model.losses(&at, &torques_1, &mut meshes[i]);
+                if is_even(&torques_1) {
+                    let at = at.with(|to| to.torque = torques_1[0]);
+                    meshes[i].put_all(mesh.model.loss(&at));
+                } else {
+                    mesh.model.losses(&at, &torques_1, &mut meshes[i]);
+                }
                 wide(
                     #[inline(always)]
                     || {
@@ -348,20 +421,12 @@ impl Row<'_> {
             steady: &settled.idle_drags,
             tolerance: self.point.tolerance,
         };
-        let trail = match self.point.speeds.first() {
-            Some(speed) if following => {
-                if trails.len() == *next {
-                    trails.push(Trail::default());
-                }
-                *next += 1;
-                Some((&mut trails[*next - 1], *speed))
-            }
-            _ => None,
-        };
+        let trail = followed.map(|(number, place)| (&mut trails[number], place));
         case.flow.real_abreast(&task, trail, work, losses);
         for (own, flow) in alone_lanes.iter_mut().zip(&work.alone) {
             *own |= flow;
         }
+        exchange(&mut remembered, components, meshes);
         // What carries load and rests brakes nothing, but it may be undefined.
         let resting = |i: &usize| {
             let component = &t.components[*i];
@@ -409,7 +474,10 @@ impl Row<'_> {
                 }
             };
             for (i, component) in t.components.iter().enumerate() {
-                let Some(support) = component.support.filter(|_| component.loaded && !component.off) else {
+                let Some(support) = component
+                    .support
+                    .filter(|_| component.loaded && !component.off && component.notes_hang_on_load)
+                else {
                     continue;
                 };
                 let mut notes = notes(component.notes);
@@ -417,6 +485,13 @@ impl Row<'_> {
                     notes.common = notes.common.keeping(kept[i].as_array_of_cells());
                 }
                 let own_loads = &loads[support as usize];
+                // What all lanes have in common is noted once.
+                if own_loads.is_even() {
+                    one[support as usize] = own_loads.lane(0);
+                    let state = State { loads: one, ..state };
+                    let _ = component.placed.loss(&state, notes.all());
+                    continue;
+                }
                 if component.placed.note(&state, own_loads, notes) {
                     gather(component.notes);
                     continue;
@@ -436,6 +511,10 @@ impl Row<'_> {
                 let at = t.mesh_at(i, 0.0, work.drives[i], &state, notes.all());
                 let radius = mesh.seat.pair.working_radius[0];
                 let torques_1 = over(&tangential[i], |force| (force * radius).abs());
+                if is_even(&torques_1) {
+                    let _ = mesh.model.loss(&at.with(|to| to.torque = torques_1[0]));
+                    continue;
+                }
                 mesh.model.note(&at, &torques_1, &meshes[i], notes);
                 gather(mesh.model.notes);
             }
@@ -463,7 +542,6 @@ impl Row<'_> {
                         count * if asked > 0.0 { used[lane] / asked } else { 1.0 }
                     });
                 }
-                *sum = Lane::all(0.0);
                 for (part, watts) in t.parts.iter().zip(&mut *watts) {
                     *watts = match part.kind {
                         PartKind::Component(i) if !t.components[i].loaded || t.components[i].off => {
@@ -485,8 +563,8 @@ impl Row<'_> {
                         }
                         PartKind::Drag(_) => Lane::all(t.part_watts(part, settled).unwrap_or(0.0)),
                     };
-                    *sum = each(|lane| sum[lane] + watts[lane]);
                 }
+                *sum = weighted(watts.iter().map(|watts| (1.0, watts)));
             },
         );
     }
@@ -505,7 +583,10 @@ fn ask<'a>(
         return &NO_THRUST;
     };
     let own = &loads[support];
-    if !component.placed.losses(state, own, notes, losses) {
+    if own.is_even() {
+        one[support] = own.lane(0);
+        losses.put_all(component.placed.loss(&State { loads: one, ..*state }, notes));
+    } else if !component.placed.losses(state, own, notes, losses) {
         for lane in 0..LANES {
             if !losses.wanted(lane) {
                 continue;
@@ -515,6 +596,15 @@ fn ask<'a>(
         }
     }
     &own.untaken
+}
+
+/// Gives components and meshes what they remember of a block, or takes it back.
+fn exchange(remembered: &mut Option<&mut Vec<Powers>>, components: &mut [LossLanes], meshes: &mut [LossLanes]) {
+    if let Some(remembered) = remembered {
+        for (losses, own) in components.iter_mut().chain(meshes).zip(remembered.iter_mut()) {
+            std::mem::swap(losses.powers(), own);
+        }
+    }
 }
 
 /// Lanes that a model left alone.

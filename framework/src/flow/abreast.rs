@@ -7,9 +7,9 @@
 use super::linear::{Panels, larger};
 use super::solve::{NO_POWER, PATIENCE, REACH, SAFETY, drive};
 use super::system::{Flow, Friction, Side};
-use super::trail::Trail;
+use super::trail::{Trail, UNKNOWN};
 use super::work::{Drive, Tolerance};
-use crate::lanes::{LANES, Lane, count, each, over, wide};
+use crate::lanes::{LANES, Lane, count, each, gather, greatest, over, weighted, wide};
 
 /// Passes after which a lane is left alone; before, the loop for single points changes nothing in its pace.
 const FEW: usize = PATIENCE - 2;
@@ -60,6 +60,8 @@ pub struct WorkLanes {
     /// Which entries of the small system are not zero in all lanes.
     filled: Vec<bool>,
     shares: Vec<Lane>,
+    /// Power per step of the unknown of each mesh, as if nothing rested.
+    powers: Vec<f64>,
 }
 
 /// What a block is to be solved for.
@@ -114,12 +116,8 @@ impl SparseMatrix {
     fn product(&self, x: &[Lane], y: &mut [Lane]) {
         let mut start = 0;
         for (y, end) in y.iter_mut().zip(&self.ends) {
-            let mut sum = ZERO;
-            for (column, entry) in &self.entries[start..*end] {
-                let x = &x[*column];
-                sum = each(|i| sum[i] + entry * x[i]);
-            }
-            *y = sum;
+            let entries = self.entries[start..*end].iter();
+            *y = weighted(entries.map(|(column, entry)| (*entry, &x[*column])));
             start = *end;
         }
     }
@@ -225,10 +223,11 @@ impl Flow {
             small: lanes(k * k),
             filled: vec![false; k * k],
             shares: lanes(k),
+            powers: vec![0.0; k],
         }
     }
 
-    /// As [`Flow::real`] for the points of a block. With a trail and its place on it, which is a speed, the first torques are guessed
+    /// As [`Flow::real`] for the points of a block. With a trail and a place on it the first torques are guessed
     /// from it, and the block becomes its next step.
     pub fn real_abreast(
         &self,
@@ -278,15 +277,15 @@ impl Flow {
                 || self.begin_abreast(task, work),
             );
         }
-        let (mut known, mut rated) = (false, guessed);
+        let mut known = false;
         while pass < FEW.min(task.tolerance.passes) && !settled(work) {
             pass += 1;
             self.ask_abreast(work, losses);
             wide(
                 #[inline(always)]
-                || self.pass_abreast(task, work, (known, rated), pass),
+                || self.pass_abreast(task, work, (known, guessed), pass),
             );
-            (known, rated) = (true, rated || known);
+            known = true;
         }
         for i in 0..LANES {
             work.alone[i] |= !work.done[i];
@@ -318,8 +317,9 @@ impl Flow {
         for (place, unknown) in work.unknown[..self.size].iter_mut().enumerate() {
             *unknown = trail.guess(&weights, place);
         }
+        // Whether the drivers are still those of the trail shows when the losses have been seen.
         self.torques_abreast(task.speeds, work);
-        (0..self.meshes.len()).all(|mesh| all_drive(work.drives[mesh], &work.rolling[mesh], &work.largest))
+        true
     }
 
     /// What follows a first pass from guessed torques: the equilibrium with its losses, and which lanes need no other pass. False
@@ -331,27 +331,27 @@ impl Flow {
         std::mem::swap(&mut work.used, &mut work.answer);
         // Where the guess is close, the step from it is as good as a refined solution; elsewhere another pass follows.
         self.right_abreast(work);
-        self.friction_abreast(work);
-        self.refine_abreast(work);
+        // What rests has no power, but its torque loads what turns.
+        let fastest = task.speeds.iter().fold(0.0, |most, speed| larger(most, speed.abs()));
+        let speed = |speed: f64| if speed == 0.0 { fastest } else { speed.abs() };
+        for ((power, row), relative) in work.powers.iter_mut().zip(&self.meshes).zip(&work.relative) {
+            *power = (self.scale[row.row] * row.z1 * speed(relative[1])).abs();
+        }
+        let neglected = self.close_step_abreast(work);
         for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
             *unknown = each(|i| unknown[i] + step[i]);
         }
         self.accept_abreast(task.speeds, work);
-        // What rests has no power, but its torque loads what turns.
-        let fastest = task.speeds.iter().fold(0.0, |most, speed| larger(most, speed.abs()));
-        let speed = |speed: f64| if speed == 0.0 { fastest } else { speed.abs() };
-        let mut moved = ZERO;
-        for (row, relative) in self.meshes.iter().zip(&work.relative) {
-            let (step, weight) = (&work.step[row.row], self.scale[row.row] * row.z1 * speed(relative[1]));
-            moved = each(|i| larger(moved[i], (step[i] * weight).abs()));
-        }
-        for (port, step) in self.unknown.iter().zip(&work.step[self.rows..]) {
-            let weight = speed(task.speeds[*port]);
-            moved = each(|i| larger(moved[i], step[i].abs() * weight));
-        }
-        work.rate = trail.rate.unwrap_or(Lane::all(1.0));
+        let meshes = self.meshes.iter().zip(&work.powers);
+        let ports = self.unknown.iter().zip(&work.step[self.rows..]);
+        let moved = greatest(
+            meshes
+                .map(|(row, power)| (*power, &work.step[row.row]))
+                .chain(ports.map(|(port, step)| (speed(task.speeds[*port]), step))),
+        );
+        work.rate = trail.rate.unwrap_or(Lane::all(UNKNOWN));
         let rate = &work.rate;
-        let left = each(|i| to_come(moved[i], rate[i]));
+        let left = each(|i| to_come(moved[i], rate[i]) + moved[i] * neglected[i]);
         for i in 0..LANES {
             work.done[i] = left[i] <= SAFETY * task.tolerance.power * work.largest[i];
         }
@@ -388,7 +388,7 @@ impl Flow {
     fn begin_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
         let k = self.meshes.len();
         self.prepare_abreast(task, work);
-        work.rate = Lane::all(1.0);
+        work.rate = Lane::all(UNKNOWN);
         work.used.fill(ZERO);
         // What an earlier block left there may be no number.
         work.used_before.fill(ZERO);
@@ -420,7 +420,7 @@ impl Flow {
 
     /// What follows the answers of the models in one pass.
     #[inline(always)]
-    fn pass_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes, (known, rated): (bool, bool), pass: usize) {
+    fn pass_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes, (known, guessed): (bool, bool), pass: usize) {
         let &TaskLanes { speeds, tolerance, .. } = task;
         let k = self.meshes.len();
         work.answers();
@@ -446,14 +446,22 @@ impl Flow {
         }
         let left = if known {
             let (left, rate) = work.remaining(&mismatch);
-            if !rated {
-                work.rate = rate;
+            // What had no torque before says nothing in the pass in which it gets some, but in the next one.
+            if !guessed {
+                let done = &work.done;
+                work.rate = each(|i| {
+                    if work.rate[i] < UNKNOWN || done[i] {
+                        work.rate[i]
+                    } else {
+                        rate[i]
+                    }
+                });
             }
             left
         } else {
             each(|i| to_come(mismatch[i], work.rate[i]))
         };
-        let judged = known || rated;
+        let judged = known || guessed;
         let last: [bool; LANES] =
             std::array::from_fn(|i| work.done[i] || judged && left[i] <= SAFETY * tolerance.power * work.largest[i]);
         let back = if known { work.secant() } else { ZERO };
@@ -496,11 +504,12 @@ impl Flow {
     #[inline(always)]
     fn right_abreast(&self, work: &mut WorkLanes) {
         let k = self.meshes.len();
-        for (right, applied) in work.right.iter_mut().zip(&work.applied) {
-            *right = over(applied, |x| -x);
+        let (loaded, others) = work.right.split_at_mut(self.columns);
+        for ((right, applied), drag) in loaded.iter_mut().zip(&work.applied).zip(&work.used[2 * k..]) {
+            *right = each(|i| -applied[i] - drag[i]);
         }
-        for (right, drag) in work.right.iter_mut().zip(&work.used[2 * k..]) {
-            *right = each(|i| right[i] - drag[i]);
+        for (right, applied) in others.iter_mut().zip(&work.applied[self.columns..]) {
+            *right = over(applied, |x| -x);
         }
         for (mesh, row) in self.meshes.iter().enumerate() {
             let side = usize::from(work.drives[mesh] == Drive::Second);
@@ -521,6 +530,38 @@ impl Flow {
     /// The step from the unknowns that leaves nothing of what they lack.
     #[inline(always)]
     fn refine_abreast(&self, work: &mut WorkLanes) {
+        self.lack_abreast(work);
+        self.step_abreast(work);
+    }
+
+    /// Such a step for unknowns that lack little: the meshes lose their share of it as if it were the step without friction. Returns the
+    /// share of its power that this neglects: the square of all shares together, as far as the meshes feel each other.
+    #[inline(always)]
+    fn close_step_abreast(&self, work: &mut WorkLanes) -> Lane {
+        work.active.clear();
+        work.active.extend(0..self.meshes.len());
+        self.lack_abreast(work);
+        self.sparse.inverse.product(&work.right, &mut work.step);
+        for (share, friction) in work.shares.iter_mut().zip(&self.friction) {
+            *share = work.step[friction.row];
+        }
+        let (mut together, mut coupling) = (ZERO, 0.0);
+        for (mesh, friction) in self.friction.iter().enumerate() {
+            let side = usize::from(work.drives[mesh] == Drive::Second);
+            let (share, used) = (&work.shares[mesh], &work.used[mesh]);
+            let lost = each(|i| -(share[i] * used[i]));
+            together = each(|i| together[i] + used[i]);
+            self.sparse.sides[mesh][side].1.add(&lost, &mut work.step);
+            for (other, power) in friction.sides[side].coupling.iter().zip(&work.powers) {
+                coupling = larger(coupling, other.abs() * power / work.powers[mesh]);
+            }
+        }
+        over(&together, |shares| (shares * coupling) * (shares * coupling))
+    }
+
+    /// What the unknowns lack, on the right-hand side.
+    #[inline(always)]
+    fn lack_abreast(&self, work: &mut WorkLanes) {
         self.sparse.base.product(&work.unknown, &mut work.residual);
         for (right, residual) in work.right.iter_mut().zip(&work.residual) {
             *right = each(|i| right[i] - residual[i]);
@@ -531,23 +572,24 @@ impl Flow {
             let lost = each(|i| -(share[i] * torque[i]));
             self.sparse.sides[mesh][side].0.add(&lost, &mut work.right);
         }
-        self.step_abreast(work);
     }
 
     /// Torques and the losses used, from solved unknowns.
     #[inline(always)]
     fn accept_abreast(&self, speeds: &[f64], work: &mut WorkLanes) {
-        let mut total = ZERO;
-        for unknown in &work.unknown {
-            total = each(|i| total[i] + unknown[i].abs());
-        }
-        work.leave_infinite(&total);
         self.torques_abreast(speeds, work);
         let k = self.meshes.len();
         for mesh in 0..k {
             let moves = work.relative[mesh][usize::from(work.drives[mesh] == Drive::Second)] != 0.0;
             let (share, constant, rolling) = (&work.used[mesh], &work.used[k + mesh], &work.rolling[mesh]);
             work.mesh_loss[mesh] = each(|i| share[i] * rolling[i].abs() + if moves { constant[i] } else { 0.0 });
+        }
+        let step = |[total]: [f64; 1], number: &Lane, i: usize| [total + number[i].abs()];
+        let total = gather(work.unknown.iter().chain(&work.mesh_loss), [0.0], step, |[total]| total);
+        if count(|i| !total[i].is_finite()) > 0 {
+            for i in 0..LANES {
+                work.alone[i] |= !total[i].is_finite();
+            }
         }
     }
 
@@ -560,19 +602,15 @@ impl Flow {
         for (port, torque) in self.unknown.iter().zip(&work.unknown[self.rows..]) {
             work.ports[*port] = *torque;
         }
-        let mut largest = ZERO;
         for (mesh, row) in self.meshes.iter().enumerate() {
             let relative = work.relative[mesh];
             let rolling = over(&work.multipliers[row.row], |multiplier| {
                 -multiplier * row.z1 * relative[1]
             });
-            largest = each(|i| larger(largest[i], rolling[i].abs()));
             work.rolling[mesh] = rolling;
         }
-        for (speed, torque) in speeds.iter().zip(&work.ports) {
-            largest = each(|i| larger(largest[i], (speed * torque[i]).abs()));
-        }
-        work.largest = largest;
+        let ports = speeds.iter().copied().zip(&work.ports);
+        work.largest = greatest(work.rolling.iter().map(|rolling| (1.0, rolling)).chain(ports));
     }
 
     /// Factors the small system of the meshes with friction. It is close to identity, so that no rows change places.
@@ -682,20 +720,6 @@ impl WorkLanes {
             });
             self.answer[k + mesh] = each(|i| if proportional(i) { 0.0 } else { loss[i].max(0.0) });
         }
-        let mut total = ZERO;
-        for answer in self.asked.iter().chain(&self.answer[2 * k..]) {
-            total = each(|i| total[i] + answer[i].abs());
-        }
-        self.leave_infinite(&total);
-    }
-
-    #[inline(always)]
-    fn leave_infinite(&mut self, total: &Lane) {
-        if count(|i| !total[i].is_finite()) > 0 {
-            for i in 0..LANES {
-                self.alone[i] |= !total[i].is_finite();
-            }
-        }
     }
 
     /// Leaves the lanes in which the driver of a mesh is not the common one. One that had no torque may get its driver.
@@ -766,7 +790,7 @@ impl WorkLanes {
                 if counts { larger(rate[i], falls[i]) } else { rate[i] }
             });
         }
-        (most, over(&rate, |rate| if rate > 0.0 { rate } else { 1.0 }))
+        (most, over(&rate, |rate| if rate > 0.0 { rate } else { UNKNOWN }))
     }
 
     /// As `secant` of the loop for single points.

@@ -1,16 +1,19 @@
 //! What the same points at the speeds before say of the torques at the next speed.
 
 use super::work::Drive;
-use crate::lanes::{Lane, each};
+use crate::lanes::{LANES, Lane, count, weighted};
 
-/// Speeds that count: a polynomial through four of them.
+/// Steps that count: a polynomial through four of them.
 const DEPTH: usize = 4;
 /// Most that the errors of the torques before may add up to in a guess; a cubic over even steps has 15.
 const SPREAD: f64 = 16.0;
-/// Steps after which a block is solved without a guess once, which measures anew how fast it converges.
+/// Most guessed steps after which a block is solved without a guess once, which measures anew how fast it converges.
 const LONGEST: usize = 256;
+/// A rate at which passes never end: one that could not be measured.
+pub(super) const UNKNOWN: f64 = 1.0;
 
-/// Torques of the points of a block over the speeds before.
+/// Torques of the points of a block over the speeds before. The place of a step is the logarithm of its speed, because losses go
+/// nearly with powers of speed: polynomials over it err less where speeds are low and far apart.
 #[derive(Debug, Clone, Default)]
 pub struct Trail {
     /// Given torques.
@@ -21,11 +24,13 @@ pub struct Trail {
     /// The newest last.
     steps: Vec<Step>,
     guesses: usize,
+    /// Guessed steps before the next measurement: twice as many each time, because the first ones change speed the most.
+    longest: usize,
 }
 
 #[derive(Debug, Clone)]
 struct Step {
-    speed: f64,
+    place: f64,
     /// What the equilibrium was solved for.
     unknowns: Vec<Lane>,
 }
@@ -35,41 +40,42 @@ impl Trail {
     pub fn clear(&mut self) {
         self.steps.clear();
         self.guesses = 0;
+        self.longest = 0;
     }
 
-    /// Weights of the steps for a guess at a speed, for the points with these given torques; empty where there is none.
-    pub(super) fn weights(&mut self, torques: &[Lane], speed: f64) -> Vec<f64> {
-        if self.torques != torques {
+    /// Numbers and weights of the steps for a guess at a place, for the points with these given torques; empty where there is none.
+    #[inline(always)]
+    pub(super) fn weights(&mut self, torques: &[Lane], place: f64) -> Vec<(usize, f64)> {
+        if !same_points(&self.torques, torques) {
             self.clear();
         }
-        if self.guesses == LONGEST || self.rate.is_none() {
+        if self.guesses >= self.longest || self.rate.is_none() {
             return Vec::new();
         }
         (0..self.steps.len())
-            .map(|first| weights(&self.steps[first..], speed))
-            .find(|weights| weights.iter().map(|w| w.abs()).sum::<f64>() <= SPREAD)
+            .map(|first| weights(&self.steps, first, place))
+            .find(|weights| weights.iter().map(|(_, w)| w.abs()).sum::<f64>() <= SPREAD)
             .unwrap_or_default()
     }
 
     /// The guess of one unknown.
     #[inline(always)]
-    pub(super) fn guess(&self, weights: &[f64], place: usize) -> Lane {
-        let used = &self.steps[self.steps.len() - weights.len()..];
-        let mut sum = Lane::ZERO;
-        for (step, weight) in used.iter().zip(weights) {
-            let own = &step.unknowns[place];
-            sum = each(|i| sum[i] + weight * own[i]);
-        }
-        sum
+    pub(super) fn guess(&self, weights: &[(usize, f64)], unknown: usize) -> Lane {
+        weighted(
+            weights
+                .iter()
+                .map(|(step, weight)| (*weight, &self.steps[*step].unknowns[unknown])),
+        )
     }
 
     /// Adds a step; `guessed` says whether it began with a guess.
-    pub(super) fn push(&mut self, given: &[Lane], speed: f64, drives: &[Drive], unknowns: &[Lane], guessed: bool) {
+    pub(super) fn push(&mut self, given: &[Lane], place: f64, drives: &[Drive], unknowns: &[Lane], guessed: bool) {
         if guessed {
             self.guesses += 1;
         } else {
             self.guesses = 0;
-            if self.torques != given || self.drives != drives {
+            self.longest = (2 * self.longest).clamp(1, LONGEST);
+            if !same_points(&self.torques, given) || self.drives != drives {
                 self.steps.clear();
                 self.torques.clear();
                 self.torques.extend_from_slice(given);
@@ -81,25 +87,31 @@ impl Trail {
             self.steps.remove(0)
         } else {
             Step {
-                speed,
+                place,
                 unknowns: Vec::new(),
             }
         };
-        step.speed = speed;
+        step.place = place;
         step.unknowns.clear();
         step.unknowns.extend_from_slice(unknowns);
         self.steps.push(step);
     }
 }
 
-/// Weights of the polynomial through some steps at a speed, after Lagrange.
-fn weights(steps: &[Step], speed: f64) -> Vec<f64> {
-    let factor = |own: &Step, other: &Step| (speed - other.speed) / (own.speed - other.speed);
+/// Whether given torques are the same in all lanes.
+#[inline(always)]
+fn same_points(a: &[Lane], b: &[Lane]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| count(|i| a[i] == b[i]) == LANES as u64)
+}
+
+/// Numbers and weights of the polynomial at a place through the steps from one on, after Lagrange.
+fn weights(steps: &[Step], first: usize, place: f64) -> Vec<(usize, f64)> {
+    let factor = |own: &Step, other: &Step| (place - other.place) / (own.place - other.place);
     let weight = |i: usize| -> f64 {
-        let others = steps.iter().enumerate().filter(|(j, _)| *j != i);
+        let others = steps.iter().enumerate().skip(first).filter(|(j, _)| *j != i);
         others.map(|(_, other)| factor(&steps[i], other)).product()
     };
-    (0..steps.len()).map(weight).collect()
+    (first..steps.len()).map(|i| (i, weight(i))).collect()
 }
 
 #[cfg(test)]
@@ -112,6 +124,7 @@ mod tests {
             trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], &torques, i > 0);
         }
         trail.rate = Some(Lane::all(0.1));
+        trail.longest = LONGEST;
     }
 
     #[test]
@@ -139,6 +152,23 @@ mod tests {
         let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
         follow(&mut trail, &many, |x| x);
         assert!(trail.weights(&[Lane::all(3.0)], 40.0).is_empty());
+    }
+
+    #[test]
+    fn measurements_grow_rarer() {
+        let mut trail = Trail::default();
+        let given = [Lane::all(3.0)];
+        let mut measured = Vec::new();
+        for step in 1..=1000 {
+            let place = f64::from(step);
+            let guessed = !trail.weights(&given, place).is_empty();
+            trail.rate = Some(Lane::all(0.1));
+            trail.push(&given, place, &[Drive::First], &given, guessed);
+            if !guessed {
+                measured.push(step);
+            }
+        }
+        assert_eq!(measured, [1, 3, 6, 11, 20, 37, 70, 135, 264, 521, 778]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The losses of one part in all lanes.
 
-use super::{LANES, Lane, count, each, over};
+use super::{LANES, Lane, Powers, count, each, gather, over};
 use crate::loss::{Loss, MOST_TERMS, Measure, Term, Undefined};
 
 /// The losses of one part in all lanes: what [`Loss`] is for a point.
@@ -14,6 +14,7 @@ pub struct LossLanes {
     terms: usize,
     /// What the model wants again where it notes.
     kept: Lane,
+    powers: Powers,
     alone: [bool; LANES],
     wanted: [bool; LANES],
 }
@@ -26,6 +27,7 @@ impl LossLanes {
         values: [Lane::all(0.0); MOST_TERMS],
         terms: 0,
         kept: Lane::ZERO,
+        powers: Powers::EXACT,
         alone: [false; LANES],
         wanted: [true; LANES],
     };
@@ -60,6 +62,11 @@ impl LossLanes {
     /// What was kept last.
     pub fn kept(&self) -> &Lane {
         &self.kept
+    }
+
+    /// Powers of loads and the like, which may remember those of the speed before.
+    pub fn powers(&mut self) -> &mut Powers {
+        &mut self.powers
     }
 
     /// Makes room for some terms, which are zero.
@@ -107,6 +114,18 @@ impl LossLanes {
         }
     }
 
+    /// Takes over one answer for all lanes, as [`put`](Self::put) for each.
+    pub(crate) fn put_all(&mut self, answer: Result<Loss, Undefined>) {
+        let loss = answer.unwrap_or(Loss::POWERS);
+        self.begin(&loss);
+        for term in (0..MOST_TERMS).filter(|term| loss.value(*term) != 0.0) {
+            self.grow(term);
+            self.values[term] = Lane::all(loss.value(term));
+            self.terms = term + 1;
+        }
+        self.alone = [answer.is_err(); LANES];
+    }
+
     /// Leaves a lane to an evaluation of its point alone.
     pub fn leave(&mut self, lane: usize) {
         self.alone[lane] = true;
@@ -139,22 +158,31 @@ impl LossLanes {
         if term >= self.terms {
             return Lane::ZERO;
         }
-        let factor = match self.measure {
+        let factor = self.factor(speed);
+        over(&self.values[term], |value| value * factor)
+    }
+
+    /// Power per value at a relative speed in rad/s.
+    #[inline(always)]
+    fn factor(&self, speed: f64) -> f64 {
+        match self.measure {
             Measure::Moment => speed.abs(),
             Measure::Power => 1.0,
-        };
-        over(&self.values[term], |value| value * factor)
+        }
+    }
+
+    /// Folds the values of each lane over the terms, from zero.
+    #[inline(always)]
+    fn fold(&self, step: impl Fn(f64, f64) -> f64) -> Lane {
+        let step = |[sum]: [f64; 1], values: &Lane, i: usize| [step(sum, values[i])];
+        gather(self.values[..self.terms].iter(), [0.0], step, |[sum]| sum)
     }
 
     /// Powers of all terms at a relative speed in rad/s. \[W\]
     #[inline(always)]
     pub(crate) fn total_watts(&self, speed: f64) -> Lane {
-        let mut total = Lane::all(0.0);
-        for term in 0..self.terms {
-            let watts = self.watts(term, speed);
-            total = each(|i| total[i] + watts[i]);
-        }
-        total
+        let factor = self.factor(speed);
+        self.fold(|total, value| total + value * factor)
     }
 
     /// Moments about the relative speed in rad/s, which is not zero, from the sums of all terms. \[Nm\]
@@ -168,14 +196,7 @@ impl LossLanes {
 
     #[inline(always)]
     fn sum(&self) -> Lane {
-        let Some((first, others)) = self.values[..self.terms].split_first() else {
-            return Lane::ZERO;
-        };
-        let mut total = *first;
-        for values in others {
-            total = each(|i| total[i] + values[i]);
-        }
-        total
+        self.fold(|sum, value| sum + value)
     }
 
     /// The sums of all terms, in their measure. Leaves the lanes whose answer counts for nothing: negative, no number, or beside a thrust
@@ -183,11 +204,8 @@ impl LossLanes {
     #[inline(always)]
     pub(crate) fn sound_sum(&mut self, untaken: &Lane) -> Lane {
         let sum = self.sum();
-        let mut least = Lane::all(0.0_f64);
-        for values in &self.values[..self.terms] {
-            // What is no number passes by here and stands in the sum.
-            least = each(|i| if values[i] < least[i] { values[i] } else { least[i] });
-        }
+        // What is no number passes by here and stands in the sum.
+        let least = self.fold(|least, value| if value < least { value } else { least });
         // The greatest sum that is a number, or none beside such a thrust; a negative part is no sum.
         let most = |i: usize| if untaken[i] == 0.0 { f64::MAX } else { 0.0 };
         let sound = |i: usize| (least[i] >= 0.0) & (sum[i] <= most(i));

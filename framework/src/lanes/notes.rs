@@ -224,8 +224,15 @@ fn extremes(lane: &Lane, counted: &[bool; LANES]) -> (f64, f64) {
             greatest[i] = if own > greatest[i] { own } else { greatest[i] };
         }
     }
-    (
-        least.into_iter().fold(f64::INFINITY, f64::min),
-        greatest.into_iter().fold(f64::NEG_INFINITY, f64::max),
-    )
+    // Halves, which do not wait for each other.
+    let mut half = WIDE / 2;
+    while half > 0 {
+        for i in 0..half {
+            let other = (least[i + half], greatest[i + half]);
+            least[i] = if other.0 < least[i] { other.0 } else { least[i] };
+            greatest[i] = if other.1 > greatest[i] { other.1 } else { greatest[i] };
+        }
+        half /= 2;
+    }
+    (least[0], greatest[0])
 }

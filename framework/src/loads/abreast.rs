@@ -1,9 +1,10 @@
 //! Loads of all supports in the lanes of a block.
 
 use super::SupportLoad;
-use super::shaft_loads::{Component, ShaftLoads};
+use super::shaft_loads::ShaftLoads;
+use super::statics::Reaction;
 use super::thrust::Taking;
-use crate::lanes::{Lane, each, over};
+use crate::lanes::{Lane, each, gather, is_even, over};
 
 /// Loads of one support in all lanes: what [`SupportLoad`] is for a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +38,13 @@ impl LoadLanes {
         }
     }
 
+    /// Whether all lanes have the same load, as beside a gear that idles.
+    #[inline(always)]
+    pub(crate) fn is_even(&self) -> bool {
+        let own = [&self.radial, &self.axial, &self.tilting, &self.untaken];
+        own.into_iter().all(is_even)
+    }
+
     /// Replaces the load of one lane.
     pub fn set(&mut self, i: usize, load: SupportLoad) {
         self.radial[i] = load.radial;
@@ -46,34 +54,34 @@ impl LoadLanes {
     }
 }
 
-impl Component {
-    /// The component in all lanes.
-    #[inline(always)]
-    fn sum(&self, tangential: &[Lane], speeds: &[f64]) -> Lane {
-        let mut sum = Lane::all(self.always);
-        for (mesh, signed, magnitude) in &self.meshes {
-            let force = &tangential[*mesh];
-            sum = if *magnitude == 0.0 {
-                each(|i| sum[i] + force[i] * signed)
-            } else {
-                each(|i| sum[i] + force[i] * signed + force[i].abs() * magnitude)
-            };
-        }
-        for (carrier, part) in &self.planets {
-            let factor = speeds[*carrier].powi(2);
-            sum = over(&sum, |x| x + factor * part);
-        }
-        sum
-    }
-}
-
+/// The length of a force or couple on a support.
 #[inline(always)]
-fn length(y: &Lane, z: &Lane) -> Lane {
-    each(|i| (y[i] * y[i] + z[i] * z[i]).sqrt())
+fn length(
+    start: [f64; 2],
+    meshes: &[(usize, [Reaction; 2])],
+    part: impl Fn(&Reaction) -> [f64; 2],
+    tangential: &[Lane],
+) -> Lane {
+    let terms = meshes
+        .iter()
+        .map(|(mesh, [ahead, back])| (&tangential[*mesh], part(ahead), part(back)));
+    gather(
+        terms,
+        start,
+        #[inline(always)]
+        |[y, z], (forces, ahead, back), i| {
+            let force = forces[i];
+            let own = |k: usize| force * if force < 0.0 { back[k] } else { ahead[k] };
+            [y + own(0), z + own(1)]
+        },
+        #[inline(always)]
+        |[y, z]| (y * y + z * z).sqrt(),
+    )
 }
 
 impl ShaftLoads {
-    /// As [`ShaftLoads::evaluate`] for the tangential forces of a block; to be called within [`crate::lanes::wide`].
+    /// As [`ShaftLoads::evaluate`] for the tangential forces of a block; to be called within [`crate::lanes::wide`]. What is never
+    /// anything but zero is not written: the loads are to be [`LoadLanes::NONE`] before the first call.
     #[inline(always)]
     pub(crate) fn evaluate_abreast(
         &self,
@@ -83,36 +91,34 @@ impl ShaftLoads {
         loads: &mut [LoadLanes],
     ) {
         for (cases, load) in self.cases.iter().zip(&mut *loads) {
-            let [y, z, couple_y, couple_z] = &cases.components;
-            load.radial = length(&y.sum(tangential, speeds), &z.sum(tangential, speeds));
+            let start = cases.torqueless(|member| speeds[member]);
+            load.radial = length(start.force, &cases.meshes, |reaction| reaction.force, tangential);
             // Few supports take a couple.
-            load.tilting = if couple_y.is_nothing() && couple_z.is_nothing() {
-                Lane::all(0.0)
-            } else {
-                length(&couple_y.sum(tangential, speeds), &couple_z.sum(tangential, speeds))
-            };
-            load.axial = Lane::all(0.0);
-            load.untaken = Lane::all(0.0);
+            if cases.couples {
+                load.tilting = length(start.couple, &cases.meshes, |reaction| reaction.couple, tangential);
+            }
         }
         let (passed, sizes) = passed.split_at_mut(self.order.len());
         // Without carriers nothing is ever passed on.
-        if self.order.iter().any(|member| member.carrier.is_some()) {
-            passed.fill(Lane::all(0.0));
-            sizes.fill(Lane::all(0.0));
+        let carried = self.order.iter().any(|member| member.carrier.is_some());
+        if carried {
+            passed.fill(Lane::ZERO);
+            sizes.fill(Lane::ZERO);
         }
         for (place, member) in self.order.iter().enumerate() {
-            let mut thrust = over(&passed[place], |passed| member.always + passed);
-            let mut scale = over(&sizes[place], |size| member.always.abs() + size);
-            for (mesh, factor) in &member.meshes {
-                let force = &tangential[*mesh];
-                thrust = each(|i| thrust[i] + factor * force[i]);
-                scale = each(|i| scale[i] + (factor * force[i]).abs());
-            }
-            if let (true, Some((carrier, copies))) = (member.passes, member.carrier) {
-                passed[carrier] = each(|i| passed[carrier][i] + thrust[i] * copies);
-                sizes[carrier] = each(|i| sizes[carrier][i] + scale[i] * copies);
-                continue;
-            }
+            let forces = member.meshes.iter().map(|(mesh, factor)| (*factor, &tangential[*mesh]));
+            let sizes_of = |[sum]: [f64; 1], (factor, force): (f64, &Lane), i: usize| [sum + (factor * force[i]).abs()];
+            let scale = gather(forces.clone(), [member.always.abs()], sizes_of, |[sum]| sum);
+            let own = |[sum]: [f64; 1], (factor, force): (f64, &Lane), i: usize| [sum + factor * force[i]];
+            let thrust = gather(forces, [member.always], own, |[sum]| sum);
+            let (thrust, scale) = if carried {
+                (
+                    each(|i| thrust[i] + passed[place][i]),
+                    each(|i| scale[i] + sizes[place][i]),
+                )
+            } else {
+                (thrust, scale)
+            };
             let untaken = member.taking.share_abreast(&thrust, &scale, loads);
             if let Some((carrier, copies)) = member.carrier {
                 passed[carrier] = each(|i| passed[carrier][i] + (thrust[i] - untaken[i]) * copies);
@@ -123,9 +129,18 @@ impl ShaftLoads {
 }
 
 impl Taking {
-    /// As [`Taking::share`] in all lanes.
+    /// As [`Taking::share`] in all lanes, where it writes the axial loads anew.
     #[inline(always)]
     fn share_abreast(&self, thrust: &Lane, scale: &Lane, loads: &mut [LoadLanes]) -> Lane {
+        let small = |rest: f64, scale: f64| if rest.abs() <= 1e-9 * scale { 0.0 } else { rest };
+        let simple = self.pair.is_none() && self.springs.is_empty() && self.takers[0] == self.takers[1];
+        if let (true, [(place, share)]) = (simple, &self.takers[0][..]) {
+            loads[*place].axial = each(|i| small(thrust[i], scale[i]).abs() * share);
+            return Lane::ZERO;
+        }
+        for place in &self.supports {
+            loads[*place].axial = Lane::ZERO;
+        }
         if let Some([(r, induced_r), (l, induced_l)]) = self.pair {
             let (s_r, s_l) = (
                 over(&loads[r].radial, |radial| induced_r * radial),
@@ -134,17 +149,17 @@ impl Taking {
             let spring = self.springs.iter().map(|s| s.1).sum::<f64>();
             let thrust = over(thrust, |thrust| thrust + spring);
             let right = |i: usize| thrust[i] + s_l[i] >= s_r[i];
-            loads[r].axial = each(|i| loads[r].axial[i] + if right(i) { thrust[i] + s_l[i] } else { s_r[i] });
-            loads[l].axial = each(|i| loads[l].axial[i] + if right(i) { s_l[i] } else { s_r[i] - thrust[i] });
-            return Lane::all(0.0);
+            loads[r].axial = each(|i| if right(i) { thrust[i] + s_l[i] } else { s_r[i] });
+            loads[l].axial = each(|i| if right(i) { s_l[i] } else { s_r[i] - thrust[i] });
+            return Lane::ZERO;
         }
         let mut rest = *thrust;
         for (place, spring) in &self.springs {
             loads[*place].axial = over(&loads[*place].axial, |axial| axial + spring.abs());
             rest = over(&rest, |rest| rest + spring);
         }
-        let rest = each(|i| if rest[i].abs() <= 1e-9 * scale[i] { 0.0 } else { rest[i] });
-        let mut untaken = Lane::all(0.0);
+        let rest = each(|i| small(rest[i], scale[i]));
+        let mut untaken = Lane::ZERO;
         for (right, takers) in self.takers.iter().enumerate() {
             let sign = if right == 1 { 1.0 } else { -1.0 };
             let own = over(&rest, |rest| if rest * sign > 0.0 { rest } else { 0.0 });

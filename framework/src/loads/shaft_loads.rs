@@ -11,7 +11,7 @@ pub struct ShaftLoads {
     pub(super) supports: usize,
     /// Reactions by support.
     pub(super) cases: Vec<Cases>,
-    /// Members from the carried to the carrying.
+    /// Members from the carried to the carrying, without those whose thrust passes through their supports.
     pub(super) order: Vec<Axially>,
 }
 
@@ -20,55 +20,32 @@ pub struct ShaftLoads {
 pub(super) struct Cases {
     /// To what always acts.
     always: Reaction,
-    /// To one newton of the tangential force of a mesh, and of its magnitude.
-    meshes: Vec<(usize, [Reaction; 2])>,
+    /// To one newton of the tangential force of a mesh: of a positive one, and of a negative one.
+    pub meshes: Vec<(usize, [Reaction; 2])>,
     /// To the centrifugal force of a planet body per squared speed of its carrier.
     planets: Vec<(usize, Reaction)>,
-    /// The same for force and couple in y and z each, what is nothing left out: meshes with signed and magnitude, carriers.
-    pub components: [Component; 4],
-}
-
-/// One component of the reactions of a support.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Component {
-    pub always: f64,
-    pub meshes: Vec<(usize, f64, f64)>,
-    pub planets: Vec<(usize, f64)>,
-}
-
-impl Component {
-    /// True where there is never anything.
-    pub fn is_nothing(&self) -> bool {
-        self.always == 0.0 && self.meshes.is_empty() && self.planets.is_empty()
-    }
+    /// Whether there is ever a couple.
+    pub couples: bool,
 }
 
 impl Cases {
     fn new(reactions: &[Reaction], meshes: usize, carriers: &[usize]) -> Self {
         let nothing = Reaction::default();
         let (pairs, planets) = reactions[1..].split_at(2 * meshes);
-        let part = |r: &Reaction, k: usize| if k < 2 { r.force[k] } else { r.couple[k - 2] };
-        let component = |k: usize| Component {
-            always: part(&reactions[0], k),
-            meshes: pairs
-                .chunks_exact(2)
-                .enumerate()
-                .map(|(mesh, pair)| (mesh, part(&pair[0], k), part(&pair[1], k)))
-                .filter(|(_, signed, magnitude)| *signed != 0.0 || *magnitude != 0.0)
-                .collect(),
-            planets: carriers
-                .iter()
-                .zip(planets)
-                .map(|(carrier, reaction)| (*carrier, part(reaction, k)))
-                .filter(|(_, part)| *part != 0.0)
-                .collect(),
+        // What hangs on the magnitude of a force adds to what hangs on the force, or takes from it.
+        let of_senses = |pair: &[Reaction]| {
+            [1.0, -1.0].map(|sense| {
+                let mut sum = pair[0];
+                add(&mut sum, &pair[1], sense);
+                sum
+            })
         };
         Self {
-            components: std::array::from_fn(component),
+            couples: reactions.iter().any(|reaction| reaction.couple != [0.0; 2]),
             always: reactions[0],
             meshes: pairs
                 .chunks_exact(2)
-                .map(|pair| [pair[0], pair[1]])
+                .map(of_senses)
                 .enumerate()
                 .filter(|(_, pair)| *pair != [nothing; 2])
                 .collect(),
@@ -81,14 +58,20 @@ impl Cases {
         }
     }
 
-    fn sum(&self, tangential: &[f64], speed: impl Fn(usize) -> f64) -> Reaction {
+    /// What does not hang on torque, at the speeds of all members.
+    pub fn torqueless(&self, speed: impl Fn(usize) -> f64) -> Reaction {
         let mut sum = self.always;
-        for (mesh, [signed, magnitude]) in &self.meshes {
-            add(&mut sum, signed, tangential[*mesh]);
-            add(&mut sum, magnitude, tangential[*mesh].abs());
-        }
         for (carrier, reaction) in &self.planets {
             add(&mut sum, reaction, speed(*carrier).powi(2));
+        }
+        sum
+    }
+
+    fn sum(&self, tangential: &[f64], speed: impl Fn(usize) -> f64) -> Reaction {
+        let mut sum = self.torqueless(speed);
+        for (mesh, senses) in &self.meshes {
+            let force = tangential[*mesh];
+            add(&mut sum, &senses[usize::from(force < 0.0)], force);
         }
         sum
     }
@@ -101,9 +84,7 @@ pub(super) struct Axially {
     /// Mesh and thrust per newton of its tangential force.
     pub meshes: Vec<(usize, f64)>,
     pub taking: Taking,
-    /// True where one support without thrust face lets the thrust through to the member that carries it.
-    pub passes: bool,
-    /// Place in the order of the member that takes a thrust which passes through, with the number of copies.
+    /// Place in the order of the member that takes the thrust of the supports, with the number of copies.
     pub carrier: Option<(usize, f64)>,
 }
 
@@ -218,6 +199,7 @@ impl ShaftLoads {
             .zip(takings)
             .map(|(&m, taking)| axially(layout, m, &own[m], taking, &order))
             .collect();
+        let order = passed_on(order);
         Ok(Self {
             supports: layout.supports.len(),
             cases: cases
@@ -255,17 +237,13 @@ impl ShaftLoads {
         passed.fill(0.0);
         sizes.fill(0.0);
         for (place, member) in self.order.iter().enumerate() {
-            let mut thrust = member.always + passed[place];
-            let mut scale = member.always.abs() + sizes[place];
+            let (mut thrust, mut scale) = (member.always, member.always.abs());
             for (mesh, factor) in &member.meshes {
                 thrust += factor * tangential[*mesh];
                 scale += (factor * tangential[*mesh]).abs();
             }
-            if let (true, Some((carrier, copies))) = (member.passes, member.carrier) {
-                passed[carrier] += thrust * copies;
-                sizes[carrier] += scale * copies;
-                continue;
-            }
+            thrust += passed[place];
+            scale += sizes[place];
             let untaken = member.taking.share(thrust, scale, loads);
             // However the supports share it among themselves, the net thrust goes to the member behind them.
             if let Some((carrier, copies)) = member.carrier {
@@ -375,7 +353,14 @@ fn solve(
     reactions
 }
 
-fn axially(layout: &Layout, m: usize, own: &[(usize, SupportLayout)], taking: Taking, order: &[usize]) -> Axially {
+/// What acts on one member along its axis; true where no support takes any, so that it passes through to the member that carries it.
+fn axially(
+    layout: &Layout,
+    m: usize,
+    own: &[(usize, SupportLayout)],
+    taking: Taking,
+    order: &[usize],
+) -> (Axially, bool) {
     let mut meshes = Vec::new();
     for (i, mesh) in layout.meshes.iter().enumerate() {
         for gear in 0..2 {
@@ -392,11 +377,47 @@ fn axially(layout: &Layout, m: usize, own: &[(usize, SupportLayout)], taking: Ta
         && own
             .iter()
             .all(|(_, s)| s.axial == crate::attach::Axial::None && s.spring == 0.0);
-    Axially {
+    let axially = Axially {
         always: layout.members[m].forces.iter().map(|f| f.1[0]).sum(),
         meshes,
         taking,
-        passes,
         carrier: carrier.and_then(place).map(|place| (place, copies)),
+    };
+    (axially, passes)
+}
+
+/// Gives what passes through to the carrying members, and leaves those out through which it passes.
+fn passed_on(mut order: Vec<(Axially, bool)>) -> Vec<Axially> {
+    for place in 0..order.len() {
+        let (member, passes) = &mut order[place];
+        let (true, Some((carrier, copies))) = (*passes, member.carrier) else {
+            continue;
+        };
+        let (always, meshes) = (member.always, std::mem::take(&mut member.meshes));
+        let carrier = &mut order[carrier].0;
+        carrier.always += always * copies;
+        carrier
+            .meshes
+            .extend(meshes.into_iter().map(|(mesh, factor)| (mesh, factor * copies)));
     }
+    let passing: Vec<Option<(usize, f64)>> = order
+        .iter()
+        .map(|(member, passes)| member.carrier.filter(|_| *passes))
+        .collect();
+    let left: Vec<usize> = (0..order.len()).filter(|place| passing[*place].is_none()).collect();
+    let members = order.into_iter().map(|(mut member, _)| {
+        // What a member gives to one that lets it through goes on to who carries that.
+        while let Some((carrier, copies)) = member.carrier {
+            let Some((behind, further)) = passing[carrier] else {
+                break;
+            };
+            member.carrier = Some((behind, copies * further));
+        }
+        member.carrier = member
+            .carrier
+            .and_then(|(carrier, copies)| Some((left.iter().position(|place| *place == carrier)?, copies)));
+        member
+    });
+    let members = members.zip(&passing).filter(|(_, passes)| passes.is_none());
+    members.map(|(member, _)| member).collect()
 }

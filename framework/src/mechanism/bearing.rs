@@ -32,6 +32,11 @@ pub trait BearingModel: Send + Sync {
         one_by_one(self, at, loads, losses);
     }
 
+    /// False where no limit or observed quantity hangs on the load: [`note`](Self::note) is then asked once for many points.
+    fn notes_hang_on_load(&self) -> bool {
+        true
+    }
+
     /// Notes what [`loss`](Self::loss) notes at these loads.
     fn note(&self, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
         for lane in (0..LANES).filter(|lane| notes.wanted(*lane)) {
@@ -351,7 +356,14 @@ impl Mechanism for Bearing {
             let _ = of(lane, notes);
         };
         let together = |notes: LaneNotes<'_>| model.note(&without.with(|to| to.notes = notes.all()), &loads, notes);
-        (!same_notes(notes, single, together)).then_some("`note` notes otherwise than `loss`")
+        let same = same_notes(notes, single, together);
+        let once = |notes: LaneNotes<'_>| {
+            model.note(&without.with(|to| to.notes = notes.all()), &LoadLanes::NONE, notes);
+        };
+        if !model.notes_hang_on_load() && !same_notes(notes, single, once) {
+            return Some("what it notes hangs on the load");
+        }
+        (!same).then_some("`note` notes otherwise than `loss`")
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
         Arc::new(law)
@@ -384,6 +396,10 @@ impl Component for Bearing {
     fn losses(model: &Self::Model, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) -> bool {
         model.losses(at, loads, losses);
         true
+    }
+
+    fn notes_hang_on_load(model: &Self::Model) -> bool {
+        model.notes_hang_on_load()
     }
 
     fn note(model: &Self::Model, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::context;
 use crate::generic::Scalar;
-use crate::lanes::{Lane, LaneNotes};
+use crate::lanes::{Lane, LaneNotes, Powers};
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::mean_friction::MeanFrictionAt;
 use crate::mechanism::{Mechanism, NoPart, Quantity};
@@ -60,8 +60,9 @@ pub trait WeightedFriction: Send + Sync {
     /// The sum for one line load; no number where the nodes have to be asked.
     fn sum(&self, path: &PathAt<'_>) -> f64;
 
-    /// The same for several line loads (N/m) side by side, to the bit; that of `path` and its `mean` mean nothing.
-    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane) -> Lane;
+    /// The same for several line loads (N/m) side by side, to the bit but for powers that are remembered; that of `path` and its
+    /// `mean` mean nothing.
+    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane, powers: &mut Powers) -> Lane;
 
     /// Notes what the law notes along the path. False where that takes the coefficients at all nodes.
     fn note(&self, _path: &PathAt<'_>, _line_loads: &Lane, _notes: LaneNotes<'_>) -> bool {

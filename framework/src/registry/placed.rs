@@ -61,6 +61,10 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     fn note(&self, _state: &State<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {
         false
     }
+    /// False where [`Placed::note`] notes the same at all loads.
+    fn notes_hang_on_load(&self) -> bool {
+        true
+    }
     /// What the model sees at a state, one copy.
     fn readings(&self, state: &State<'_>) -> Vec<Reading>;
     /// The two members that feel the reaction; absent for the housing.
@@ -96,6 +100,9 @@ impl<C: Component> Placed for PlacedAs<C> {
     fn note(&self, state: &State<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);
         C::note(&self.model, &C::at(&self.part, site, notes.all()), loads, notes)
+    }
+    fn notes_hang_on_load(&self) -> bool {
+        C::notes_hang_on_load(&self.model)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);

@@ -367,7 +367,8 @@ impl BearingModel for Model {
         wide(
             #[inline(always)]
             || {
-                let (g_rr, g_sl) = self.variables.lanes(&loads.radial, &loads.axial, self.blend);
+                let powers = losses.powers();
+                let (g_rr, g_sl) = self.variables.lanes(&loads.radial, &loads.axial, self.blend, powers);
                 losses.begin(&Loss::MOMENTS);
                 losses.add(&ROLLING, &over(&g_rr, |g| (moments.rolling * g).nmm_in_nm()));
                 losses.add(&SLIDING, &over(&g_sl, |g| (moments.mu_sl * g).nmm_in_nm()));
@@ -387,8 +388,11 @@ impl BearingModel for Model {
         );
     }
 
+    fn notes_hang_on_load(&self) -> bool {
+        false
+    }
+
     fn note(&self, at: &BearingAt<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) {
-        // Nothing that is noted hangs on the load.
         let n = at.speed.abs().rpm();
         self.check_speeds(at, n);
         if n == 0.0 {

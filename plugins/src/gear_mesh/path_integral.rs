@@ -222,50 +222,58 @@ impl GearMeshModel for Integral {
 
     fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
         let speed = at.speed.abs();
-        let sliding = self.in_lanes(at, torques, |path, forces, line_loads| {
-            let sums = self.short.as_ref()?.sums(path, line_loads);
-            losses.keep(&sums);
-            Some(wide(
-                #[inline(always)]
-                || each(|i| sums[i] * forces[i] * speed),
-            ))
-        });
-        let Some(sliding) = sliding else {
-            return one_by_one(self, at, torques, losses);
-        };
-        losses.begin(&Loss::POWERS);
-        losses.add(&SLIDING, &sliding);
-        if count(|i| sliding[i].is_nan()) > 0 {
-            for (lane, sliding) in sliding.iter().enumerate() {
-                if sliding.is_nan() {
-                    losses.leave(lane);
+        let answered = self.in_lanes(
+            at,
+            torques,
+            #[inline(always)]
+            |path, forces, line_loads| {
+                let sums = self.short.as_ref()?.sums(path, line_loads, losses.powers());
+                let sliding = each(|i| sums[i] * forces[i] * speed);
+                losses.keep(&sums);
+                losses.begin(&Loss::POWERS);
+                losses.add(&SLIDING, &sliding);
+                if count(|i| sliding[i].is_nan()) > 0 {
+                    for (lane, sliding) in sliding.iter().enumerate() {
+                        if sliding.is_nan() {
+                            losses.leave(lane);
+                        }
+                    }
                 }
-            }
+                Some(())
+            },
+        );
+        if answered.is_none() {
+            one_by_one(self, at, torques, losses);
         }
     }
 
     fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &LossLanes, notes: LaneNotes<'_>) {
-        let noted = self.in_lanes(at, torques, |path, _, line_loads| {
-            let short = self.short.as_ref()?;
-            let path = path.with(|to| to.notes = notes.all()).nested(&self.friction);
-            let own = notes.of(self.friction.notes);
-            if !short.note(&path, line_loads, own) {
-                let noted = self.path.with_lanes(|mu| {
-                    let wide = self.friction.along_lanes(&path, line_loads, mu);
-                    wide.then(|| self.friction.note_lanes(&path, line_loads, mu, own))
-                });
-                noted?;
-            }
-            let sums = losses.kept();
-            if let Some((least, greatest)) = notes.range(sums) {
-                notes.observe_range(&MU_MEAN, least / self.weight, greatest / self.weight);
-            } else {
-                let mean = over(sums, |sum| sum / self.weight);
-                notes.observe(&MU_MEAN, &mean, &mean);
-            }
-            at.observe(&LOSS_FACTOR, self.loss_factor);
-            Some(())
-        });
+        let noted = self.in_lanes(
+            at,
+            torques,
+            #[inline(always)]
+            |path, _, line_loads| {
+                let short = self.short.as_ref()?;
+                let path = path.with(|to| to.notes = notes.all()).nested(&self.friction);
+                let own = notes.of(self.friction.notes);
+                if !short.note(&path, line_loads, own) {
+                    let noted = self.path.with_lanes(|mu| {
+                        let wide = self.friction.along_lanes(&path, line_loads, mu);
+                        wide.then(|| self.friction.note_lanes(&path, line_loads, mu, own))
+                    });
+                    noted?;
+                }
+                let sums = losses.kept();
+                if let Some((least, greatest)) = notes.range(sums) {
+                    notes.observe_range(&MU_MEAN, least / self.weight, greatest / self.weight);
+                } else {
+                    let mean = over(sums, |sum| sum / self.weight);
+                    notes.observe(&MU_MEAN, &mean, &mean);
+                }
+                at.observe(&LOSS_FACTOR, self.loss_factor);
+                Some(())
+            },
+        );
         if noted.is_none() {
             note_one_by_one(self, at, torques, notes);
         }
@@ -284,20 +292,19 @@ impl Integral {
             return None;
         }
         let pair = &at.part.pair;
-        let (forces, line_loads, none) = wide(
-            #[inline(always)]
-            || {
-                let forces = over(torques, |torque| pair.normal_force(torque));
-                let line_loads = over(&forces, |force| pair.line_load(force));
-                (forces, line_loads, count(|i| torques[i] == 0.0))
-            },
-        );
-        if none > 0 {
-            return None;
-        }
         let mean = MeanFrictionAt::of(at, Notes::MUTED);
         let path = self.path.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
-        then(&path, &forces, &line_loads)
+        wide(
+            #[inline(always)]
+            || {
+                if count(|i| torques[i] == 0.0) > 0 {
+                    return None;
+                }
+                let forces = over(torques, |torque| pair.normal_force(torque));
+                let line_loads = over(&forces, |force| pair.line_load(force));
+                then(&path, &forces, &line_loads)
+            },
+        )
     }
 }
 

@@ -10,7 +10,7 @@ mod series;
 
 use std::f64::consts::LOG10_E;
 
-use gearloss_framework::lanes::{Lane, LaneNotes, each, exp, ln, over, wide};
+use gearloss_framework::lanes::{Lane, LaneNotes, Powers, each, exp, ln, over, wide};
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
@@ -252,11 +252,11 @@ impl WeightedFriction for Weighted {
         let unit = unit_pressure(path.line_load, path.modulus);
         let along = self.common(path);
         along.map_or(f64::NAN, |along| {
-            self.series.at(-along.fall(unit)) * exp(along.common(unit))
+            self.series.at(-along.fall(unit)) * power(unit) * along.factor()
         })
     }
 
-    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane) -> Lane {
+    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane, powers: &mut Powers) -> Lane {
         let Some(along) = self.common(path) else {
             return Lane::all(f64::NAN);
         };
@@ -264,14 +264,12 @@ impl WeightedFriction for Weighted {
             #[inline(always)]
             || {
                 let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-                let commons = over(
-                    &units,
-                    #[inline(always)]
-                    |unit| along.common(unit),
+                let raised = powers.of(0, &units, B[1], power);
+                let (sums, factor) = (
+                    self.series.lanes(&over(&units, |unit| -along.fall(unit))),
+                    along.factor(),
                 );
-                let factors = over(&commons, exp);
-                let sums = self.series.lanes(&over(&units, |unit| -along.fall(unit)));
-                each(|i| sums[i] * factors[i])
+                each(|i| sums[i] * raised[i] * factor)
             },
         )
     }
@@ -283,7 +281,7 @@ impl WeightedFriction for Weighted {
         let [low, high] = [range.0, range.1].map(|line_load| unit_pressure(line_load, path.modulus));
         let at = |unit: f64| -along.fall(unit);
         let (seen, greatest_seen) = notes.seen(&MU);
-        let (ln_least, ln_greatest) = (seen.ln() + ROUNDING, greatest_seen.ln() - ROUNDING);
+        let (ln_least, ln_greatest) = (ln(seen) + ROUNDING, ln(greatest_seen) - ROUNDING);
         // Where friction was seen above and below already, a path adds nothing. Mostly bounds for all loads together tell that: what is
         // common rises with load, and the rest falls.
         let (Some([below, _]), Some([_, above])) = (self.series.bounds(at(high)), self.series.bounds(at(low))) else {
@@ -378,6 +376,12 @@ fn unit_pressure(line_load: f64, modulus: f64) -> f64 {
     (line_load * (modulus / (2.0 * std::f64::consts::PI))).sqrt() * 1e-9
 }
 
+/// What the unit of pressure adds as a factor.
+#[inline(always)]
+fn power(unit: f64) -> f64 {
+    exp(B[1] * ln(unit))
+}
+
 /// What a node adds to the exponent.
 #[inline(always)]
 fn geometry(node: &PathNode) -> f64 {
@@ -394,9 +398,9 @@ struct Common {
 impl Common {
     fn new(path: &PathAt<'_>, s: f64, nu0: f64) -> Self {
         Self {
-            rough: B[0] + B[8] * s.exp(),
-            speed: B[5] * path.speed.ln(),
-            ln_nu0: nu0.ln(),
+            rough: B[0] + B[8] * exp(s),
+            speed: B[5] * ln(path.speed),
+            ln_nu0: ln(nu0),
         }
     }
 
@@ -404,6 +408,11 @@ impl Common {
     #[inline(always)]
     fn common(&self, unit: f64) -> f64 {
         self.rough + B[1] * ln(unit) + self.speed + B[6] * self.ln_nu0
+    }
+
+    /// The same as a factor without what [`power`] has.
+    fn factor(&self) -> f64 {
+        exp(self.rough + self.speed + B[6] * self.ln_nu0)
     }
 
     /// -P lg nu0 per slide-roll ratio and `root_load`.

@@ -1,6 +1,6 @@
 //! Constants of the SKF model by kind and series of a bearing.
 
-use gearloss_framework::lanes::{LANES, Lane, count, cube_root, each, exp, ln, over, sine};
+use gearloss_framework::lanes::{LANES, Lane, Powers, count, cube_root, each, exp, ln, sine};
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart};
 
 /// What is missing, and what the user can write.
@@ -347,19 +347,30 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
     })
 }
 
-/// G_rr and G_sl of deep groove ball bearings under radial load: one logarithm for both powers; no load has minus infinity,
-/// whose exponential is zero.
+/// A power of a load; that of no load is zero.
+#[inline(always)]
+fn power(load: f64, exponent: f64) -> f64 {
+    exp(exponent * ln(load))
+}
+
+/// Powers of the load in G_rr, in G_sl under radial load alone, and of the axial load over C0 in the angle of contact.
+const ROLLING: f64 = 0.54;
+const SLIDING: f64 = 5.0 / 3.0;
+const ANGLE: f64 = 0.24;
+/// The cube root in G_sl under both loads.
+const CUBE_ROOT: f64 = 1.0 / 3.0;
+
+/// G_rr and G_sl of deep groove ball bearings under radial load.
 fn radial(fr: f64, rolling: f64, sliding: f64) -> (f64, f64) {
-    let ln = ln(fr);
-    (radial_rolling(ln, rolling), radial_sliding(ln, sliding))
+    (rolling * power(fr, ROLLING), sliding * power(fr, SLIDING))
 }
 
 /// The same under both loads.
 fn combined(fr: f64, fa: f64, c0: f64, (rolling, r2): (f64, f64), sliding: (f64, f64)) -> (f64, f64) {
-    let pushed = fa / sine(angle(ln(share(fa, c0))));
+    let pushed = fa / sine(angle(power(share(fa, c0), ANGLE)));
     (
-        radial_rolling(ln(fr + r2 * pushed), rolling),
-        combined_sliding(fr, fa, pushed, sliding),
+        rolling * power(fr + r2 * pushed, ROLLING),
+        sliding.0 * cube_root(cubed_sliding(fr, fa, pushed, sliding.1)),
     )
 }
 
@@ -375,26 +386,17 @@ fn is_nothing(share: f64) -> bool {
     share < f64::MIN_POSITIVE
 }
 
+/// The angle of contact from its power of the axial load over C0. \[rad\]
 #[inline(always)]
-fn radial_rolling(ln_load: f64, rolling: f64) -> f64 {
-    rolling * exp(0.54 * ln_load)
+fn angle(power: f64) -> f64 {
+    (24.6 * power).to_radians()
 }
 
+/// The cube of G_sl under both loads, without its factor.
 #[inline(always)]
-fn radial_sliding(ln_load: f64, sliding: f64) -> f64 {
-    sliding * exp(5.0 / 3.0 * ln_load)
-}
-
-/// The angle of contact from the logarithm of the axial load over C0. \[rad\]
-#[inline(always)]
-fn angle(ln_ratio: f64) -> f64 {
-    (24.6 * exp(0.24 * ln_ratio)).to_radians()
-}
-
-#[inline(always)]
-fn combined_sliding(fr: f64, fa: f64, pushed: f64, (sliding, s2): (f64, f64)) -> f64 {
+fn cubed_sliding(fr: f64, fa: f64, pushed: f64, s2: f64) -> f64 {
     let fr_2 = fr * fr;
-    sliding * cube_root(fr_2 * fr_2 * fr + s2 * (fa * fa * fa) * pushed)
+    fr_2 * fr_2 * fr + s2 * (fa * fa * fa) * pushed
 }
 
 /// From the radial to the combined form, without a step, for a share from zero to one.
@@ -413,9 +415,9 @@ impl Variables {
         matches!(self, Self::DeepGroove { .. })
     }
 
-    /// As [`Variables::at`] in all lanes, for kinds that have them.
+    /// As [`Variables::at`] in all lanes, for kinds that have them, with powers that may be remembered.
     #[inline(always)]
-    pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>) -> (Lane, Lane) {
+    pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>, powers: &mut Powers) -> (Lane, Lane) {
         let Self::DeepGroove {
             rolling,
             r2,
@@ -427,23 +429,49 @@ impl Variables {
             return (Lane::ZERO, Lane::ZERO);
         };
         let (mut g_rr, mut g_sl) = (Lane::ZERO, Lane::ZERO);
-        let ratio = over(fa, |fa| share(fa, c0));
-        let unpushed = count(|i| is_nothing(ratio[i]));
+        let unpushed = count(|i| is_nothing(share(fa[i], c0)));
         // Loops of one function each: their steps wait for each other in a lane, and need not in others.
         if unpushed > 0 || blend.is_some() {
-            let ln_fr = over(fr, ln);
-            g_rr = over(&ln_fr, |ln| radial_rolling(ln, rolling));
-            g_sl = over(&ln_fr, |ln| radial_sliding(ln, sliding[0]));
+            g_rr = powers.of(
+                0,
+                fr,
+                ROLLING,
+                #[inline(always)]
+                |fr| rolling * power(fr, ROLLING),
+            );
+            g_sl = powers.of(
+                1,
+                fr,
+                SLIDING,
+                #[inline(always)]
+                |fr| sliding[0] * power(fr, SLIDING),
+            );
         }
         if unpushed == LANES as u64 {
             return (g_rr, g_sl);
         }
-        let ln_ratio = over(&ratio, ln);
-        let angle = over(&ln_ratio, angle);
-        let pushed = each(|i| fa[i] / sine(angle[i]));
-        let ln_both = each(|i| ln(fr[i] + r2 * pushed[i]));
-        let both_rr = over(&ln_both, |ln| radial_rolling(ln, rolling));
-        let both_sl = each(|i| combined_sliding(fr[i], fa[i], pushed[i], (sliding[1], s2)));
+        let angles = powers.of(
+            2,
+            fa,
+            ANGLE,
+            #[inline(always)]
+            |fa| angle(power(share(fa, c0), ANGLE)),
+        );
+        let pushed = each(|i| fa[i] / sine(angles[i]));
+        let both_rr = powers.of(
+            3,
+            &each(|i| fr[i] + r2 * pushed[i]),
+            ROLLING,
+            #[inline(always)]
+            |load| rolling * power(load, ROLLING),
+        );
+        let both_sl = powers.of(
+            4,
+            &each(|i| cubed_sliding(fr[i], fa[i], pushed[i], s2)),
+            CUBE_ROOT,
+            #[inline(always)]
+            |cubed| sliding[1] * cube_root(cubed),
+        );
         if unpushed == 0 && blend.is_none() {
             return (both_rr, both_sl);
         }
@@ -455,7 +483,7 @@ impl Variables {
             let limit = to * fr[i];
             let blended = blended(fa[i] / limit, radial, combined);
             let both = if fa[i] < limit { blended } else { combined };
-            (g_rr[i], g_sl[i]) = if is_nothing(ratio[i]) { radial } else { both };
+            (g_rr[i], g_sl[i]) = if is_nothing(share(fa[i], c0)) { radial } else { both };
         }
         (g_rr, g_sl)
     }
