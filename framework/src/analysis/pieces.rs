@@ -27,7 +27,7 @@ const TOGETHER: usize = LANES * 2048;
 pub const MOST_HELD: usize = 2 * LARGEST;
 
 /// Points of a task, where a piece has more of them. Each begins anew, without what the speeds before say.
-const TASK: usize = 2048;
+const TASK: usize = 4096;
 
 /// Some points of a field that follow each other, solved: what became of them, by tasks.
 #[derive(Debug, Clone)]

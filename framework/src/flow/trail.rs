@@ -9,6 +9,8 @@ const DEPTH: usize = 4;
 const SPREAD: f64 = 16.0;
 /// Most guessed steps after which a block is solved without a guess once, which measures anew how fast it converges.
 const LONGEST: usize = 256;
+/// The distance from the last such measurement after which there is another one: twice its speed, or half of it.
+const FARTHEST: f64 = std::f64::consts::LN_2 * (1.0 + 1e-9);
 /// A rate at which passes never end: one that could not be measured.
 pub(super) const UNKNOWN: f64 = 1.0;
 
@@ -24,8 +26,8 @@ pub struct Trail {
     /// The newest last.
     steps: Vec<Step>,
     guesses: usize,
-    /// Guessed steps before the next measurement: twice as many each time, because the first ones change speed the most.
-    longest: usize,
+    /// Where the rate was measured.
+    measured: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -40,7 +42,6 @@ impl Trail {
     pub fn clear(&mut self) {
         self.steps.clear();
         self.guesses = 0;
-        self.longest = 0;
     }
 
     /// Numbers and weights of the steps for a guess at a place, for the points with these given torques; empty where there is none.
@@ -49,7 +50,8 @@ impl Trail {
         if !same_points(&self.torques, torques) {
             self.clear();
         }
-        if self.guesses >= self.longest || self.rate.is_none() {
+        let far = (place - self.measured).abs() > FARTHEST;
+        if far || self.guesses == LONGEST || self.rate.is_none() {
             return Vec::new();
         }
         (0..self.steps.len())
@@ -74,7 +76,7 @@ impl Trail {
             self.guesses += 1;
         } else {
             self.guesses = 0;
-            self.longest = (2 * self.longest).clamp(1, LONGEST);
+            self.measured = place;
             if !same_points(&self.torques, given) || self.drives != drives {
                 self.steps.clear();
                 self.torques.clear();
@@ -124,7 +126,15 @@ mod tests {
             trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], &torques, i > 0);
         }
         trail.rate = Some(Lane::all(0.1));
-        trail.longest = LONGEST;
+        trail.measured = speeds[speeds.len() - 1];
+    }
+
+    fn weights_at(trail: &Trail, given: f64, place: f64) -> Vec<(usize, f64)> {
+        let near = Trail {
+            measured: place,
+            ..trail.clone()
+        };
+        { near }.weights(&[Lane::all(given)], place)
     }
 
     #[test]
@@ -132,26 +142,26 @@ mod tests {
         let law = |x: f64| 2.0 - x + 0.3 * x * x - 0.01 * x * x * x;
         let mut trail = Trail::default();
         follow(&mut trail, &[1.0, 2.0, 2.9, 4.0, 5.1], law);
-        let weights = trail.weights(&[Lane::all(3.0)], 6.0);
+        let weights = weights_at(&trail, 3.0, 6.0);
         assert_eq!(weights.len(), 4);
         assert!((trail.guess(&weights, 0)[7] - law(6.0)).abs() < 1e-13);
         // Far from the steps before a polynomial of lower degree errs less.
-        assert!(trail.weights(&[Lane::all(3.0)], 20.0).len() < 3);
+        assert!(weights_at(&trail, 3.0, 20.0).len() < 3);
     }
 
     #[test]
     fn without_common_steps_nothing_is_guessed() {
         let mut trail = Trail::default();
-        assert!(trail.weights(&[Lane::all(3.0)], 6.0).is_empty());
+        assert!(weights_at(&trail, 3.0, 6.0).is_empty());
         follow(&mut trail, &[1.0, 2.0], |x| x);
-        assert_eq!(trail.clone().weights(&[Lane::all(3.0)], 3.0).len(), 2);
-        assert!(trail.clone().weights(&[Lane::all(3.1)], 3.0).is_empty());
+        assert_eq!(weights_at(&trail, 3.0, 3.0).len(), 2);
+        assert!(weights_at(&trail, 3.1, 3.0).is_empty());
         // The same speed once more leaves one step.
         follow(&mut trail, &[1.0, 2.0, 2.0], |x| x);
-        assert_eq!(trail.clone().weights(&[Lane::all(3.0)], 3.0).len(), 1);
+        assert_eq!(weights_at(&trail, 3.0, 3.0).len(), 1);
         let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
         follow(&mut trail, &many, |x| x);
-        assert!(trail.weights(&[Lane::all(3.0)], 40.0).is_empty());
+        assert!(weights_at(&trail, 3.0, 40.0).is_empty());
     }
 
     #[test]
@@ -160,7 +170,7 @@ mod tests {
         let given = [Lane::all(3.0)];
         let mut measured = Vec::new();
         for step in 1..=1000 {
-            let place = f64::from(step);
+            let place = f64::from(step).ln();
             let guessed = !trail.weights(&given, place).is_empty();
             trail.rate = Some(Lane::all(0.1));
             trail.push(&given, place, &[Drive::First], &given, guessed);
@@ -168,7 +178,7 @@ mod tests {
                 measured.push(step);
             }
         }
-        assert_eq!(measured, [1, 3, 6, 11, 20, 37, 70, 135, 264, 521, 778]);
+        assert_eq!(measured, [1, 3, 7, 15, 31, 63, 127, 255, 511, 768]);
     }
 
     #[test]
@@ -177,10 +187,10 @@ mod tests {
         let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
         follow(&mut trail, &many, |x| x);
         let (given, next) = ([Lane::all(3.0)], LONGEST as f64 + 1.0);
-        assert!(trail.weights(&given, next).is_empty());
+        assert!(weights_at(&trail, 3.0, next).is_empty());
         trail.push(&given, next, &[Drive::First], &[Lane::all(next)], false);
-        assert_eq!(trail.weights(&given, next + 1.0).len(), DEPTH);
+        assert_eq!(weights_at(&trail, 3.0, next + 1.0).len(), DEPTH);
         trail.push(&given, next + 1.0, &[Drive::Second], &[Lane::all(next)], false);
-        assert_eq!(trail.weights(&given, next + 2.0).len(), 1);
+        assert_eq!(weights_at(&trail, 3.0, next + 2.0).len(), 1);
     }
 }
