@@ -143,3 +143,32 @@ pub fn each(mut number: impl FnMut(usize) -> f64) -> Lane {
     }
     lane
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_over_items_are_those_of_each_lane() {
+        let lanes: Vec<Lane> = (0..7).map(|k| each(|i| (i as f64 - 20.0) * f64::from(k - 3))).collect();
+        let weights = [0.5, -1.0, 2.0, 0.0, 3.0, 1.0, -0.25];
+        for n in 0..=lanes.len() {
+            let items = weights[..n].iter().copied().zip(&lanes);
+            let (sums, most) = (weighted(items.clone()), greatest(items.clone()));
+            for i in 0..LANES {
+                let terms = items.clone().map(|(weight, lane)| weight * lane[i]);
+                assert_eq!(sums[i], terms.clone().sum::<f64>());
+                assert_eq!(most[i], terms.map(f64::abs).fold(0.0, f64::max));
+            }
+        }
+        assert_eq!(greatest([(1.0, &Lane::all(f64::NAN))].into_iter()), Lane::ZERO);
+    }
+
+    #[test]
+    fn lanes_are_even_where_all_numbers_are_the_same() {
+        assert!(is_even(&Lane::all(-2.0)) && is_even(&Lane::ZERO));
+        let mut lane = Lane::all(3.0);
+        lane[LANES / 2] = 4.0;
+        assert!(!is_even(&lane) && !is_even(&each(|i| i as f64)) && !is_even(&Lane::all(f64::NAN)));
+    }
+}

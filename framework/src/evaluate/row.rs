@@ -1,6 +1,6 @@
 //! Many points that differ in one torque, in blocks side by side.
 //!
-//! Speeds, oils and all that hangs on them alone are settled once for the row. The numbers of [`Row::solve`] are those of
+//! Speeds, oils and all that hangs on them alone, notes among it, are settled once for the row. The numbers of [`Row::solve`] are those of
 //! [`Transmission::evaluate`] to the bit, but for the sign of zero, also for points that have to be evaluated alone: see [`Block::alone`].
 
 use std::cell::Cell;
@@ -221,8 +221,8 @@ impl Row<'_> {
     }
 
     /// As [`Row::solve`], where the first torques are guessed from the blocks of the same number and torques in the rows before,
-    /// if these rows differ in the first speed alone. One pass is then often enough, and the losses agree with those of
-    /// [`Row::solve`] within the tolerance, not to the bit.
+    /// if these rows differ in the first speed alone, and powers of loads are remembered from there. One pass is then often enough, and
+    /// the losses agree with those of [`Row::solve`] within the tolerance, not to the bit.
     ///
     /// # Panics
     /// As [`Row::solve`].

@@ -252,6 +252,30 @@ mod tests {
     }
 
     #[test]
+    fn one_answer_for_all_lanes_is_that_answer_in_each() {
+        let undefined = Undefined {
+            what: "nothing",
+            value: 0.0,
+        };
+        let some = Loss::MOMENTS.with(&SECOND, 0.7);
+        for answer in [Ok(some), Ok(some.with(&FIRST, 0.1)), Ok(Loss::POWERS), Err(undefined)] {
+            // Whatever stood there before.
+            let mut together = LossLanes::NONE;
+            together.add(&FIRST, &Lane::all(3.0));
+            together.leave(5);
+            together.put_all(answer);
+            let mut single = LossLanes::NONE;
+            for lane in 0..LANES {
+                single.put(lane, answer);
+                assert!(together.agrees(lane, &answer));
+            }
+            assert_eq!(together.alone(), single.alone());
+            assert_eq!(together.sum(), single.sum());
+            assert_eq!(together.total_watts(-3.0), single.total_watts(-3.0));
+        }
+    }
+
+    #[test]
     fn what_is_no_sound_number_is_left_alone() {
         let mut lanes = LossLanes::NONE;
         for i in 0..LANES {
