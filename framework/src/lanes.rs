@@ -3,7 +3,7 @@
 //! Points that share speeds and temperatures differ in torque alone. Their losses are computed in blocks of [`LANES`] points:
 //! each quantity that hangs on torque is a [`Lane`], a number for each of them. A loop over the numbers of a lane without calls
 //! or branches becomes a few wide instructions within [`wide`]. Every operation is the one of a single point, in the same order,
-//! so that both ways have the same bits.
+//! so that both ways have the same bits, where nothing is remembered of other points ([`Powers`]).
 
 mod elementary;
 mod losses;
@@ -17,6 +17,7 @@ pub use losses::LossLanes;
 pub use notes::LaneNotes;
 pub(crate) use notes::same_notes;
 pub use powers::Powers;
+pub(crate) use powers::REMEMBERED;
 
 /// Points of a block.
 pub const LANES: usize = 64;

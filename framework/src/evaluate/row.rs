@@ -68,7 +68,7 @@ impl RowScratch {
     /// Forgets the rows before, so that [`Row::follow`] begins anew.
     pub fn forget(&mut self) {
         self.trails.iter_mut().for_each(Trail::clear);
-        self.powers.clear();
+        self.powers.iter_mut().flatten().for_each(Powers::forget);
     }
 
     /// Calls of loss models for all points so far; a call for a block counts once for each of its points.
@@ -131,7 +131,7 @@ impl Transmission {
     }
 
     /// Notes what hangs on no load, once for all points of a row.
-    fn note_row(&self, s: &mut Scratch, totals: &mut [Extent]) {
+    fn note_row(&self, s: &mut Scratch) {
         let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
         let kept = Cell::from_mut(s.kept.as_mut_slice()).as_slice_of_cells();
         let state = State {
@@ -153,14 +153,16 @@ impl Transmission {
             let notes = LaneNotes {
                 common,
                 own: &[],
-                totals: Cell::from_mut(&mut *totals).as_slice_of_cells(),
+                totals: &[],
                 counted: &[false; LANES],
                 points: 0,
                 outside: &std::array::from_fn(|_| Cell::new(false)),
                 handed: &Cell::new(false),
                 base: component.notes,
             };
-            component.placed.note(&state, &LoadLanes::NONE, notes);
+            if !component.placed.note(&state, &LoadLanes::NONE, notes) {
+                let _ = component.placed.loss(&state, common);
+            }
         }
     }
 
@@ -198,7 +200,7 @@ impl Transmission {
         let together =
             point.flow == PowerFlow::Real && !standing && !self.uneven && cheap && self.parts.iter().all(sound);
         if together {
-            self.note_row(s, &mut scratch.totals);
+            self.note_row(s);
         }
         Row {
             transmission: self,

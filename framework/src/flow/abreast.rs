@@ -152,7 +152,9 @@ fn same(a: &Lane, b: &Lane) -> bool {
 /// What one more pass leaves of an error that falls to some share of it in each, with all passes to come.
 #[inline(always)]
 fn to_come(error: f64, rate: f64) -> f64 {
-    error * rate / larger(1e-3, 1.0 - rate)
+    let left = error * rate / larger(1e-3, 1.0 - rate);
+    // Also where the rate is unknown.
+    if error == 0.0 { 0.0 } else { left }
 }
 
 /// Whether every lane surely has this driver.
@@ -337,7 +339,7 @@ impl Flow {
         for ((power, row), relative) in work.powers.iter_mut().zip(&self.meshes).zip(&work.relative) {
             *power = (self.scale[row.row] * row.z1 * speed(relative[1])).abs();
         }
-        let neglected = self.close_step_abreast(work);
+        let neglected = self.close_step_abreast(task.speeds, speed, work);
         for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
             *unknown = each(|i| unknown[i] + step[i]);
         }
@@ -357,6 +359,14 @@ impl Flow {
         }
         work.passes = [1; LANES];
         if work.done.contains(&false) {
+            // What follows takes the torques for an equilibrium with the losses used.
+            self.right_abreast(work);
+            self.friction_abreast(work);
+            self.refine_abreast(work);
+            for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
+                *unknown = each(|i| unknown[i] + step[i]);
+            }
+            self.accept_abreast(task.speeds, work);
             for losses in [&mut work.used_before, &mut work.answer_before] {
                 losses.copy_from_slice(&work.used);
             }
@@ -535,9 +545,10 @@ impl Flow {
     }
 
     /// Such a step for unknowns that lack little: the meshes lose their share of it as if it were the step without friction. Returns the
-    /// share of its power that this neglects: the square of all shares together, as far as the meshes feel each other.
+    /// share of its power that this neglects at most, which is about the square of all shares together, as far as meshes and ports feel each
+    /// other. Infinite where that is no small share, as close to self-locking.
     #[inline(always)]
-    fn close_step_abreast(&self, work: &mut WorkLanes) -> Lane {
+    fn close_step_abreast(&self, speeds: &[f64], speed: impl Fn(f64) -> f64, work: &mut WorkLanes) -> Lane {
         work.active.clear();
         work.active.extend(0..self.meshes.len());
         self.lack_abreast(work);
@@ -555,8 +566,20 @@ impl Flow {
             for (other, power) in friction.sides[side].coupling.iter().zip(&work.powers) {
                 coupling = larger(coupling, other.abs() * power / work.powers[mesh]);
             }
+            let ports = &friction.sides[side].response[self.rows..];
+            for (response, port) in ports.iter().zip(&self.unknown) {
+                coupling = larger(coupling, response.abs() * speed(speeds[*port]) / work.powers[mesh]);
+            }
         }
-        over(&together, |shares| (shares * coupling) * (shares * coupling))
+        // With C for coupling by shares the step is (1 - C) y and the exact one y/(1 + C): they differ by C^2/(1 - C^2) of the step.
+        over(&together, |shares| {
+            let square = (shares * coupling) * (shares * coupling);
+            if square < 0.5 {
+                square / (1.0 - square)
+            } else {
+                f64::INFINITY
+            }
+        })
     }
 
     /// What the unknowns lack, on the right-hand side.
@@ -787,7 +810,14 @@ impl WorkLanes {
             });
             rate = each(|i| {
                 let counts = mismatch[i].abs() > NEGLIGIBLE * greatest[i];
-                if counts { larger(rate[i], falls[i]) } else { rate[i] }
+                // What gets its first torque says nothing of a rate.
+                let (moved, followed) = ((used[i] - used_before[i]).abs(), (answer[i] - answer_before[i]).abs());
+                let own = if moved > 0.0 {
+                    larger(common[i], followed / moved)
+                } else {
+                    UNKNOWN
+                };
+                if counts { larger(rate[i], own) } else { rate[i] }
             });
         }
         (most, over(&rate, |rate| if rate > 0.0 { rate } else { UNKNOWN }))

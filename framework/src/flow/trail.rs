@@ -11,8 +11,8 @@ const SPREAD: f64 = 16.0;
 const LONGEST: usize = 256;
 /// The distance from the last such measurement after which there is another one: twice its speed, or half of it.
 const FARTHEST: f64 = std::f64::consts::LN_2 * (1.0 + 1e-9);
-/// A rate at which passes never end: one that could not be measured.
-pub(super) const UNKNOWN: f64 = 1.0;
+/// A rate that could not be measured, with which a pass is never the last.
+pub(super) const UNKNOWN: f64 = f64::INFINITY;
 
 /// Torques of the points of a block over the speeds before. The place of a step is the logarithm of its speed, because losses go
 /// nearly with powers of speed: polynomials over it err less where speeds are low and far apart.

@@ -32,6 +32,14 @@ impl LossLanes {
         wanted: [true; LANES],
     };
 
+    /// The same with a memory of powers.
+    pub(crate) fn remembering() -> Self {
+        Self {
+            powers: Powers::remembering(),
+            ..Self::NONE
+        }
+    }
+
     /// Begins an answer as [`Loss::MOMENTS`] or [`Loss::POWERS`] do; every term is zero.
     #[inline]
     pub fn begin(&mut self, like: &Loss) {
@@ -131,8 +139,8 @@ impl LossLanes {
         self.alone[lane] = true;
     }
 
-    /// Whether a lane has the bits of an answer for its point alone, or is left to that.
-    pub(crate) fn agrees(&self, lane: usize, answer: &Result<Loss, Undefined>) -> bool {
+    /// Whether a lane agrees with an answer for its point alone within a share of it, where none asks for the same bits; or is left to it.
+    pub(crate) fn agrees(&self, lane: usize, answer: &Result<Loss, Undefined>, within: f64) -> bool {
         let same = |loss: &Loss| {
             let terms = (0..MOST_TERMS).all(|term| {
                 let value = if term < self.terms {
@@ -140,7 +148,7 @@ impl LossLanes {
                 } else {
                     0.0
                 };
-                value == loss.value(term)
+                (value - loss.value(term)).abs() <= within * loss.value(term).abs()
             });
             terms && (self.measure == loss.measure() || loss.sum() == 0.0)
         };
@@ -267,7 +275,7 @@ mod tests {
             let mut single = LossLanes::NONE;
             for lane in 0..LANES {
                 single.put(lane, answer);
-                assert!(together.agrees(lane, &answer));
+                assert!(together.agrees(lane, &answer, 0.0));
             }
             assert_eq!(together.alone(), single.alone());
             assert_eq!(together.sum(), single.sum());

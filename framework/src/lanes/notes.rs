@@ -62,6 +62,17 @@ pub(crate) fn same_notes(
 }
 
 impl<'a> LaneNotes<'a> {
+    /// Where only what is the same in all lanes can be noted: no lane counts.
+    pub(crate) fn for_a_row(self) -> Self {
+        Self {
+            own: &[],
+            totals: &[],
+            counted: &[false; LANES],
+            points: 0,
+            ..self
+        }
+    }
+
     /// Notes of what is the same in all lanes.
     pub fn all(&self) -> Notes<'a> {
         self.common

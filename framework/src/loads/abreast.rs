@@ -108,7 +108,7 @@ impl ShaftLoads {
         for (place, member) in self.order.iter().enumerate() {
             let forces = member.meshes.iter().map(|(mesh, factor)| (*factor, &tangential[*mesh]));
             let sizes_of = |[sum]: [f64; 1], (factor, force): (f64, &Lane), i: usize| [sum + (factor * force[i]).abs()];
-            let scale = gather(forces.clone(), [member.always.abs()], sizes_of, |[sum]| sum);
+            let scale = gather(forces.clone(), [member.size], sizes_of, |[sum]| sum);
             let own = |[sum]: [f64; 1], (factor, force): (f64, &Lane), i: usize| [sum + factor * force[i]];
             let thrust = gather(forces, [member.always], own, |[sum]| sum);
             let (thrust, scale) = if carried {

@@ -81,6 +81,8 @@ impl Cases {
 pub(super) struct Axially {
     /// Thrust that always acts. \[N\]
     pub always: f64,
+    /// The size of the forces that it is the sum of. \[N\]
+    pub size: f64,
     /// Mesh and thrust per newton of its tangential force.
     pub meshes: Vec<(usize, f64)>,
     pub taking: Taking,
@@ -237,7 +239,7 @@ impl ShaftLoads {
         passed.fill(0.0);
         sizes.fill(0.0);
         for (place, member) in self.order.iter().enumerate() {
-            let (mut thrust, mut scale) = (member.always, member.always.abs());
+            let (mut thrust, mut scale) = (member.always, member.size);
             for (mesh, factor) in &member.meshes {
                 thrust += factor * tangential[*mesh];
                 scale += (factor * tangential[*mesh]).abs();
@@ -379,6 +381,7 @@ fn axially(
             .all(|(_, s)| s.axial == crate::attach::Axial::None && s.spring == 0.0);
     let axially = Axially {
         always: layout.members[m].forces.iter().map(|f| f.1[0]).sum(),
+        size: layout.members[m].forces.iter().map(|f| f.1[0].abs()).sum(),
         meshes,
         taking,
         carrier: carrier.and_then(place).map(|place| (place, copies)),
@@ -393,9 +396,10 @@ fn passed_on(mut order: Vec<(Axially, bool)>) -> Vec<Axially> {
         let (true, Some((carrier, copies))) = (*passes, member.carrier) else {
             continue;
         };
-        let (always, meshes) = (member.always, std::mem::take(&mut member.meshes));
+        let (always, size, meshes) = (member.always, member.size, std::mem::take(&mut member.meshes));
         let carrier = &mut order[carrier].0;
         carrier.always += always * copies;
+        carrier.size += size * copies;
         carrier
             .meshes
             .extend(meshes.into_iter().map(|(mesh, factor)| (mesh, factor * copies)));

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::attach::{Support, SupportSite};
 use crate::context;
 use crate::generic::Scalar;
-use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, each, same_notes};
+use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loads::LoadLanes;
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::mechanism::{Component, Mechanism, Quantity};
@@ -27,18 +27,24 @@ pub trait BearingModel: Send + Sync {
     fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined>;
 
     /// The same at several loads side by side, where all else is as at `at`, whose loads mean nothing; muted. What it answers must have the bits of
-    /// [`loss`](Self::loss), which the suite of the framework compares. Without code of its own it asks once for each lane.
+    /// [`loss`](Self::loss), but for powers that are remembered ([`LossLanes::powers`]); the suite of the framework compares both.
+    /// Without code of its own it asks once for each lane.
     fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
         one_by_one(self, at, loads, losses);
     }
 
-    /// False where no limit or observed quantity hangs on the load: [`note`](Self::note) is then asked once for many points.
+    /// False where no limit or observed quantity hangs on the load. [`note`](Self::note) is then asked once for many points, at no load
+    /// and with no lane wanted: it notes by [`LaneNotes::all`] or the notes of the context alone.
     fn notes_hang_on_load(&self) -> bool {
         true
     }
 
     /// Notes what [`loss`](Self::loss) notes at these loads.
     fn note(&self, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
+        if !self.notes_hang_on_load() {
+            let _ = self.loss(&at.under(loads, 0, notes.all()));
+            return;
+        }
         for lane in (0..LANES).filter(|lane| notes.wanted(*lane)) {
             // An answer that is no number leaves the lane to its point alone.
             let _ = self.loss(&at.under(loads, lane, notes.lane(lane)));
@@ -345,8 +351,23 @@ impl Mechanism for Bearing {
             to.notes = Notes::MUTED;
         });
         model.losses(&without, &loads, &mut losses);
-        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED))) {
+        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), 0.0)) {
             return Some("`losses` answers otherwise than `loss`");
+        }
+        // What is remembered comes from another speed and loads close by.
+        let before = without.with(|to| to.speed *= 1.3);
+        let closer = |load: &Lane| each(|i| load[i] * 1.001);
+        let nearby = LoadLanes {
+            radial: closer(&loads.radial),
+            axial: closer(&loads.axial),
+            tilting: closer(&loads.tilting),
+            untaken: Lane::ZERO,
+        };
+        let mut losses = LossLanes::remembering();
+        model.losses(&before, &nearby, &mut losses);
+        model.losses(&without, &loads, &mut losses);
+        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
+            return Some("`losses` remembers what is no power of the loads times a constant");
         }
         // What is undefined at a load is noted by its point alone.
         if (0..LANES).any(|lane| of(lane, Notes::MUTED).is_err()) {
@@ -358,6 +379,7 @@ impl Mechanism for Bearing {
         let together = |notes: LaneNotes<'_>| model.note(&without.with(|to| to.notes = notes.all()), &loads, notes);
         let same = same_notes(notes, single, together);
         let once = |notes: LaneNotes<'_>| {
+            let notes = notes.for_a_row();
             model.note(&without.with(|to| to.notes = notes.all()), &LoadLanes::NONE, notes);
         };
         if !model.notes_hang_on_load() && !same_notes(notes, single, once) {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::context;
 use crate::generic::Scalar;
 use crate::geometry::{Pair, PairFault, PairSpec};
-use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, each, same_notes};
+use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::lubricant::Lubricant;
 use crate::mechanism::{Mechanism, Quantity};
@@ -32,7 +32,8 @@ pub trait GearMeshModel: Send + Sync {
     }
 
     /// The same at several torques side by side, where all else is as at `at`, whose torque means nothing; muted. What it answers must have the bits of
-    /// [`loss`](Self::loss), which the suite of the framework compares. Without code of its own it asks once for each lane.
+    /// [`loss`](Self::loss), but for powers that are remembered ([`LossLanes::powers`]); the suite of the framework compares both.
+    /// Without code of its own it asks once for each lane.
     fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
         one_by_one(self, at, torques, losses);
     }
@@ -313,8 +314,16 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
             to.notes = Notes::MUTED;
         });
         model.losses(&without, &torques, &mut losses);
-        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED))) {
+        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), 0.0)) {
             return Some("`losses` answers otherwise than `loss`");
+        }
+        // What is remembered comes from another speed and torques close by.
+        let before = without.with(|to| to.speed *= 1.3);
+        let mut losses = LossLanes::remembering();
+        model.losses(&before, &each(|i| torques[i] * 1.001), &mut losses);
+        model.losses(&without, &torques, &mut losses);
+        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
+            return Some("`losses` remembers what is no power of the torques times a constant");
         }
         // What is undefined at a torque is noted by its point alone.
         if (0..LANES).any(|lane| of(lane, Notes::MUTED).is_err()) {
