@@ -363,10 +363,10 @@ impl Mechanism for Bearing {
             tilting: closer(&loads.tilting),
             untaken: Lane::ZERO,
         };
-        let mut losses = LossLanes::remembering();
-        model.losses(&before, &nearby, &mut losses);
-        model.losses(&without, &loads, &mut losses);
-        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
+        let mut remembered = LossLanes::remembering();
+        model.losses(&before, &nearby, &mut remembered);
+        model.losses(&without, &loads, &mut remembered);
+        if !(0..LANES).all(|lane| remembered.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
             return Some("`losses` remembers what is no power of the loads times a constant");
         }
         // What is undefined at a load is noted by its point alone.

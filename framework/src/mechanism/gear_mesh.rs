@@ -319,10 +319,10 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
         }
         // What is remembered comes from another speed and torques close by.
         let before = without.with(|to| to.speed *= 1.3);
-        let mut losses = LossLanes::remembering();
-        model.losses(&before, &each(|i| torques[i] * 1.001), &mut losses);
-        model.losses(&without, &torques, &mut losses);
-        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
+        let mut remembered = LossLanes::remembering();
+        model.losses(&before, &each(|i| torques[i] * 1.001), &mut remembered);
+        model.losses(&without, &torques, &mut remembered);
+        if !(0..LANES).all(|lane| remembered.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
             return Some("`losses` remembers what is no power of the torques times a constant");
         }
         // What is undefined at a torque is noted by its point alone.
