@@ -167,8 +167,13 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
                         let power = solution.input_power().unwrap();
                         let exact = t.evaluate(&case, &Point { tolerance, ..point }, &temperature, &mut exact);
                         let off = (block.losses()[lane] - exact.loss().unwrap()).abs() / power;
-                        // The tolerance is 1e-9 and what is left an estimate: points alone are off by up to 1.6e-9 here.
-                        assert!(off <= 2e-9, "{path} {speed} {torque}: {off:e}");
+                        // The tolerance is 1e-9 and what is left an estimate: at the least and greatest torques and in cold or
+                        // thin oil points alone are off by up to 1.6e-9 too.
+                        let usual = (0.2..=20.0).contains(&torque.abs())
+                            && matches!(temperature[0], 60.0 | 100.0)
+                            && path.contains("two-speed");
+                        let limit = if usual { 1e-9 } else { 2e-9 };
+                        assert!(off <= limit, "{path} {speed} {torque}: {off:e}");
                         let outside = solution.extents().iter().any(|e| e.outside > 0);
                         assert_eq!(block.outside(lane), outside, "{path} {speed} {torque}");
                         let at = format!("{path} {speed} {torque}");
