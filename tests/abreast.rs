@@ -52,8 +52,8 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
                 let temperature = [*temperature];
                 // Those of one sense first, then a few of both and none.
                 let blocks = torques.chunk_by(|a, b| a * b > 0.0).flat_map(|own| own.chunks(LANES));
+                let mut row = t.row(&case, &point, &temperature, &mut rows);
                 for some in blocks.chain([&torques[12..25]]) {
-                    let mut row = t.row(&case, &point, &temperature, &mut rows);
                     let block = row.solve(some);
                     let mut alone = Vec::new();
                     for (lane, torque) in some.iter().enumerate() {

@@ -150,7 +150,7 @@ pub fn conform<M: Mechanism>(
     if !entry.evidence.iter().any(stated) {
         faults.extend(rest_and_reversal::<M>(&slot, &usual));
     }
-    faults.extend(keeping::<M>(&slot, &part, slot.notes, cells));
+    faults.extend(keeping::<M>(&slot, &part, slot.notes, (instances.len(), cells)));
     faults.dedup();
     faults.truncate(12);
     faults
@@ -193,9 +193,14 @@ fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_>) -> Vec<S
 }
 
 /// What a model keeps over the passes of a point must not hang on loads, which change between them, nor swallow notes.
-fn keeping<M: Mechanism>(model: &M::Model, part: &M::Part, base: NoteBase, cells: &[Cell<Extent>]) -> Vec<String> {
-    let kept = [const { Cell::new(f64::NAN) }; MOST_KEPT];
-    let _ = M::answer(model, &M::usual(part, Notes::MUTED.keeping(&kept)));
+fn keeping<M: Mechanism>(
+    model: &M::Model,
+    part: &M::Part,
+    base: NoteBase,
+    (instances, cells): (usize, &[Cell<Extent>]),
+) -> Vec<String> {
+    let kept = vec![Cell::new([f64::NAN; MOST_KEPT]); instances];
+    let _ = M::answer(model, &M::usual(part, Notes::muted(base).keeping(&kept)));
     let ask = |notes, q: &Quantity<M>, value| {
         let mut at = M::usual(part, notes);
         (q.set)(&mut at, q.unit().to_si(value));

@@ -147,6 +147,9 @@ impl Transmission {
         s.surface = self.oils.surface(&s.speeds);
         s.cells.fill(Extent::EMPTY);
         s.idle_drags.fill(0.0);
+        for kept in &mut s.kept {
+            kept[0] = f64::NAN;
+        }
         s.passes = 0;
         s.called += s.asked.replace(0);
         s.loads.fill(SupportLoad::default());
@@ -175,7 +178,6 @@ impl Transmission {
                     // What rests brakes nothing; it is asked once, at the end.
                     if speed != 0.0 {
                         s.braking.push(i);
-                        s.kept[i][0] = f64::NAN;
                     }
                 } else {
                     *loss = component_loss(component, &state, noting(quiet, cells, component.notes));
@@ -230,11 +232,12 @@ impl Transmission {
         let mut guess = point.flow == PowerFlow::Real && !standing;
         let losses = |flow: &mut FlowState<'_>| {
             let notes = |base| {
-                if guess || quiet {
-                    [Notes::MUTED; 2]
+                let notes = if guess || quiet {
+                    [Notes::muted(base); 2]
                 } else {
                     [Notes::fresh(cells, base), Notes::new(cells, base)]
-                }
+                };
+                notes.map(|notes| notes.keeping(kept))
             };
             // Meshes are the first rows, in their own order.
             for ((mesh, tangential), multiplier) in self.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers)
@@ -264,8 +267,7 @@ impl Transmission {
             for &i in &*braking {
                 let (component, speed) = (&self.components[i], relative[i]);
                 let loss = &mut component_losses[i];
-                let notes = notes(component.notes).map(|n| n.keeping(kept[i].as_array_of_cells()));
-                *loss = loaded_loss(component, &state, uneven_loads, notes);
+                *loss = loaded_loss(component, &state, uneven_loads, notes(component.notes));
                 let moment = moment(loss, speed) * component.count;
                 brake(component.between, speed, moment, flow.drags);
             }

@@ -82,14 +82,14 @@ pub fn count(mut holds: impl FnMut(usize) -> bool) -> u64 {
 }
 
 /// A lane from sums over some items: `step` adds an item to the `N` sums of a lane, given by its place, and `end` makes its number of
-/// them. The sums of several lanes at a time stay in registers over all items, where a loop over lanes for each item would write
+/// them, one lane after the other. The sums of several lanes at a time stay in registers over all items, where a loop over lanes for each item would write
 /// and read them again.
 #[inline(always)]
 pub fn gather<const N: usize, T: Copy>(
     items: impl Iterator<Item = T> + Clone,
     start: [f64; N],
     step: impl Fn([f64; N], T, usize) -> [f64; N],
-    end: impl Fn([f64; N]) -> f64,
+    mut end: impl FnMut([f64; N], usize) -> f64,
 ) -> Lane {
     /// Lanes at a time: a few of the widest registers for each sum.
     const WIDE: usize = 16;
@@ -103,7 +103,7 @@ pub fn gather<const N: usize, T: Copy>(
             }
         }
         for i in 0..WIDE {
-            lane.0[first + i] = end(sums[i]);
+            lane.0[first + i] = end(sums[i], first + i);
         }
         first += WIDE;
     }
@@ -117,14 +117,14 @@ pub(crate) fn greatest<'a>(lanes: impl Iterator<Item = (f64, &'a Lane)> + Clone)
         let own = (factor * lane[i]).abs();
         [if own > most { own } else { most }]
     };
-    gather(lanes, [0.0], step, |[most]| most)
+    gather(lanes, [0.0], step, |[most], _| most)
 }
 
 /// The sum of some lanes, each times a factor.
 #[inline(always)]
 pub(crate) fn weighted<'a>(lanes: impl Iterator<Item = (f64, &'a Lane)> + Clone) -> Lane {
     let step = |[sum]: [f64; 1], (factor, lane): (f64, &Lane), i: usize| [sum + factor * lane[i]];
-    gather(lanes, [0.0], step, |[sum]| sum)
+    gather(lanes, [0.0], step, |[sum], _| sum)
 }
 
 /// Whether all lanes have the same number.

@@ -415,7 +415,7 @@ pub struct Notes<'a> {
     cells: &'a [Cell<Extent>],
     base: NoteBase,
     trace: Option<&'a Trace>,
-    kept: Option<&'a [Cell<f64>; MOST_KEPT]>,
+    kept: &'a [Cell<[f64; MOST_KEPT]>],
 }
 
 impl<'a> Notes<'a> {
@@ -429,7 +429,7 @@ impl<'a> Notes<'a> {
             end: 0,
         },
         trace: None,
-        kept: None,
+        kept: &[],
     };
 
     /// Notes of one instance into the cells of a scratch.
@@ -439,8 +439,14 @@ impl<'a> Notes<'a> {
             cells,
             base,
             trace: None,
-            kept: None,
+            kept: &[],
         }
+    }
+
+    /// Notes of one instance that nobody reads.
+    #[inline]
+    pub fn muted(base: NoteBase) -> Self {
+        Self::new(&[], base)
     }
 
     /// The same notes, with every step written down.
@@ -454,20 +460,22 @@ impl<'a> Notes<'a> {
     /// Notes of one instance into the cells of a scratch, with nothing noted there yet.
     #[inline]
     pub fn fresh(cells: &'a [Cell<Extent>], base: NoteBase) -> Self {
-        for cell in &cells[base.limits..base.end] {
+        Self::new(cells, base).anew()
+    }
+
+    /// The same with nothing noted there yet.
+    #[inline]
+    pub(crate) fn anew(self) -> Self {
+        for cell in self.cells.get(self.base.limits..self.base.end).unwrap_or_default() {
             cell.set(Extent::EMPTY);
         }
-        Self::new(cells, base)
+        self
     }
 
     /// The same place to write, seen by a nested instance.
     #[inline]
     pub fn of(self, base: NoteBase) -> Self {
-        Self {
-            base,
-            kept: None,
-            ..self
-        }
+        Self { base, ..self }
     }
 
     /// The same instance, noting into other cells.
@@ -475,13 +483,16 @@ impl<'a> Notes<'a> {
         Self { cells, ..self }
     }
 
-    /// The same notes, with a place for what the instance computes [`once`](Self::once); not a number where nothing was yet.
+    /// The same notes, with places for what each instance computes [`once`](Self::once); not a number where nothing was yet.
     #[inline]
-    pub fn keeping(self, kept: &'a [Cell<f64>; MOST_KEPT]) -> Self {
-        Self {
-            kept: Some(kept),
-            ..self
-        }
+    pub(crate) fn keeping(self, kept: &'a [Cell<[f64; MOST_KEPT]>]) -> Self {
+        Self { kept, ..self }
+    }
+
+    /// The same notes for an instance that is asked several times at a point, at other speeds or in other oil: nothing is kept.
+    #[inline]
+    pub fn forgetting(self) -> Self {
+        Self { kept: &[], ..self }
     }
 
     /// Numbers that follow from speed, oil and its level alone. The passes of one point, between which only loads change,
@@ -489,7 +500,10 @@ impl<'a> Notes<'a> {
     #[inline]
     pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
         const { assert!(0 < N && N <= MOST_KEPT) };
-        let Some(kept) = self.kept else { return numbers() };
+        let Some(kept) = self.kept.get(self.base.instance) else {
+            return numbers();
+        };
+        let kept = kept.as_array_of_cells();
         if kept[0].get().is_nan() {
             for (kept, number) in kept.iter().zip(numbers()) {
                 kept.set(number);

@@ -7,11 +7,11 @@ use std::cell::Cell;
 
 use super::{Point, PowerFlow, Scratch, Solution};
 use crate::attach::State;
-use crate::flow::{Balance, FlowLanes, Status, TaskLanes, Trail, WorkLanes};
+use crate::flow::{Balance, Drive, FlowLanes, Status, TaskLanes, Trail, WorkLanes};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, Powers, count, each, is_even, over, weighted, wide};
 use crate::loads::{LoadLanes, SupportLoad};
-use crate::loss::{Extent, NoteBase, Notes};
-use crate::transmission::{Case, PartKind, Transmission};
+use crate::loss::{Extent, Loss, Measure, NoteBase, Notes, Undefined};
+use crate::transmission::{Case, Component, PartInfo, PartKind, Transmission};
 
 /// No thrust that nothing takes.
 static NO_THRUST: Lane = Lane::ZERO;
@@ -53,12 +53,59 @@ pub struct RowScratch {
     common: Vec<Extent>,
     own: Vec<Extent>,
     totals: Vec<Extent>,
+    /// Points of the row, among whose notes those of the whole row are still to be counted.
+    points: u32,
+    /// True where a note of the whole row left the range of a model.
+    row_outside: bool,
+    /// What components and meshes answered where all lanes carry the same.
+    shared_loads: Vec<Shared<SupportLoad>>,
+    shared_torques: Vec<Shared<(f64, Drive)>>,
     called: usize,
+}
+
+/// What one part answered where all lanes carry the same, as beside a gear that idles: mostly the same in all blocks of a row.
+#[derive(Debug, Clone)]
+struct Shared<K> {
+    /// What they carry.
+    at: Option<K>,
+    answer: Result<Loss, Undefined>,
+    /// True where the notes stand among the common ones.
+    noted: bool,
+}
+
+impl<K: Copy + PartialEq> Shared<K> {
+    const NONE: Self = Self {
+        at: None,
+        answer: Ok(Loss::POWERS),
+        noted: false,
+    };
+
+    fn answer(&mut self, at: K, ask: impl FnOnce() -> Result<Loss, Undefined>) -> Result<Loss, Undefined> {
+        if self.at != Some(at) {
+            *self = Self {
+                at: Some(at),
+                answer: ask(),
+                noted: false,
+            };
+        }
+        self.answer
+    }
+
+    fn note(&mut self, at: K, ask: impl FnOnce() -> Result<Loss, Undefined>) {
+        if self.at != Some(at) || !self.noted {
+            *self = Self {
+                at: Some(at),
+                answer: ask(),
+                noted: true,
+            };
+        }
+    }
 }
 
 impl RowScratch {
     /// What was seen of every limit and observed quantity since this was asked last, one count for each point.
     pub fn take_totals(&mut self) -> Vec<Extent> {
+        self.count_row();
         let pairs = self.totals.iter_mut().zip(self.alone.take_totals());
         pairs
             .map(|(row, alone)| std::mem::replace(row, Extent::EMPTY).merge(alone))
@@ -69,6 +116,16 @@ impl RowScratch {
     pub fn forget(&mut self) {
         self.trails.iter_mut().for_each(Trail::clear);
         self.powers.iter_mut().flatten().for_each(Powers::forget);
+    }
+
+    /// Counts the notes of the whole row for its points.
+    fn count_row(&mut self) {
+        let points = std::mem::take(&mut self.points);
+        for (total, seen) in self.totals.iter_mut().zip(&self.state.cells) {
+            if points > 0 && seen.seen > 0 {
+                *total = total.merge(seen.times(points));
+            }
+        }
     }
 
     /// Calls of loss models for all points so far; a call for a block counts once for each of its points.
@@ -126,7 +183,20 @@ impl Transmission {
             common: vec![Extent::EMPTY; self.cells],
             own: vec![Extent::EMPTY; LANES * self.cells],
             totals: vec![Extent::EMPTY; self.cells],
+            points: 0,
+            row_outside: false,
+            shared_loads: vec![Shared::NONE; self.components.len()],
+            shared_torques: vec![Shared::NONE; self.meshes.len()],
             called: 0,
+        }
+    }
+
+    /// False for parts whose loss is settled with the row.
+    fn hangs_on_torque(&self, part: &PartInfo) -> bool {
+        match part.kind {
+            PartKind::Component(i) => self.components[i].loaded && !self.components[i].off,
+            PartKind::Mesh(_) => true,
+            PartKind::Drag(_) => false,
         }
     }
 
@@ -142,14 +212,11 @@ impl Transmission {
             loads: &s.loads,
             asked: &s.asked,
         };
-        for (i, component) in self.components.iter().enumerate() {
+        for component in &self.components {
             if !component.loaded || component.off || component.notes_hang_on_load {
                 continue;
             }
-            let mut common = Notes::fresh(cells, component.notes);
-            if s.relative[i] != 0.0 {
-                common = common.keeping(kept[i].as_array_of_cells());
-            }
+            let common = Notes::fresh(cells, component.notes).keeping(kept);
             let notes = LaneNotes {
                 common,
                 own: &[],
@@ -189,9 +256,16 @@ impl Transmission {
             scratch.forget();
         }
         scratch.next = 0;
+        let torques = point.torques.iter().copied().chain(std::iter::repeat(0.0));
+        for (given, torque) in scratch.given.iter_mut().zip(torques) {
+            *given = Lane::all(torque);
+        }
+        scratch.count_row();
+        scratch.shared_loads.fill(Shared::NONE);
+        scratch.shared_torques.fill(Shared::NONE);
         let s = &mut scratch.state;
         let standing = self.settle(case, point, temperatures, s, false);
-        let sound = |part: &crate::transmission::PartInfo| match part.kind {
+        let sound = |part: &PartInfo| match part.kind {
             PartKind::Component(i) => self.components[i].loaded || s.component_losses[i].is_ok(),
             PartKind::Drag(i) => s.drag_losses[i].is_ok(),
             PartKind::Mesh(_) => true,
@@ -201,6 +275,12 @@ impl Transmission {
             point.flow == PowerFlow::Real && !standing && !self.uneven && cheap && self.parts.iter().all(sound);
         if together {
             self.note_row(s);
+            scratch.row_outside = s.cells.iter().any(|seen| seen.outside > 0);
+            for (part, watts) in self.parts.iter().zip(&mut scratch.watts) {
+                if !self.hangs_on_torque(part) {
+                    *watts = Lane::all(self.part_watts(part, s).unwrap_or(0.0));
+                }
+            }
         }
         Row {
             transmission: self,
@@ -284,12 +364,13 @@ impl Row<'_> {
             common,
             own,
             totals,
+            points: row_points,
+            row_outside,
+            shared_loads,
+            shared_torques,
             called,
             ..
         } = &mut *self.s;
-        for (number, lane) in given.iter_mut().enumerate() {
-            *lane = Lane::all(self.point.torques.get(number).copied().unwrap_or(0.0));
-        }
         // Lanes without a point repeat the last one; nobody reads them.
         let (first, others) = given[0].split_at_mut(torques.len());
         first.copy_from_slice(torques);
@@ -329,15 +410,15 @@ impl Row<'_> {
             wide(
                 #[inline(always)]
                 || {
+                    let some_done = flow.done.contains(&true);
                     let rows = t.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers);
                     for ((mesh, tangential), multiplier) in rows {
-                        *tangential = each(|i| {
-                            if flow.done[i] {
-                                tangential[i]
-                            } else {
-                                multiplier[i] * mesh.force_per_multiplier
-                            }
-                        });
+                        let force = |i: usize| multiplier[i] * mesh.force_per_multiplier;
+                        *tangential = if some_done {
+                            each(|i| if flow.done[i] { tangential[i] } else { force(i) })
+                        } else {
+                            each(force)
+                        };
                     }
                     if corrected {
                         loads.fill(LoadLanes::NONE);
@@ -366,18 +447,25 @@ impl Row<'_> {
             );
             for &i in braking {
                 let (component, speed) = (&t.components[i], settled.relative[i]);
-                let notes = Notes::MUTED.keeping(kept[i].as_array_of_cells());
+                let notes = Notes::muted(component.notes).keeping(kept);
                 *called += asked;
                 if asked < torques.len() {
                     components[i].want(&wanted);
                 }
-                let untaken = ask(component, &state, loads, one, notes, &mut components[i]);
+                let untaken = ask(
+                    component,
+                    &state,
+                    loads,
+                    one,
+                    notes,
+                    &mut shared_loads[i],
+                    &mut components[i],
+                );
                 wide(
                     #[inline(always)]
                     || {
                         let sum = components[i].sound_sum(untaken);
-                        let moment = components[i].moment(&sum, speed);
-                        brake_lanes(component.between, speed, &moment, component.count, flow.drags);
+                        brake_lanes(component, speed, &sum, components[i].measure(), flow.drags);
                     },
                 );
                 leave(alone_lanes, &components[i]);
@@ -386,7 +474,8 @@ impl Row<'_> {
                 if mesh.model.off {
                     continue;
                 }
-                let at = t.mesh_at(i, 0.0, flow.drives[i], &state, Notes::MUTED);
+                let notes = Notes::muted(mesh.model.notes).keeping(kept);
+                let at = t.mesh_at(i, 0.0, flow.drives[i], &state, notes);
                 let radius = mesh.seat.pair.working_radius[0];
                 let torques_1 = wide(
                     #[inline(always)]
@@ -398,7 +487,8 @@ impl Row<'_> {
                 }
                 if is_even(&torques_1) {
                     let at = at.with(|to| to.torque = torques_1[0]);
-                    meshes[i].put_all(mesh.model.loss(&at));
+                    let answer = shared_torques[i].answer((torques_1[0], flow.drives[i]), || mesh.model.loss(&at));
+                    meshes[i].put_all(answer);
                 } else {
                     mesh.model.losses(&at, &torques_1, &mut meshes[i]);
                 }
@@ -409,8 +499,7 @@ impl Row<'_> {
                         flow.mesh_loss[i] = if at.speed == 0.0 {
                             Lane::all(0.0)
                         } else {
-                            let total = meshes[i].total_watts(at.speed);
-                            each(|lane| total[lane] * mesh.seat.count * mesh.loss_factor)
+                            meshes[i].total_watts(at.speed, |watts| watts * mesh.seat.count * mesh.loss_factor)
                         };
                     },
                 );
@@ -436,8 +525,16 @@ impl Row<'_> {
         };
         for i in (0..t.components.len()).filter(resting) {
             *called += torques.len();
-            let notes = Notes::MUTED;
-            let untaken = ask(&t.components[i], &state, loads, one, notes, &mut components[i]);
+            let notes = Notes::muted(t.components[i].notes).keeping(kept);
+            let untaken = ask(
+                &t.components[i],
+                &state,
+                loads,
+                one,
+                notes,
+                &mut shared_loads[i],
+                &mut components[i],
+            );
             components[i].sound_sum(untaken);
             leave(alone_lanes, &components[i]);
         }
@@ -449,9 +546,9 @@ impl Row<'_> {
             return;
         }
         for flag in &*outside {
-            flag.set(false);
+            flag.set(*row_outside);
         }
-        common.copy_from_slice(&settled.cells);
+        *row_points += points;
         {
             let handed = Cell::new(false);
             let common = Cell::from_mut(&mut common[..]).as_slice_of_cells();
@@ -460,7 +557,7 @@ impl Row<'_> {
             let notes = |base: NoteBase| {
                 handed.set(false);
                 LaneNotes {
-                    common: Notes::new(common, base),
+                    common: Notes::new(common, base).keeping(kept),
                     own,
                     totals,
                     counted: &counted,
@@ -470,9 +567,21 @@ impl Row<'_> {
                     base,
                 }
             };
+            // What was noted of one part.
             let gather = |base: NoteBase| {
                 if handed.get() {
                     gather(base, own, totals, &counted, outside);
+                }
+                for cell in base.limits..base.end {
+                    let seen = common[cell].get();
+                    if seen.seen > 0 {
+                        totals[cell].set(totals[cell].get().merge(seen.times(points)));
+                        if seen.outside > 0 {
+                            for flag in &*outside {
+                                flag.set(true);
+                            }
+                        }
+                    }
                 }
             };
             for (i, component) in t.components.iter().enumerate() {
@@ -482,18 +591,21 @@ impl Row<'_> {
                 else {
                     continue;
                 };
-                let mut notes = notes(component.notes);
-                if settled.relative[i] != 0.0 {
-                    notes.common = notes.common.keeping(kept[i].as_array_of_cells());
-                }
+                let notes = notes(component.notes);
                 let own_loads = &loads[support as usize];
                 // What all lanes have in common is noted once.
                 if own_loads.is_even() {
-                    one[support as usize] = own_loads.lane(0);
-                    let state = State { loads: one, ..state };
-                    let _ = component.placed.loss(&state, notes.all());
+                    let load = own_loads.lane(0);
+                    shared_loads[i].note(load, || {
+                        one[support as usize] = load;
+                        let state = State { loads: one, ..state };
+                        component.placed.loss(&state, notes.all().anew())
+                    });
+                    gather(component.notes);
                     continue;
                 }
+                shared_loads[i].noted = false;
+                notes.all().anew();
                 if component.placed.note(&state, own_loads, notes) {
                     gather(component.notes);
                     continue;
@@ -514,56 +626,51 @@ impl Row<'_> {
                 let radius = mesh.seat.pair.working_radius[0];
                 let torques_1 = over(&tangential[i], |force| (force * radius).abs());
                 if is_even(&torques_1) {
-                    let _ = mesh.model.loss(&at.with(|to| to.torque = torques_1[0]));
+                    shared_torques[i].note((torques_1[0], work.drives[i]), || {
+                        notes.all().anew();
+                        mesh.model.loss(&at.with(|to| to.torque = torques_1[0]))
+                    });
+                    gather(mesh.model.notes);
                     continue;
                 }
+                shared_torques[i].noted = false;
+                notes.all().anew();
                 mesh.model.note(&at, &torques_1, &meshes[i], notes);
                 gather(mesh.model.notes);
             }
         }
-        for (total, common) in totals.iter_mut().zip(&*common) {
-            if common.seen > 0 {
-                *total = total.merge(common.times(points));
-                if common.outside > 0 {
-                    for flag in &*outside {
-                        flag.set(true);
-                    }
-                }
-            }
-        }
-
         wide(
             #[inline(always)]
             || {
-                for (i, mesh) in t.meshes.iter().enumerate() {
-                    let count = mesh.seat.count * mesh.loss_factor;
-                    let total = meshes[i].total_watts(t.mesh_speed(i, state.speeds));
-                    let used = &work.mesh_loss[i];
-                    factors[i] = each(|lane| {
-                        let asked = total[lane] * count;
-                        count * if asked > 0.0 { used[lane] / asked } else { 1.0 }
-                    });
-                }
-                for (part, watts) in t.parts.iter().zip(&mut *watts) {
+                let torqued = t
+                    .parts
+                    .iter()
+                    .zip(&mut *watts)
+                    .filter(|(part, _)| t.hangs_on_torque(part));
+                for (part, watts) in torqued {
                     *watts = match part.kind {
-                        PartKind::Component(i) if !t.components[i].loaded || t.components[i].off => {
-                            Lane::all(t.part_watts(part, settled).unwrap_or(0.0))
-                        }
-                        PartKind::Component(i) if settled.relative[i] == 0.0 => Lane::all(0.0),
+                        PartKind::Component(i) if settled.relative[i] == 0.0 => Lane::ZERO,
                         PartKind::Component(i) => {
                             let count = t.components[i].count;
-                            over(&components[i].total_watts(settled.relative[i]), |watts| watts * count)
+                            components[i].total_watts(settled.relative[i], |watts| watts * count)
                         }
                         PartKind::Mesh(i) => {
+                            let count = t.meshes[i].seat.count * t.meshes[i].loss_factor;
                             let speed = t.mesh_speed(i, state.speeds);
-                            let total = meshes[i].total_watts(speed);
+                            let total = meshes[i].total_watts(speed, |watts| watts);
+                            let used = &work.mesh_loss[i];
+                            factors[i] = each(|lane| {
+                                let asked = total[lane] * count;
+                                count * if asked > 0.0 { used[lane] / asked } else { 1.0 }
+                            });
                             if speed == 0.0 {
-                                Lane::all(0.0)
+                                Lane::ZERO
                             } else {
                                 each(|lane| total[lane] * factors[i][lane])
                             }
                         }
-                        PartKind::Drag(_) => Lane::all(t.part_watts(part, settled).unwrap_or(0.0)),
+                        // Settled with the row.
+                        PartKind::Drag(_) => *watts,
                     };
                 }
                 *sum = weighted(watts.iter().map(|watts| (1.0, watts)));
@@ -574,11 +681,12 @@ impl Row<'_> {
 
 /// Asks the model of a component for its losses in all lanes; returns the thrust that nothing takes.
 fn ask<'a>(
-    component: &crate::transmission::Component,
+    component: &Component,
     state: &State<'_>,
     loads: &'a [LoadLanes],
     one: &mut [SupportLoad],
     notes: Notes<'_>,
+    shared: &mut Shared<SupportLoad>,
     losses: &mut LossLanes,
 ) -> &'a Lane {
     let Some(support) = component.support.map(usize::from) else {
@@ -586,8 +694,11 @@ fn ask<'a>(
     };
     let own = &loads[support];
     if own.is_even() {
-        one[support] = own.lane(0);
-        losses.put_all(component.placed.loss(&State { loads: one, ..*state }, notes));
+        let load = own.lane(0);
+        losses.put_all(shared.answer(load, || {
+            one[support] = load;
+            component.placed.loss(&State { loads: one, ..*state }, notes)
+        }));
     } else if !component.placed.losses(state, own, notes, losses) {
         for lane in 0..LANES {
             if !losses.wanted(lane) {
@@ -618,15 +729,15 @@ fn leave(alone: &mut [bool; LANES], losses: &LossLanes) {
 
 /// As [`brake`] in all lanes.
 #[inline(always)]
-fn brake_lanes(between: [Option<u16>; 2], speed: f64, moment: &Lane, count: f64, drags: &mut [Lane]) {
-    let signed = over(moment, |moment| moment * count * speed.signum());
-    if let Some(a) = between[0] {
-        let drags = &mut drags[a as usize];
-        *drags = each(|i| drags[i] - signed[i]);
-    }
-    if let Some(b) = between[1] {
-        let drags = &mut drags[b as usize];
-        *drags = each(|i| drags[i] + signed[i]);
+fn brake_lanes(component: &Component, speed: f64, sums: &Lane, measure: Measure, drags: &mut [Lane]) {
+    for (member, sense) in component.between.into_iter().zip([-1.0, 1.0]) {
+        let Some(member) = member else { continue };
+        let drags = &mut drags[member as usize];
+        let signed = |moment: f64| moment * component.count * speed.signum() * sense;
+        *drags = match measure {
+            Measure::Moment => each(|i| drags[i] + signed(sums[i])),
+            Measure::Power => each(|i| drags[i] + signed(sums[i] / speed.abs())),
+        };
     }
 }
 
@@ -712,7 +823,7 @@ impl Block<'_> {
         let (t, s) = (self.transmission, self.s);
         let info = &t.parts[part];
         match info.kind {
-            PartKind::Component(i) if t.components[i].loaded && !t.components[i].off => {
+            PartKind::Component(i) if t.hangs_on_torque(info) => {
                 let (speed, count) = (s.state.relative[i], t.components[i].count);
                 if speed == 0.0 {
                     return Lane::all(0.0);

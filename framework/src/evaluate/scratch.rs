@@ -35,7 +35,7 @@ pub struct Scratch {
     pub(super) relative: Vec<f64>,
     /// Components that carry load and turn: they are asked in every pass.
     pub(super) braking: Vec<usize>,
-    /// What the models of the components keep over the passes of a point.
+    /// What the models keep over the passes of a point, by instance.
     pub(super) kept: Vec<[f64; MOST_KEPT]>,
     pub(super) cells: Vec<Extent>,
     pub(super) work: Work,
@@ -150,7 +150,7 @@ impl Scratch {
             idle_drags: vec![0.0; columns],
             relative: vec![0.0; transmission.components.len()],
             braking: Vec::with_capacity(transmission.components.len()),
-            kept: vec![[f64::NAN; MOST_KEPT]; transmission.components.len()],
+            kept: vec![[f64::NAN; MOST_KEPT]; transmission.instances.len()],
             cells: vec![Extent::EMPTY; transmission.cells],
             work: case.flow.work(),
             watts: vec![0.0; transmission.parts.len()],

@@ -608,7 +608,7 @@ impl Flow {
             work.mesh_loss[mesh] = each(|i| share[i] * rolling[i].abs() + if moves { constant[i] } else { 0.0 });
         }
         let step = |[total]: [f64; 1], number: &Lane, i: usize| [total + number[i].abs()];
-        let total = gather(work.unknown.iter().chain(&work.mesh_loss), [0.0], step, |[total]| total);
+        let total = gather(work.unknown.iter().chain(&work.mesh_loss), [0.0], step, |[total], _| { total });
         if count(|i| !total[i].is_finite()) > 0 {
             for i in 0..LANES {
                 work.alone[i] |= !total[i].is_finite();

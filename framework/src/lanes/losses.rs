@@ -1,6 +1,6 @@
 //! The losses of one part in all lanes.
 
-use super::{LANES, Lane, Powers, count, each, gather, over};
+use super::{LANES, Lane, Powers, each, gather, over};
 use crate::loss::{Loss, MOST_TERMS, Measure, Term, Undefined};
 
 /// The losses of one part in all lanes: what [`Loss`] is for a point.
@@ -49,15 +49,15 @@ impl LossLanes {
         self.alone = [false; LANES];
     }
 
-    /// Adds to a term: N m for moments, W for powers.
+    /// Adds to a term a value for each lane, given by its place: N m for moments, W for powers.
     #[inline(always)]
-    pub fn add(&mut self, term: &Term, value: &Lane) {
+    pub fn add(&mut self, term: &Term, value: impl Fn(usize) -> f64) {
         if term.index < self.terms {
             let sum = &mut self.values[term.index];
-            *sum = each(|i| sum[i] + value[i]);
+            *sum = each(|i| sum[i] + value(i));
         } else {
             self.grow(term.index);
-            self.values[term.index] = *value;
+            self.values[term.index] = each(value);
             self.terms = term.index + 1;
         }
     }
@@ -179,49 +179,46 @@ impl LossLanes {
         }
     }
 
-    /// Folds the values of each lane over the terms, from zero.
+    /// Something of the sums of values times a factor over all terms, in each lane.
     #[inline(always)]
-    fn fold(&self, step: impl Fn(f64, f64) -> f64) -> Lane {
-        let step = |[sum]: [f64; 1], values: &Lane, i: usize| [step(sum, values[i])];
-        gather(self.values[..self.terms].iter(), [0.0], step, |[sum]| sum)
+    fn sum(&self, factor: f64, end: impl Fn(f64) -> f64) -> Lane {
+        let step = |[sum]: [f64; 1], values: &Lane, i: usize| [sum + values[i] * factor];
+        gather(self.values[..self.terms].iter(), [0.0], step, |[sum], _| end(sum))
     }
 
-    /// Powers of all terms at a relative speed in rad/s. \[W\]
+    /// Something of the powers of all terms together (W) at a relative speed in rad/s.
     #[inline(always)]
-    pub(crate) fn total_watts(&self, speed: f64) -> Lane {
-        let factor = self.factor(speed);
-        self.fold(|total, value| total + value * factor)
+    pub(crate) fn total_watts(&self, speed: f64, end: impl Fn(f64) -> f64) -> Lane {
+        self.sum(self.factor(speed), end)
     }
 
-    /// Moments about the relative speed in rad/s, which is not zero, from the sums of all terms. \[Nm\]
-    #[inline(always)]
-    pub(crate) fn moment(&self, sum: &Lane, speed: f64) -> Lane {
-        match self.measure {
-            Measure::Moment => *sum,
-            Measure::Power => over(sum, |sum| sum / speed.abs()),
-        }
-    }
-
-    #[inline(always)]
-    fn sum(&self) -> Lane {
-        self.fold(|sum, value| sum + value)
+    /// What the values are.
+    pub(crate) fn measure(&self) -> Measure {
+        self.measure
     }
 
     /// The sums of all terms, in their measure. Leaves the lanes whose answer counts for nothing: negative, no number, or beside a thrust
     /// that nothing takes.
     #[inline(always)]
     pub(crate) fn sound_sum(&mut self, untaken: &Lane) -> Lane {
-        let sum = self.sum();
-        // What is no number passes by here and stands in the sum.
-        let least = self.fold(|least, value| if value < least { value } else { least });
-        // The greatest sum that is a number, or none beside such a thrust; a negative part is no sum.
-        let most = |i: usize| if untaken[i] == 0.0 { f64::MAX } else { 0.0 };
-        let sound = |i: usize| (least[i] >= 0.0) & (sum[i] <= most(i));
-        if count(sound) == LANES as u64 {
+        let mut unsound = [0_u64; LANES];
+        let mut any = 0;
+        // What is no number passes by the least one and stands in the sum.
+        let step = |[sum, least]: [f64; 2], values: &Lane, i: usize| {
+            [sum + values[i], if values[i] < least { values[i] } else { least }]
+        };
+        let sum = gather(self.values[..self.terms].iter(), [0.0; 2], step, |[sum, least], i| {
+            // The greatest sum that is a number, or none beside such a thrust; a negative part is no sum.
+            let most = if untaken[i] == 0.0 { f64::MAX } else { 0.0 };
+            unsound[i] = u64::from(!(least >= 0.0 && sum <= most));
+            any |= unsound[i];
+            sum
+        });
+        if any == 0 {
             return sum;
         }
         for i in 0..LANES {
-            if !sound(i) {
+            if unsound[i] > 0 {
                 self.alone[i] = true;
                 // Or torques of this lane would be no numbers, at which no model is asked.
                 for values in &mut self.values[..self.terms] {
@@ -229,7 +226,7 @@ impl LossLanes {
                 }
             }
         }
-        self.sum()
+        self.sum(1.0, |sum| sum)
     }
 }
 
@@ -253,8 +250,8 @@ mod tests {
             lanes.put(i, Ok(loss(i)));
         }
         for i in 0..LANES {
-            assert_eq!(lanes.total_watts(speed)[i], loss(i).total_watts(speed));
-            assert_eq!(lanes.moment(&lanes.sum(), speed)[i], loss(i).total_moment(speed));
+            assert_eq!(lanes.total_watts(speed, |watts| watts)[i], loss(i).total_watts(speed));
+            assert_eq!(lanes.sum(1.0, |sum| sum)[i], loss(i).total_moment(speed));
             assert_eq!(lanes.watts(1, speed)[i], loss(i).watts(1, speed));
         }
     }
@@ -269,7 +266,7 @@ mod tests {
         for answer in [Ok(some), Ok(some.with(&FIRST, 0.1)), Ok(Loss::POWERS), Err(undefined)] {
             // Whatever stood there before.
             let mut together = LossLanes::NONE;
-            together.add(&FIRST, &Lane::all(3.0));
+            together.add(&FIRST, |_| 3.0);
             together.leave(5);
             together.put_all(answer);
             let mut single = LossLanes::NONE;
@@ -278,8 +275,9 @@ mod tests {
                 assert!(together.agrees(lane, &answer, 0.0));
             }
             assert_eq!(together.alone(), single.alone());
-            assert_eq!(together.sum(), single.sum());
-            assert_eq!(together.total_watts(-3.0), single.total_watts(-3.0));
+            for double in [|x| x, |x| 2.0 * x] {
+                assert_eq!(together.total_watts(-3.0, double), single.total_watts(-3.0, double));
+            }
         }
     }
 
@@ -305,6 +303,6 @@ mod tests {
         let left: Vec<usize> = (0..LANES).filter(|i| lanes.alone()[*i]).collect();
         assert_eq!(left, [1, 2, 3, 4, 5, 6]);
         lanes.begin(&Loss::POWERS);
-        assert_eq!(lanes.total_watts(1.0), Lane::all(0.0));
+        assert_eq!(lanes.total_watts(1.0, |watts| watts), Lane::all(0.0));
     }
 }

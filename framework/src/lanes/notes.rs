@@ -141,8 +141,8 @@ impl<'a> LaneNotes<'a> {
         let ((least, greatest), unknown) = wide(
             #[inline(always)]
             || {
-                let unknown = count(|i| self.counted[i] && lane[i].is_nan());
-                (extremes(lane, self.counted), unknown)
+                let unknown = count(|i| self.counted[i] & lane[i].is_nan());
+                (self.extremes(lane), unknown)
             },
         );
         (unknown == 0 && self.points > 0).then_some((least, greatest))
@@ -170,6 +170,16 @@ impl<'a> LaneNotes<'a> {
         self.merge(self.base.observed + observed.index, least, greatest, 0);
     }
 
+    /// The least and the greatest number of the lanes that count; what is no number passes by.
+    #[inline(always)]
+    fn extremes(&self, lane: &Lane) -> (f64, f64) {
+        if self.points == LANES as u32 {
+            extremes(lane, |_| true)
+        } else {
+            extremes(lane, |i| self.counted[i])
+        }
+    }
+
     fn merge(&self, cell: usize, least: f64, greatest: f64, outside: u32) {
         if let Some(cell) = self.totals.get(cell) {
             cell.set(cell.get().merge(Extent {
@@ -186,10 +196,10 @@ impl<'a> LaneNotes<'a> {
         let (mut seen, unknown) = wide(
             #[inline(always)]
             || {
-                let mut seen = extremes(least, self.counted);
+                let mut seen = self.extremes(least);
                 let mut unknown = count(|i| least[i].is_nan());
                 if !std::ptr::eq(least, greatest) {
-                    let others = extremes(greatest, self.counted);
+                    let others = self.extremes(greatest);
                     seen = (seen.0.min(others.0), seen.1.max(others.1));
                     unknown += count(|i| greatest[i].is_nan());
                 }
@@ -222,15 +232,15 @@ impl<'a> LaneNotes<'a> {
     }
 }
 
-/// The least and the greatest number of the lanes that count; what is no number passes by.
+/// The least and the greatest number of some lanes; what is no number passes by.
 #[inline(always)]
-fn extremes(lane: &Lane, counted: &[bool; LANES]) -> (f64, f64) {
+fn extremes(lane: &Lane, counts: impl Fn(usize) -> bool) -> (f64, f64) {
     /// As many as the widest instructions take.
     const WIDE: usize = 8;
     let (mut least, mut greatest) = ([f64::INFINITY; WIDE], [f64::NEG_INFINITY; WIDE]);
-    for (own, counted) in lane.as_chunks::<WIDE>().0.iter().zip(counted.as_chunks::<WIDE>().0) {
+    for (chunk, own) in lane.as_chunks::<WIDE>().0.iter().enumerate() {
         for i in 0..WIDE {
-            let own = if counted[i] { own[i] } else { f64::NAN };
+            let own = if counts(chunk * WIDE + i) { own[i] } else { f64::NAN };
             least[i] = if own < least[i] { own } else { least[i] };
             greatest[i] = if own > greatest[i] { own } else { greatest[i] };
         }

@@ -54,11 +54,11 @@ impl Powers {
         }
     }
 
-    /// Powers of numbers: `exact` is the function that raises to the exponent, times a factor that is always the same, at every speed and in
+    /// Powers of numbers, which are given by their places: `exact` is the function that raises to the exponent, times a factor that is always the same, at every speed and in
     /// every oil; nothing is added or cut off in it. What stands at a place is remembered there, so that a model gives each of its powers a
     /// place of its own, counted from zero.
     #[inline(always)]
-    pub fn of(&mut self, place: usize, x: &Lane, exponent: f64, exact: impl Fn(f64) -> f64) -> Lane {
+    pub fn of(&mut self, place: usize, x: impl Fn(usize) -> f64, exponent: f64, exact: impl Fn(f64) -> f64) -> Lane {
         if let Some(Some(anchor)) = self.places.get(place)
             && anchor.exponent == exponent
         {
@@ -66,7 +66,7 @@ impl Powers {
             let (inverse, powers) = (&anchor.inverse, &anchor.powers);
             let mut close = 0;
             let found = each(|i| {
-                let d = x[i] * inverse[i] - 1.0;
+                let d = x(i) * inverse[i] - 1.0;
                 // What is no number is not close.
                 close += u64::from(d.abs() <= CLOSE);
                 powers[i] + powers[i] * (d * (c1 + d * (c2 + d * (c3 + d * (c4 + d * (c5 + d * c6))))))
@@ -75,9 +75,10 @@ impl Powers {
                 return found;
             }
         }
-        let powers = over(x, exact);
+        let x = each(x);
+        let powers = over(&x, exact);
         if self.remembers {
-            self.remember(place, exponent, x, &powers);
+            self.remember(place, exponent, &x, &powers);
         }
         powers
     }
@@ -120,12 +121,12 @@ mod tests {
             let exact = |x: f64| x.powf(exponent);
             let mut powers = Powers::remembering();
             let first = each(|i| 10.0_f64.powf(0.4 * i as f64 - 6.0));
-            assert_eq!(powers.of(0, &first, exponent, exact), over(&first, exact));
+            assert_eq!(powers.of(0, |i| first[i], exponent, exact), over(&first, exact));
             for step in -20..=20 {
                 let x = each(|i| first[i] * (1.0 + 0.99 * CLOSE * f64::from(step) / 20.0));
                 let found = wide(
                     #[inline(always)]
-                    || powers.of(0, &x, exponent, |_| f64::NAN),
+                    || powers.of(0, |i| x[i], exponent, |_| f64::NAN),
                 );
                 for i in 0..LANES {
                     let own = exact(x[i]);
@@ -150,9 +151,8 @@ mod tests {
         };
         let mut ask = |place: usize, x: f64, others: f64| {
             calls.set(0);
-            let x = each(|i| if i == 7 { x } else { others });
-            let found = powers.of(place, &x, 1.0 / 3.0, exact);
-            assert!((found[7] - cube_root(x[7])).abs() <= 1e-15 && (found[8] - cube_root(x[8])).abs() <= 1e-15);
+            let found = powers.of(place, |i| if i == 7 { x } else { others }, 1.0 / 3.0, exact);
+            assert!((found[7] - cube_root(x)).abs() <= 1e-15 && (found[8] - cube_root(others)).abs() <= 1e-15);
             calls.get() > 0
         };
         assert!(ask(0, 3.0, 3.0));
@@ -168,7 +168,7 @@ mod tests {
         assert!(!ask(2, 3.0, 3.0));
         powers.forget();
         calls.set(0);
-        powers.of(2, &Lane::all(3.0), 1.0 / 3.0, exact);
+        powers.of(2, |_| 3.0, 1.0 / 3.0, exact);
         assert!(calls.get() > 0);
     }
 
@@ -181,7 +181,7 @@ mod tests {
                 asked.set(true);
                 cube_root(x)
             };
-            assert_eq!(powers.of(0, &Lane::all(x), 1.0 / 3.0, root)[0], cube_root(2.0));
+            assert_eq!(powers.of(0, |_| x, 1.0 / 3.0, root)[0], cube_root(2.0));
             assert!(asked.get());
         }
     }

@@ -75,7 +75,7 @@ fn length(
             [y + own(0), z + own(1)]
         },
         #[inline(always)]
-        |[y, z]| (y * y + z * z).sqrt(),
+        |[y, z], _| (y * y + z * z).sqrt(),
     )
 }
 
@@ -107,10 +107,20 @@ impl ShaftLoads {
         }
         for (place, member) in self.order.iter().enumerate() {
             let forces = member.meshes.iter().map(|(mesh, factor)| (*factor, &tangential[*mesh]));
-            let sizes_of = |[sum]: [f64; 1], (factor, force): (f64, &Lane), i: usize| [sum + (factor * force[i]).abs()];
-            let scale = gather(forces.clone(), [member.size], sizes_of, |[sum]| sum);
-            let own = |[sum]: [f64; 1], (factor, force): (f64, &Lane), i: usize| [sum + factor * force[i]];
-            let thrust = gather(forces, [member.always], own, |[sum]| sum);
+            // The sum, and that of the magnitudes.
+            let step = |[sum, size]: [f64; 2], (factor, force): (f64, &Lane), i: usize| {
+                let own = factor * force[i];
+                [sum + own, size + own.abs()]
+            };
+            let start = [member.always, member.size];
+            if let (false, Some((taker, share))) = (carried, member.taking.only()) {
+                loads[taker].axial = gather(forces, start, step, |[thrust, scale], _| {
+                    settled(thrust, scale).abs() * share
+                });
+                continue;
+            }
+            let thrust = gather(forces.clone(), start, step, |[thrust, _], _| thrust);
+            let scale = gather(forces, start, step, |[_, scale], _| scale);
             let (thrust, scale) = if carried {
                 (
                     each(|i| thrust[i] + passed[place][i]),
@@ -128,14 +138,28 @@ impl ShaftLoads {
     }
 }
 
+/// A sum of forces, or none where only rounding is left of them.
+#[inline(always)]
+fn settled(sum: f64, size: f64) -> f64 {
+    if sum.abs() <= 1e-9 * size { 0.0 } else { sum }
+}
+
 impl Taking {
+    /// The one support that takes thrust of both senses, with its share, where there is nothing but that.
+    #[inline(always)]
+    fn only(&self) -> Option<(usize, f64)> {
+        let simple = self.pair.is_none() && self.springs.is_empty() && self.takers[0] == self.takers[1];
+        match &self.takers[0][..] {
+            [only] if simple => Some(*only),
+            _ => None,
+        }
+    }
+
     /// As [`Taking::share`] in all lanes, where it writes the axial loads anew.
     #[inline(always)]
     fn share_abreast(&self, thrust: &Lane, scale: &Lane, loads: &mut [LoadLanes]) -> Lane {
-        let small = |rest: f64, scale: f64| if rest.abs() <= 1e-9 * scale { 0.0 } else { rest };
-        let simple = self.pair.is_none() && self.springs.is_empty() && self.takers[0] == self.takers[1];
-        if let (true, [(place, share)]) = (simple, &self.takers[0][..]) {
-            loads[*place].axial = each(|i| small(thrust[i], scale[i]).abs() * share);
+        if let Some((place, share)) = self.only() {
+            loads[place].axial = each(|i| settled(thrust[i], scale[i]).abs() * share);
             return Lane::ZERO;
         }
         for place in &self.supports {
@@ -158,7 +182,7 @@ impl Taking {
             loads[*place].axial = over(&loads[*place].axial, |axial| axial + spring.abs());
             rest = over(&rest, |rest| rest + spring);
         }
-        let rest = each(|i| small(rest[i], scale[i]));
+        let rest = each(|i| settled(rest[i], scale[i]));
         let mut untaken = Lane::ZERO;
         for (right, takers) in self.takers.iter().enumerate() {
             let sign = if right == 1 { 1.0 } else { -1.0 };

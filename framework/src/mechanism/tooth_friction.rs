@@ -334,7 +334,8 @@ impl<'a> PathAt<'a> {
             beta: self.beta,
             conductivity: self.conductivity,
             x_l: self.x_l,
-            notes: self.notes,
+            // A place has a speed of its own.
+            notes: self.notes.forgetting(),
         }
     }
 }

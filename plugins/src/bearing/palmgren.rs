@@ -217,14 +217,14 @@ impl BearingModel for Palmgren {
                 };
                 let m1 = each(|i| f1[i] * power[i] * self.d_m_b);
                 let fa = &loads.axial;
-                let load = if self.flanged {
-                    each(|i| (m1[i] + if fa[i] > 0.0 { self.m2(fa[i]) } else { 0.0 }).nmm_in_nm())
-                } else {
-                    over(&m1, ShopUnits::nmm_in_nm)
-                };
                 losses.begin(&Loss::MOMENTS);
-                losses.add(&LOAD, &load);
-                losses.add(&NO_LOAD, &Lane::all(m0.nmm_in_nm()));
+                if self.flanged {
+                    let m2 = |i: usize| if fa[i] > 0.0 { self.m2(fa[i]) } else { 0.0 };
+                    losses.add(&LOAD, |i| (m1[i] + m2(i)).nmm_in_nm());
+                } else {
+                    losses.add(&LOAD, |i| m1[i].nmm_in_nm());
+                }
+                losses.add(&NO_LOAD, |_| m0.nmm_in_nm());
             },
         );
     }

@@ -14,7 +14,7 @@ mod rows;
 
 use drag::{Bath, Body, Depth, Drag};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, count, over, wide};
+use gearloss_framework::lanes::{LaneNotes, LossLanes, count, wide};
 use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -370,11 +370,11 @@ impl BearingModel for Model {
                 let powers = losses.powers();
                 let (g_rr, g_sl) = self.variables.lanes(&loads.radial, &loads.axial, self.blend, powers);
                 losses.begin(&Loss::MOMENTS);
-                losses.add(&ROLLING, &over(&g_rr, |g| (moments.rolling * g).nmm_in_nm()));
-                losses.add(&SLIDING, &over(&g_sl, |g| (moments.mu_sl * g).nmm_in_nm()));
+                losses.add(&ROLLING, |i| (moments.rolling * g_rr[i]).nmm_in_nm());
+                losses.add(&SLIDING, |i| (moments.mu_sl * g_sl[i]).nmm_in_nm());
                 for (term, moment) in [(&DRAG, moments.drag), (&SEAL, self.seals)] {
                     if moment != 0.0 {
-                        losses.add(term, &Lane::all(moment.nmm_in_nm()));
+                        losses.add(term, |_| moment.nmm_in_nm());
                     }
                 }
                 if count(|i| loads.axial[i] > self.axial) > 0 {

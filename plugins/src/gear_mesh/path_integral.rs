@@ -14,7 +14,7 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
-use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, count, each, over, wide};
+use gearloss_framework::lanes::{LANES, Lane, LaneNotes, LossLanes, count, over, wide};
 use gearloss_framework::loss::{Loss, Notes, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel, note_one_by_one, one_by_one};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
@@ -226,17 +226,15 @@ impl GearMeshModel for Integral {
             at,
             torques,
             #[inline(always)]
-            |path, forces, line_loads| {
+            |path, line_loads| {
                 let sums = self.short.as_ref()?.sums(path, line_loads, losses.powers());
-                let sliding = each(|i| sums[i] * forces[i] * speed);
+                let sliding = |i: usize| sums[i] * at.part.pair.normal_force(torques[i]) * speed;
                 losses.keep(&sums);
                 losses.begin(&Loss::POWERS);
-                losses.add(&SLIDING, &sliding);
-                if count(|i| sliding[i].is_nan()) > 0 {
-                    for (lane, sliding) in sliding.iter().enumerate() {
-                        if sliding.is_nan() {
-                            losses.leave(lane);
-                        }
+                losses.add(&SLIDING, sliding);
+                if count(|i| sliding(i).is_nan()) > 0 {
+                    for lane in (0..LANES).filter(|lane| sliding(*lane).is_nan()) {
+                        losses.leave(lane);
                     }
                 }
                 Some(())
@@ -252,14 +250,13 @@ impl GearMeshModel for Integral {
             at,
             torques,
             #[inline(always)]
-            |path, _, line_loads| {
+            |path, line_loads| {
                 let short = self.short.as_ref()?;
-                let path = path.with(|to| to.notes = notes.all()).nested(&self.friction);
                 let own = notes.of(self.friction.notes);
-                if !short.note(&path, line_loads, own) {
+                if !short.note(path, line_loads, own) {
                     let noted = self.path.with_lanes(|mu| {
-                        let wide = self.friction.along_lanes(&path, line_loads, mu);
-                        wide.then(|| self.friction.note_lanes(&path, line_loads, mu, own))
+                        let wide = self.friction.along_lanes(path, line_loads, mu);
+                        wide.then(|| self.friction.note_lanes(path, line_loads, mu, own))
                     });
                     noted?;
                 }
@@ -281,28 +278,28 @@ impl GearMeshModel for Integral {
 }
 
 impl Integral {
-    /// Does something with the path, the normal forces (N) and line loads (N/m) of all lanes; absent where that has no way.
+    /// Does something with the path and the line loads (N/m) of all lanes; absent where that has no way.
     fn in_lanes<R>(
         &self,
         at: &GearMeshAt<'_>,
         torques: &Lane,
-        then: impl FnOnce(&PathAt<'_>, &Lane, &Lane) -> Option<R>,
+        then: impl FnOnce(&PathAt<'_>, &Lane) -> Option<R>,
     ) -> Option<R> {
         if self.rolling != Rolling::None || at.speed == 0.0 || self.short.is_none() {
             return None;
         }
         let pair = &at.part.pair;
         let mean = MeanFrictionAt::of(at, Notes::MUTED);
-        let path = self.path.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
+        let notes = at.notes.of(self.friction.notes);
+        let path = self.path.at(&mean, notes).with(|to| to.bodies = at.bodies());
         wide(
             #[inline(always)]
             || {
                 if count(|i| torques[i] == 0.0) > 0 {
                     return None;
                 }
-                let forces = over(torques, |torque| pair.normal_force(torque));
-                let line_loads = over(&forces, |force| pair.line_load(force));
-                then(&path, &forces, &line_loads)
+                let line_loads = over(torques, |torque| pair.line_load(pair.normal_force(torque)));
+                then(&path, &line_loads)
             },
         )
     }

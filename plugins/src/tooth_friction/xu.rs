@@ -117,7 +117,7 @@ impl ToothFrictionModel for Xu {
             return Ok(Along::default());
         }
         let along = Common::new(path, s, nu0);
-        let (common, fall) = (along.common(unit), along.fall(unit));
+        let (common, fall) = (along.common(ln(unit)), along.fall(unit));
         walk(path, common, fall, mu);
         let [least, most] = ends(mu);
         for end in 0..2 {
@@ -152,7 +152,7 @@ impl ToothFrictionModel for Xu {
                 let commons = over(
                     &units,
                     #[inline(always)]
-                    |unit| along.common(unit),
+                    |unit| along.common(ln(unit)),
                 );
                 let falls = over(&units, |unit| along.fall(unit));
                 for (node, mu) in path.nodes.iter().zip(&mut *mu) {
@@ -252,7 +252,7 @@ impl WeightedFriction for Weighted {
         let unit = unit_pressure(path.line_load, path.modulus);
         let along = self.common(path);
         along.map_or(f64::NAN, |along| {
-            self.series.at(-along.fall(unit)) * power(unit) * along.factor()
+            self.series.at(-along.fall(unit)) * power(unit) * along.factor
         })
     }
 
@@ -264,12 +264,9 @@ impl WeightedFriction for Weighted {
             #[inline(always)]
             || {
                 let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-                let raised = powers.of(0, &units, B[1], power);
-                let (sums, factor) = (
-                    self.series.lanes(&over(&units, |unit| -along.fall(unit))),
-                    along.factor(),
-                );
-                each(|i| sums[i] * raised[i] * factor)
+                let raised = powers.of(0, |i| units[i], B[1], power);
+                let sums = self.series.lanes(&over(&units, |unit| -along.fall(unit)));
+                each(|i| sums[i] * raised[i] * along.factor)
             },
         )
     }
@@ -280,15 +277,27 @@ impl WeightedFriction for Weighted {
         };
         let [low, high] = [range.0, range.1].map(|line_load| unit_pressure(line_load, path.modulus));
         let at = |unit: f64| -along.fall(unit);
-        let (seen, greatest_seen) = notes.seen(&MU);
-        let (ln_least, ln_greatest) = (ln(seen) + ROUNDING, ln(greatest_seen) - ROUNDING);
+        let seen = notes.seen(&MU);
+        // One loop, so that they do not wait for each other.
+        let mut logarithms = [low, high, seen.0, seen.1];
+        wide(
+            #[inline(always)]
+            || {
+                for number in &mut logarithms {
+                    *number = ln(*number);
+                }
+            },
+        );
+        let [ln_low, ln_high, ln_least, ln_greatest] = logarithms;
         // Where friction was seen above and below already, a path adds nothing. Mostly bounds for all loads together tell that: what is
         // common rises with load, and the rest falls.
         let (Some([below, _]), Some([_, above])) = (self.series.bounds(at(high)), self.series.bounds(at(low))) else {
             return false;
         };
-        if along.common(low) + below >= ln_least && along.common(high) + above <= ln_greatest {
-            notes.observe_range(&MU, seen, greatest_seen);
+        if along.common(ln_low) + below >= ln_least + ROUNDING
+            && along.common(ln_high) + above <= ln_greatest - ROUNDING
+        {
+            notes.observe_range(&MU, seen.0, seen.1);
             note_ranges(self.roughness, path, line_loads, Some(range), notes);
             return true;
         }
@@ -303,7 +312,7 @@ impl WeightedFriction for Weighted {
                 let commons = over(
                     &units,
                     #[inline(always)]
-                    |unit| along.common(unit),
+                    |unit| along.common(ln(unit)),
                 );
                 let falls = over(&units, |unit| along.fall(unit));
                 let (mut least, mut greatest) = (Lane::all(f64::INFINITY), Lane::all(f64::NEG_INFINITY));
@@ -393,26 +402,28 @@ struct Common {
     rough: f64,
     speed: f64,
     ln_nu0: f64,
+    /// The exponential of all but the unit of pressure.
+    factor: f64,
 }
 
 impl Common {
     fn new(path: &PathAt<'_>, s: f64, nu0: f64) -> Self {
+        let [rough, speed, ln_nu0, factor] = path.notes.once(|| {
+            let (rough, speed, ln_nu0) = (B[0] + B[8] * exp(s), B[5] * ln(path.speed), ln(nu0));
+            [rough, speed, ln_nu0, exp(rough + speed + B[6] * ln_nu0)]
+        });
         Self {
-            rough: B[0] + B[8] * exp(s),
-            speed: B[5] * ln(path.speed),
-            ln_nu0: ln(nu0),
+            rough,
+            speed,
+            ln_nu0,
+            factor,
         }
     }
 
-    /// The part of the exponent that is the same along the path, from the unit of pressure in GPa.
+    /// The part of the exponent that is the same along the path, from the logarithm of the unit of pressure in GPa.
     #[inline(always)]
-    fn common(&self, unit: f64) -> f64 {
-        self.rough + B[1] * ln(unit) + self.speed + B[6] * self.ln_nu0
-    }
-
-    /// The same as a factor without what [`power`] has.
-    fn factor(&self) -> f64 {
-        exp(self.rough + self.speed + B[6] * self.ln_nu0)
+    fn common(&self, ln_unit: f64) -> f64 {
+        self.rough + B[1] * ln_unit + self.speed + B[6] * self.ln_nu0
     }
 
     /// -P lg nu0 per slide-roll ratio and `root_load`.

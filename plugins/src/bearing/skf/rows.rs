@@ -430,18 +430,21 @@ impl Variables {
         };
         let (mut g_rr, mut g_sl) = (Lane::ZERO, Lane::ZERO);
         let unpushed = count(|i| is_nothing(share(fa[i], c0)));
+        // No blending is blending up to an axial load below all.
+        let to = blend.unwrap_or(0.0);
+        let combined_only = unpushed == 0 && count(|i| fa[i] < to * fr[i]) == 0;
         // Loops of one function each: their steps wait for each other in a lane, and need not in others.
-        if unpushed > 0 || blend.is_some() {
+        if !combined_only {
             g_rr = powers.of(
                 0,
-                fr,
+                |i| fr[i],
                 ROLLING,
                 #[inline(always)]
                 |fr| rolling * power(fr, ROLLING),
             );
             g_sl = powers.of(
                 1,
-                fr,
+                |i| fr[i],
                 SLIDING,
                 #[inline(always)]
                 |fr| sliding[0] * power(fr, SLIDING),
@@ -452,7 +455,7 @@ impl Variables {
         }
         let angles = powers.of(
             2,
-            fa,
+            |i| fa[i],
             ANGLE,
             #[inline(always)]
             |fa| angle(power(share(fa, c0), ANGLE)),
@@ -460,23 +463,22 @@ impl Variables {
         let pushed = each(|i| fa[i] / sine(angles[i]));
         let both_rr = powers.of(
             3,
-            &each(|i| fr[i] + r2 * pushed[i]),
+            |i| fr[i] + r2 * pushed[i],
             ROLLING,
             #[inline(always)]
             |load| rolling * power(load, ROLLING),
         );
         let both_sl = powers.of(
             4,
-            &each(|i| cubed_sliding(fr[i], fa[i], pushed[i], s2)),
+            #[inline(always)]
+            |i| cubed_sliding(fr[i], fa[i], pushed[i], s2),
             CUBE_ROOT,
             #[inline(always)]
             |cubed| sliding[1] * cube_root(cubed),
         );
-        if unpushed == 0 && blend.is_none() {
+        if combined_only {
             return (both_rr, both_sl);
         }
-        // No blending is blending up to an axial load below all.
-        let to = blend.unwrap_or(0.0);
         for i in 0..LANES {
             let radial = (g_rr[i], g_sl[i]);
             let combined = (both_rr[i], both_sl[i]);
