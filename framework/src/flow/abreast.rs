@@ -18,6 +18,7 @@ const FEW: usize = PATIENCE - 2;
 const NEGLIGIBLE: f64 = 1e-3;
 
 const ZERO: Lane = Lane::all(0.0);
+static NO_RATE: Lane = Lane::all(UNKNOWN);
 
 /// What one block needs and leaves.
 #[derive(Debug, Clone)]
@@ -259,7 +260,7 @@ impl Flow {
         if !guessed {
             trail.rate = Some(work.rate);
         }
-        trail.push(task.torques, at, &work.drives, &work.unknown[..self.size], guessed);
+        trail.push(task.torques, at, &work.drives, &mut work.unknown[..self.size], guessed);
     }
 
     /// Passes over models and equilibrium until they agree: from the beginning, or after a first one from a guess. `pass` is the
@@ -296,6 +297,14 @@ impl Flow {
 
     fn ask_abreast(&self, work: &mut WorkLanes, losses: &mut impl FnMut(&mut FlowLanes<'_>)) {
         work.asked.fill(ZERO);
+        wide(
+            #[inline(always)]
+            || {
+                for ((multiplier, x), scale) in work.multipliers.iter_mut().zip(&work.unknown).zip(&self.scale) {
+                    *multiplier = over(x, |x| x * scale);
+                }
+            },
+        );
         let drags = 2 * self.meshes.len();
         losses(&mut FlowLanes {
             multipliers: &work.multipliers,
@@ -310,14 +319,13 @@ impl Flow {
     /// Guesses the torques of a first pass from a trail; false where it says nothing.
     #[inline(always)]
     fn guess_abreast(&self, task: &TaskLanes<'_>, trail: &mut Trail, at: f64, work: &mut WorkLanes) -> bool {
-        let weights = trail.weights(task.torques, at);
-        if weights.is_empty() {
+        if !trail.weigh(task.torques, at) {
             return false;
         }
         self.prepare_abreast(task, work);
         work.drives.copy_from_slice(&trail.drives);
         for (place, unknown) in work.unknown[..self.size].iter_mut().enumerate() {
-            *unknown = trail.guess(&weights, place);
+            *unknown = trail.guess(place);
         }
         // Whether the drivers are still those of the trail shows when the losses have been seen.
         self.torques_abreast(task.speeds, work);
@@ -331,7 +339,6 @@ impl Flow {
         let k = self.meshes.len();
         work.answers();
         std::mem::swap(&mut work.used, &mut work.answer);
-        // Where the guess is close, the step from it is as good as a refined solution; elsewhere another pass follows.
         self.right_abreast(work);
         // What rests has no power, but its torque loads what turns.
         let fastest = task.speeds.iter().fold(0.0, |most, speed| larger(most, speed.abs()));
@@ -339,10 +346,7 @@ impl Flow {
         for ((power, row), relative) in work.powers.iter_mut().zip(&self.meshes).zip(&work.relative) {
             *power = (self.scale[row.row] * row.z1 * speed(relative[1])).abs();
         }
-        let neglected = self.close_step_abreast(task.speeds, speed, work);
-        for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
-            *unknown = each(|i| unknown[i] + step[i]);
-        }
+        let neglected = self.close_abreast(task.speeds, speed, work);
         self.accept_abreast(task.speeds, work);
         let meshes = self.meshes.iter().zip(&work.powers);
         let ports = self.unknown.iter().zip(&work.step[self.rows..]);
@@ -351,14 +355,14 @@ impl Flow {
                 .map(|(row, power)| (*power, &work.step[row.row]))
                 .chain(ports.map(|(port, step)| (speed(task.speeds[*port]), step))),
         );
-        work.rate = trail.rate.unwrap_or(Lane::all(UNKNOWN));
-        let rate = &work.rate;
+        let rate = trail.rate.as_ref().unwrap_or(&NO_RATE);
         let left = each(|i| to_come(moved[i], rate[i]) + moved[i] * neglected[i]);
         for i in 0..LANES {
             work.done[i] = left[i] <= SAFETY * task.tolerance.power * work.largest[i];
         }
         work.passes = [1; LANES];
         if work.done.contains(&false) {
+            work.rate = *rate;
             // What follows takes the torques for an equilibrium with the losses used.
             self.right_abreast(work);
             self.friction_abreast(work);
@@ -544,17 +548,19 @@ impl Flow {
         self.step_abreast(work);
     }
 
-    /// Such a step for unknowns that lack little: the meshes lose their share of it as if it were the step without friction. Returns the
-    /// share of its power that this neglects at most, which is about the square of all shares together, as far as meshes and ports feel each
+    /// As [`solve_abreast`](Self::solve_abreast) from unknowns that are close: the meshes lose their share of the step as if it were the
+    /// one without friction. Leaves the step as well, and returns the share of its power that this neglects at most, which is about the square of all shares together, as far as meshes and ports feel each
     /// other. Infinite where that is no small share, as close to self-locking.
     #[inline(always)]
-    fn close_step_abreast(&self, speeds: &[f64], speed: impl Fn(f64) -> f64, work: &mut WorkLanes) -> Lane {
+    fn close_abreast(&self, speeds: &[f64], speed: impl Fn(f64) -> f64, work: &mut WorkLanes) -> Lane {
         work.active.clear();
         work.active.extend(0..self.meshes.len());
-        self.lack_abreast(work);
+        self.lose_abreast(work);
+        // The new unknowns in place of the step, until the step is known.
         self.sparse.inverse.product(&work.right, &mut work.step);
         for (share, friction) in work.shares.iter_mut().zip(&self.friction) {
-            *share = work.step[friction.row];
+            let (new, old) = (&work.step[friction.row], &work.unknown[friction.row]);
+            *share = each(|i| new[i] - old[i]);
         }
         let (mut together, mut coupling) = (ZERO, 0.0);
         for (mesh, friction) in self.friction.iter().enumerate() {
@@ -570,6 +576,10 @@ impl Flow {
             for (response, port) in ports.iter().zip(&self.unknown) {
                 coupling = larger(coupling, response.abs() * speed(speeds[*port]) / work.powers[mesh]);
             }
+        }
+        std::mem::swap(&mut work.unknown, &mut work.step);
+        for (step, new) in work.step.iter_mut().zip(&work.unknown) {
+            *step = each(|i| new[i] - step[i]);
         }
         // With C for coupling by shares the step is (1 - C) y and the exact one y/(1 + C): they differ by C^2/(1 - C^2) of the step.
         over(&together, |shares| {
@@ -589,6 +599,12 @@ impl Flow {
         for (right, residual) in work.right.iter_mut().zip(&work.residual) {
             *right = each(|i| right[i] - residual[i]);
         }
+        self.lose_abreast(work);
+    }
+
+    /// What meshes with friction lose of their torques, on the right-hand side.
+    #[inline(always)]
+    fn lose_abreast(&self, work: &mut WorkLanes) {
         for &mesh in &work.active {
             let (row, side) = (self.friction[mesh].row, usize::from(work.drives[mesh] == Drive::Second));
             let (share, torque) = (&work.used[mesh], &work.unknown[row]);
@@ -608,7 +624,9 @@ impl Flow {
             work.mesh_loss[mesh] = each(|i| share[i] * rolling[i].abs() + if moves { constant[i] } else { 0.0 });
         }
         let step = |[total]: [f64; 1], number: &Lane, i: usize| [total + number[i].abs()];
-        let total = gather(work.unknown.iter().chain(&work.mesh_loss), [0.0], step, |[total], _| { total });
+        let total = gather(work.unknown.iter().chain(&work.mesh_loss), [0.0], step, |[total], _| {
+            total
+        });
         if count(|i| !total[i].is_finite()) > 0 {
             for i in 0..LANES {
                 work.alone[i] |= !total[i].is_finite();
@@ -616,21 +634,16 @@ impl Flow {
         }
     }
 
-    /// Multipliers, torques of ports and powers, from the unknowns.
+    /// Torques of ports and powers, from the unknowns.
     #[inline(always)]
     fn torques_abreast(&self, speeds: &[f64], work: &mut WorkLanes) {
-        for ((multiplier, x), scale) in work.multipliers.iter_mut().zip(&work.unknown).zip(&self.scale) {
-            *multiplier = over(x, |x| x * scale);
-        }
         for (port, torque) in self.unknown.iter().zip(&work.unknown[self.rows..]) {
             work.ports[*port] = *torque;
         }
         for (mesh, row) in self.meshes.iter().enumerate() {
             let relative = work.relative[mesh];
-            let rolling = over(&work.multipliers[row.row], |multiplier| {
-                -multiplier * row.z1 * relative[1]
-            });
-            work.rolling[mesh] = rolling;
+            let scale = self.scale[row.row];
+            work.rolling[mesh] = over(&work.unknown[row.row], |x| -(x * scale) * row.z1 * relative[1]);
         }
         let ports = speeds.iter().copied().zip(&work.ports);
         work.largest = greatest(work.rolling.iter().map(|rolling| (1.0, rolling)).chain(ports));

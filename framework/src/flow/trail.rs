@@ -25,6 +25,8 @@ pub struct Trail {
     pub(super) rate: Option<Lane>,
     /// The newest last.
     steps: Vec<Step>,
+    /// Numbers and weights of the steps in a guess.
+    weights: Vec<(usize, f64)>,
     guesses: usize,
     /// Where the rate was measured.
     measured: f64,
@@ -44,34 +46,36 @@ impl Trail {
         self.guesses = 0;
     }
 
-    /// Numbers and weights of the steps for a guess at a place, for the points with these given torques; empty where there is none.
+    /// Weighs the steps for a guess at a place, for the points with these given torques; false where there is none.
     #[inline(always)]
-    pub(super) fn weights(&mut self, torques: &[Lane], place: f64) -> Vec<(usize, f64)> {
+    pub(super) fn weigh(&mut self, torques: &[Lane], place: f64) -> bool {
         if !same_points(&self.torques, torques) {
             self.clear();
         }
         let far = (place - self.measured).abs() > FARTHEST;
         if far || self.guesses == LONGEST || self.rate.is_none() {
-            return Vec::new();
+            return false;
         }
-        (0..self.steps.len())
-            .map(|first| weights(&self.steps, first, place))
-            .find(|weights| weights.iter().map(|(_, w)| w.abs()).sum::<f64>() <= SPREAD)
-            .unwrap_or_default()
+        let weights = &mut self.weights;
+        (0..self.steps.len()).any(|first| {
+            weights.clear();
+            weights.extend(lagrange(&self.steps, first, place));
+            weights.iter().map(|(_, weight)| weight.abs()).sum::<f64>() <= SPREAD
+        })
     }
 
-    /// The guess of one unknown.
+    /// The guess of one unknown at the place that was weighed last.
     #[inline(always)]
-    pub(super) fn guess(&self, weights: &[(usize, f64)], unknown: usize) -> Lane {
+    pub(super) fn guess(&self, unknown: usize) -> Lane {
         weighted(
-            weights
+            self.weights
                 .iter()
                 .map(|(step, weight)| (*weight, &self.steps[*step].unknowns[unknown])),
         )
     }
 
-    /// Adds a step; `guessed` says whether it began with a guess.
-    pub(super) fn push(&mut self, given: &[Lane], place: f64, drives: &[Drive], unknowns: &[Lane], guessed: bool) {
+    /// Adds a step, for whose unknowns it gives older ones back; `guessed` says whether it began with a guess.
+    pub(super) fn push(&mut self, given: &[Lane], place: f64, drives: &[Drive], unknowns: &mut [Lane], guessed: bool) {
         if guessed {
             self.guesses += 1;
         } else {
@@ -90,12 +94,11 @@ impl Trail {
         } else {
             Step {
                 place,
-                unknowns: Vec::new(),
+                unknowns: vec![Lane::ZERO; unknowns.len()],
             }
         };
         step.place = place;
-        step.unknowns.clear();
-        step.unknowns.extend_from_slice(unknowns);
+        step.unknowns.swap_with_slice(unknowns);
         self.steps.push(step);
     }
 }
@@ -107,13 +110,13 @@ fn same_points(a: &[Lane], b: &[Lane]) -> bool {
 }
 
 /// Numbers and weights of the polynomial at a place through the steps from one on, after Lagrange.
-fn weights(steps: &[Step], first: usize, place: f64) -> Vec<(usize, f64)> {
-    let factor = |own: &Step, other: &Step| (place - other.place) / (own.place - other.place);
-    let weight = |i: usize| -> f64 {
+fn lagrange(steps: &[Step], first: usize, place: f64) -> impl Iterator<Item = (usize, f64)> {
+    let factor = move |own: &Step, other: &Step| (place - other.place) / (own.place - other.place);
+    let weight = move |i: usize| -> f64 {
         let others = steps.iter().enumerate().skip(first).filter(|(j, _)| *j != i);
         others.map(|(_, other)| factor(&steps[i], other)).product()
     };
-    (first..steps.len()).map(|i| (i, weight(i))).collect()
+    (first..steps.len()).map(move |i| (i, weight(i)))
 }
 
 #[cfg(test)]
@@ -122,19 +125,21 @@ mod tests {
 
     fn follow(trail: &mut Trail, speeds: &[f64], law: impl Fn(f64) -> f64) {
         for (i, speed) in speeds.iter().enumerate() {
-            let torques = [Lane::all(law(*speed))];
-            trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], &torques, i > 0);
+            let mut torques = [Lane::all(law(*speed))];
+            trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], &mut torques, i > 0);
         }
         trail.rate = Some(Lane::all(0.1));
         trail.measured = speeds[speeds.len() - 1];
     }
 
-    fn weights_at(trail: &Trail, given: f64, place: f64) -> Vec<(usize, f64)> {
-        let near = Trail {
-            measured: place,
-            ..trail.clone()
-        };
-        { near }.weights(&[Lane::all(given)], place)
+    /// How many steps count for a guess at a place, not far from where the rate was measured.
+    fn steps_at(trail: &mut Trail, given: f64, place: f64) -> usize {
+        trail.measured = place;
+        if trail.weigh(&[Lane::all(given)], place) {
+            trail.weights.len()
+        } else {
+            0
+        }
     }
 
     #[test]
@@ -142,26 +147,25 @@ mod tests {
         let law = |x: f64| 2.0 - x + 0.3 * x * x - 0.01 * x * x * x;
         let mut trail = Trail::default();
         follow(&mut trail, &[1.0, 2.0, 2.9, 4.0, 5.1], law);
-        let weights = weights_at(&trail, 3.0, 6.0);
-        assert_eq!(weights.len(), 4);
-        assert!((trail.guess(&weights, 0)[7] - law(6.0)).abs() < 1e-13);
+        assert_eq!(steps_at(&mut trail, 3.0, 6.0), 4);
+        assert!((trail.guess(0)[7] - law(6.0)).abs() < 1e-13);
         // Far from the steps before a polynomial of lower degree errs less.
-        assert!(weights_at(&trail, 3.0, 20.0).len() < 3);
+        assert!((1..3).contains(&steps_at(&mut trail, 3.0, 20.0)));
     }
 
     #[test]
     fn without_common_steps_nothing_is_guessed() {
         let mut trail = Trail::default();
-        assert!(weights_at(&trail, 3.0, 6.0).is_empty());
+        assert_eq!(steps_at(&mut trail, 3.0, 6.0), 0);
         follow(&mut trail, &[1.0, 2.0], |x| x);
-        assert_eq!(weights_at(&trail, 3.0, 3.0).len(), 2);
-        assert!(weights_at(&trail, 3.1, 3.0).is_empty());
+        assert_eq!(steps_at(&mut trail, 3.0, 3.0), 2);
+        assert_eq!(steps_at(&mut trail.clone(), 3.1, 3.0), 0);
         // The same speed once more leaves one step.
         follow(&mut trail, &[1.0, 2.0, 2.0], |x| x);
-        assert_eq!(weights_at(&trail, 3.0, 3.0).len(), 1);
+        assert_eq!(steps_at(&mut trail, 3.0, 3.0), 1);
         let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
         follow(&mut trail, &many, |x| x);
-        assert!(weights_at(&trail, 3.0, 40.0).is_empty());
+        assert_eq!(steps_at(&mut trail, 3.0, 40.0), 0);
     }
 
     #[test]
@@ -171,9 +175,9 @@ mod tests {
         let mut measured = Vec::new();
         for step in 1..=1000 {
             let place = f64::from(step).ln();
-            let guessed = !trail.weights(&given, place).is_empty();
+            let guessed = trail.weigh(&given, place);
             trail.rate = Some(Lane::all(0.1));
-            trail.push(&given, place, &[Drive::First], &given, guessed);
+            trail.push(&given, place, &[Drive::First], &mut [Lane::ZERO], guessed);
             if !guessed {
                 measured.push(step);
             }
@@ -187,10 +191,10 @@ mod tests {
         let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
         follow(&mut trail, &many, |x| x);
         let (given, next) = ([Lane::all(3.0)], LONGEST as f64 + 1.0);
-        assert!(weights_at(&trail, 3.0, next).is_empty());
-        trail.push(&given, next, &[Drive::First], &[Lane::all(next)], false);
-        assert_eq!(weights_at(&trail, 3.0, next + 1.0).len(), DEPTH);
-        trail.push(&given, next + 1.0, &[Drive::Second], &[Lane::all(next)], false);
-        assert_eq!(weights_at(&trail, 3.0, next + 2.0).len(), 1);
+        assert_eq!(steps_at(&mut trail, 3.0, next), 0);
+        trail.push(&given, next, &[Drive::First], &mut [Lane::all(next)], false);
+        assert_eq!(steps_at(&mut trail, 3.0, next + 1.0), DEPTH);
+        trail.push(&given, next + 1.0, &[Drive::Second], &mut [Lane::all(next)], false);
+        assert_eq!(steps_at(&mut trail, 3.0, next + 2.0), 1);
     }
 }
