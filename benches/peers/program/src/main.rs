@@ -1,6 +1,6 @@
-//! The losses of the two-speed example in first gear over a square map by the library in one thread, as often as asked:
-//! `gearloss-peers GEARBOX SIZE REPEATS`, where the gearbox file has the set `joint`. Prints the seconds of each map, then passes and
-//! calls of loss models per point and the sum of all losses.
+//! The losses of the two-speed example in first gear over a square map by the library in one thread: `gearloss-peers GEARBOX SIZE`, where
+//! the gearbox file has the set `joint`. One map for each line that it reads; for each it prints a line with the seconds by the clock, passes
+//! and calls of loss models per point and the sum of all losses.
 
 use std::error::Error;
 use std::io::Write as _;
@@ -19,10 +19,10 @@ const MOST: (f64, f64) = (20.0, 22000.0);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().collect();
-    let [_, file, size, repeats] = &arguments[..] else {
-        return Err("usage: gearloss-peers GEARBOX SIZE REPEATS".into());
+    let [_, file, size] = &arguments[..] else {
+        return Err("usage: gearloss-peers GEARBOX SIZE, with a line for each map".into());
     };
-    let (size, repeats): (u32, u32) = (size.parse()?, repeats.parse()?);
+    let size: u32 = size.parse()?;
     let language = Language::linked()?;
     let gearbox = Gearbox::read(&language, Path::new(file)).map_err(|found| format!("{found:#?}"))?;
     let choice = Choice {
@@ -38,11 +38,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let share = |i: u32| f64::from(i) / f64::from(size);
     let torques: Vec<f64> = (1..=size).map(|i| MOST.0 * share(i)).collect();
     let mut losses = vec![0.0; (size * size) as usize];
-    let (mut passes, mut calls) = (0, 0);
+    let points = f64::from(size * size);
     let mut out = std::io::stdout().lock();
-    for _ in 0..repeats {
+    for line in std::io::stdin().lines() {
+        line?;
         let begun = Instant::now();
-        passes = 0;
+        let mut passes = 0;
         let mut scratch = transmission.row_scratch(&case);
         for (speed, losses) in (1..=size).zip(losses.chunks_mut(size as usize)) {
             let point = Point {
@@ -62,12 +63,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 passes += (0..torques.len()).map(|lane| block.passes(lane)).sum::<usize>();
             }
         }
-        calls = scratch.calls();
-        writeln!(out, "seconds {}", begun.elapsed().as_secs_f64())?;
+        let seconds = begun.elapsed().as_secs_f64();
+        let (passes, calls) = (passes as f64 / points, scratch.calls() as f64 / points);
+        let sum: f64 = losses.iter().sum();
+        writeln!(out, "seconds {seconds} passes {passes} calls {calls} sum {sum}")?;
+        out.flush()?;
     }
-    let points = f64::from(size * size);
-    writeln!(out, "passes {}", passes as f64 / points)?;
-    writeln!(out, "calls {}", calls as f64 / points)?;
-    writeln!(out, "sum {}", losses.iter().sum::<f64>())?;
     Ok(())
 }
