@@ -131,8 +131,7 @@ pub(crate) fn weighted<'a>(lanes: impl Iterator<Item = (f64, &'a Lane)> + Clone)
 #[inline(always)]
 pub(crate) fn is_even(lane: &Lane) -> bool {
     let first = lane[0];
-    // Mostly the last one tells.
-    lane[LANES - 1] == first && count(|i| lane[i] == first) == LANES as u64
+    count(|i| lane[i] == first) == LANES as u64
 }
 
 /// A lane from a function of its place.

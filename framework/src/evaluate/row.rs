@@ -36,6 +36,8 @@ pub struct RowScratch {
     /// Torques of ports that corrections of loads may ask for.
     ports: Vec<Lane>,
     tangential: Vec<Lane>,
+    /// Torques on the first gears of the meshes.
+    mesh_torques: Vec<Lane>,
     passed: Vec<Lane>,
     loads: Vec<LoadLanes>,
     /// Loads and torques of ports of one lane.
@@ -169,6 +171,7 @@ impl Transmission {
             given: lanes(case.torque_ports.len() + case.ruled_torques),
             ports: lanes(case.flow.columns()),
             tangential: lanes(self.meshes.len()),
+            mesh_torques: lanes(self.meshes.len()),
             passed: lanes(self.loads.scratch_len()),
             loads: vec![LoadLanes::NONE; supports],
             one: vec![SupportLoad::default(); supports],
@@ -350,6 +353,7 @@ impl Row<'_> {
             given,
             ports,
             tangential,
+            mesh_torques,
             passed,
             loads,
             one,
@@ -432,12 +436,12 @@ impl Row<'_> {
                 }
                 t.correct_lanes(case, ports, (one, one_ports), loads);
             }
-            for (drags, idle) in flow.drags.iter_mut().zip(&settled.idle_drags) {
-                *drags = Lane::all(*idle);
-            }
             let (wanted, asked) = wide(
                 #[inline(always)]
                 || {
+                    for (drags, idle) in flow.drags.iter_mut().zip(&settled.idle_drags) {
+                        *drags = Lane::all(*idle);
+                    }
                     let mut wanted = [false; LANES];
                     for i in 0..LANES {
                         wanted[i] = points[i] && !flow.done[i] && !alone_lanes[i];
@@ -477,20 +481,24 @@ impl Row<'_> {
                 let notes = Notes::muted(mesh.model.notes).keeping(kept);
                 let at = t.mesh_at(i, 0.0, flow.drives[i], &state, notes);
                 let radius = mesh.seat.pair.working_radius[0];
-                let torques_1 = wide(
+                let own_torques = &mut mesh_torques[i];
+                let even = wide(
                     #[inline(always)]
-                    || over(&tangential[i], |force| (force * radius).abs()),
+                    || {
+                        *own_torques = over(&tangential[i], |force| (force * radius).abs());
+                        is_even(own_torques)
+                    },
                 );
                 *called += asked;
                 if asked < torques.len() {
                     meshes[i].want(&wanted);
                 }
-                if is_even(&torques_1) {
-                    let at = at.with(|to| to.torque = torques_1[0]);
-                    let answer = shared_torques[i].answer((torques_1[0], flow.drives[i]), || mesh.model.loss(&at));
+                if even {
+                    let at = at.with(|to| to.torque = own_torques[0]);
+                    let answer = shared_torques[i].answer((own_torques[0], flow.drives[i]), || mesh.model.loss(&at));
                     meshes[i].put_all(answer);
                 } else {
-                    mesh.model.losses(&at, &torques_1, &mut meshes[i]);
+                    mesh.model.losses(&at, own_torques, &mut meshes[i]);
                 }
                 wide(
                     #[inline(always)]
@@ -623,19 +631,22 @@ impl Row<'_> {
                 }
                 let notes = notes(mesh.model.notes);
                 let at = t.mesh_at(i, 0.0, work.drives[i], &state, notes.all());
-                let radius = mesh.seat.pair.working_radius[0];
-                let torques_1 = over(&tangential[i], |force| (force * radius).abs());
-                if is_even(&torques_1) {
-                    shared_torques[i].note((torques_1[0], work.drives[i]), || {
+                let own_torques = &mesh_torques[i];
+                let even = wide(
+                    #[inline(always)]
+                    || is_even(own_torques),
+                );
+                if even {
+                    shared_torques[i].note((own_torques[0], work.drives[i]), || {
                         notes.all().anew();
-                        mesh.model.loss(&at.with(|to| to.torque = torques_1[0]))
+                        mesh.model.loss(&at.with(|to| to.torque = own_torques[0]))
                     });
                     gather(mesh.model.notes);
                     continue;
                 }
                 shared_torques[i].noted = false;
                 notes.all().anew();
-                mesh.model.note(&at, &torques_1, &meshes[i], notes);
+                mesh.model.note(&at, own_torques, &meshes[i], notes);
                 gather(mesh.model.notes);
             }
         }

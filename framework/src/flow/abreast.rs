@@ -260,7 +260,7 @@ impl Flow {
         if !guessed {
             trail.rate = Some(work.rate);
         }
-        trail.push(task.torques, at, &work.drives, &mut work.unknown[..self.size], guessed);
+        trail.push(task.torques, at, &work.drives, &mut work.unknown, guessed);
     }
 
     /// Passes over models and equilibrium until they agree: from the beginning, or after a first one from a guess. `pass` is the
@@ -569,12 +569,13 @@ impl Flow {
             let lost = each(|i| -(share[i] * used[i]));
             together = each(|i| together[i] + used[i]);
             self.sparse.sides[mesh][side].1.add(&lost, &mut work.step);
+            let own = 1.0 / work.powers[mesh];
             for (other, power) in friction.sides[side].coupling.iter().zip(&work.powers) {
-                coupling = larger(coupling, other.abs() * power / work.powers[mesh]);
+                coupling = larger(coupling, other.abs() * power * own);
             }
             let ports = &friction.sides[side].response[self.rows..];
             for (response, port) in ports.iter().zip(&self.unknown) {
-                coupling = larger(coupling, response.abs() * speed(speeds[*port]) / work.powers[mesh]);
+                coupling = larger(coupling, response.abs() * speed(speeds[*port]) * own);
             }
         }
         std::mem::swap(&mut work.unknown, &mut work.step);

@@ -75,7 +75,14 @@ impl Trail {
     }
 
     /// Adds a step, for whose unknowns it gives older ones back; `guessed` says whether it began with a guess.
-    pub(super) fn push(&mut self, given: &[Lane], place: f64, drives: &[Drive], unknowns: &mut [Lane], guessed: bool) {
+    pub(super) fn push(
+        &mut self,
+        given: &[Lane],
+        place: f64,
+        drives: &[Drive],
+        unknowns: &mut Vec<Lane>,
+        guessed: bool,
+    ) {
         if guessed {
             self.guesses += 1;
         } else {
@@ -98,7 +105,7 @@ impl Trail {
             }
         };
         step.place = place;
-        step.unknowns.swap_with_slice(unknowns);
+        std::mem::swap(&mut step.unknowns, unknowns);
         self.steps.push(step);
     }
 }
@@ -125,7 +132,7 @@ mod tests {
 
     fn follow(trail: &mut Trail, speeds: &[f64], law: impl Fn(f64) -> f64) {
         for (i, speed) in speeds.iter().enumerate() {
-            let mut torques = [Lane::all(law(*speed))];
+            let mut torques = vec![Lane::all(law(*speed))];
             trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], &mut torques, i > 0);
         }
         trail.rate = Some(Lane::all(0.1));
@@ -177,7 +184,7 @@ mod tests {
             let place = f64::from(step).ln();
             let guessed = trail.weigh(&given, place);
             trail.rate = Some(Lane::all(0.1));
-            trail.push(&given, place, &[Drive::First], &mut [Lane::ZERO], guessed);
+            trail.push(&given, place, &[Drive::First], &mut vec![Lane::ZERO], guessed);
             if !guessed {
                 measured.push(step);
             }
@@ -192,9 +199,9 @@ mod tests {
         follow(&mut trail, &many, |x| x);
         let (given, next) = ([Lane::all(3.0)], LONGEST as f64 + 1.0);
         assert_eq!(steps_at(&mut trail, 3.0, next), 0);
-        trail.push(&given, next, &[Drive::First], &mut [Lane::all(next)], false);
+        trail.push(&given, next, &[Drive::First], &mut vec![Lane::all(next)], false);
         assert_eq!(steps_at(&mut trail, 3.0, next + 1.0), DEPTH);
-        trail.push(&given, next + 1.0, &[Drive::Second], &mut [Lane::all(next)], false);
+        trail.push(&given, next + 1.0, &[Drive::Second], &mut vec![Lane::all(next)], false);
         assert_eq!(steps_at(&mut trail, 3.0, next + 2.0), 1);
     }
 }

@@ -141,7 +141,11 @@ impl<'a> LaneNotes<'a> {
         let ((least, greatest), unknown) = wide(
             #[inline(always)]
             || {
-                let unknown = count(|i| self.counted[i] & lane[i].is_nan());
+                let unknown = if self.points == LANES as u32 {
+                    count(|i| lane[i].is_nan())
+                } else {
+                    count(|i| self.counted[i] & lane[i].is_nan())
+                };
                 (self.extremes(lane), unknown)
             },
         );

@@ -26,6 +26,8 @@ pub(super) struct Cases {
     planets: Vec<(usize, Reaction)>,
     /// Whether there is ever a couple.
     pub couples: bool,
+    /// Where one mesh alone loads the support: the length of the force to one newton, positive and negative.
+    pub alone: Option<(usize, [f64; 2])>,
 }
 
 impl Cases {
@@ -40,15 +42,22 @@ impl Cases {
                 sum
             })
         };
+        let meshes: Vec<(usize, [Reaction; 2])> = pairs
+            .chunks_exact(2)
+            .map(of_senses)
+            .enumerate()
+            .filter(|(_, pair)| *pair != [nothing; 2])
+            .collect();
+        let torqueless = reactions[0].force != [0.0; 2] || planets.iter().any(|planet| planet.force != [0.0; 2]);
+        let alone = match &meshes[..] {
+            [(mesh, senses)] if !torqueless => Some((*mesh, senses.map(|reaction| length(reaction.force)))),
+            _ => None,
+        };
         Self {
+            alone,
             couples: reactions.iter().any(|reaction| reaction.couple != [0.0; 2]),
             always: reactions[0],
-            meshes: pairs
-                .chunks_exact(2)
-                .map(of_senses)
-                .enumerate()
-                .filter(|(_, pair)| *pair != [nothing; 2])
-                .collect(),
+            meshes,
             planets: carriers
                 .iter()
                 .copied()
@@ -221,9 +230,13 @@ impl ShaftLoads {
     /// are those of all members (rad/s), `passed` is as long as [`ShaftLoads::scratch_len`].
     pub fn evaluate(&self, tangential: &[f64], speeds: &[f64], passed: &mut [f64], loads: &mut [SupportLoad]) {
         for support in 0..self.supports {
-            let sum = self.cases[support].sum(tangential, |m| speeds[m]);
+            let cases = &self.cases[support];
+            let sum = cases.sum(tangential, |m| speeds[m]);
             loads[support] = SupportLoad {
-                radial: length(sum.force),
+                radial: match &cases.alone {
+                    Some((mesh, lengths)) => under(lengths, tangential[*mesh]),
+                    None => length(sum.force),
+                },
                 axial: 0.0,
                 // Few supports take a couple, and a root takes time.
                 tilting: if sum.couple == [0.0; 2] {
@@ -271,6 +284,12 @@ fn middle(supports: &[(usize, SupportLayout)]) -> f64 {
 /// Length of a vector; forces are far from the ends of the range of numbers, where `hypot` would earn its time.
 fn length([y, z]: [f64; 2]) -> f64 {
     (y * y + z * z).sqrt()
+}
+
+/// The length of the force on a support that one mesh alone loads.
+#[inline(always)]
+pub(super) fn under([ahead, back]: &[f64; 2], force: f64) -> f64 {
+    force.abs() * if force < 0.0 { *back } else { *ahead }
 }
 
 fn add(sum: &mut Reaction, case: &Reaction, factor: f64) {

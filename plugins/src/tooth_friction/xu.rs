@@ -202,23 +202,22 @@ fn note_ranges(
     notes: LaneNotes<'_>,
 ) {
     let _ = check_oil(path.notes, path.eta, roughness.of(path.ra, path.rq));
-    let pressure = |line_load: f64, end: usize| unit_pressure(line_load, path.modulus) * path.extent.root_load[end];
+    let root_load = path.extent.root_load;
     let noted = range.is_some_and(|(low, high)| {
-        let [least, greatest] = [0, 1].map(|end| (pressure(low, end), pressure(high, end)));
+        let [low, high] = [low, high].map(|line_load| unit_pressure(line_load, path.modulus));
+        let [least, greatest] = root_load.map(|root_load| (low * root_load, high * root_load));
         notes.check_range(&PRESSURE, least, greatest)
     });
     if !noted {
         let [least, greatest] = wide(
             #[inline(always)]
             || {
-                [0, 1].map(
+                root_load.map(
                     #[inline(always)]
-                    |end| {
-                        over(
-                            line_loads,
-                            #[inline(always)]
-                            |line_load| pressure(line_load, end),
-                        )
+                    |root_load| {
+                        over(line_loads, |line_load| {
+                            unit_pressure(line_load, path.modulus) * root_load
+                        })
                     },
                 )
             },
