@@ -3,14 +3,20 @@
 //! Speeds, oils and all that hangs on them alone, notes among it, are settled once for the row. The numbers of [`Row::solve`] are those of
 //! [`Transmission::evaluate`] to the bit, but for the sign of zero, also for points that have to be evaluated alone: see [`Block::alone`].
 
+mod block;
+mod shared;
+
 use std::cell::Cell;
+
+pub use block::Block;
+use shared::Shared;
 
 use super::{Point, PowerFlow, Scratch, Solution};
 use crate::attach::State;
-use crate::flow::{Balance, Drive, FlowLanes, Status, TaskLanes, Trail, WorkLanes};
+use crate::flow::{Drive, FlowLanes, TaskLanes, Trail, WorkLanes};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, Powers, count, each, is_even, over, weighted, wide};
 use crate::loads::{LoadLanes, SupportLoad};
-use crate::loss::{Extent, Loss, Measure, NoteBase, Notes, Undefined};
+use crate::loss::{Extent, Measure, NoteBase, Notes};
 use crate::transmission::{Case, Component, PartInfo, PartKind, Transmission};
 
 /// No thrust that nothing takes.
@@ -65,45 +71,6 @@ pub struct RowScratch {
     called: usize,
 }
 
-/// What one part answered where all lanes carry the same, as beside a gear that idles: mostly the same in all blocks of a row.
-#[derive(Debug, Clone)]
-struct Shared<K> {
-    /// What they carry.
-    at: Option<K>,
-    answer: Result<Loss, Undefined>,
-    /// True where the notes stand among the common ones.
-    noted: bool,
-}
-
-impl<K: Copy + PartialEq> Shared<K> {
-    const NONE: Self = Self {
-        at: None,
-        answer: Ok(Loss::POWERS),
-        noted: false,
-    };
-
-    fn answer(&mut self, at: K, ask: impl FnOnce() -> Result<Loss, Undefined>) -> Result<Loss, Undefined> {
-        if self.at != Some(at) {
-            *self = Self {
-                at: Some(at),
-                answer: ask(),
-                noted: false,
-            };
-        }
-        self.answer
-    }
-
-    fn note(&mut self, at: K, ask: impl FnOnce() -> Result<Loss, Undefined>) {
-        if self.at != Some(at) || !self.noted {
-            *self = Self {
-                at: Some(at),
-                answer: ask(),
-                noted: true,
-            };
-        }
-    }
-}
-
 impl RowScratch {
     /// What was seen of every limit and observed quantity since this was asked last, one count for each point.
     pub fn take_totals(&mut self) -> Vec<Extent> {
@@ -145,14 +112,6 @@ pub struct Row<'a> {
     /// False where every point has to be evaluated alone.
     together: bool,
     s: &'a mut RowScratch,
-}
-
-/// Some solved points of a row.
-pub struct Block<'a> {
-    transmission: &'a Transmission,
-    /// Number of the reference port.
-    reference: usize,
-    s: &'a RowScratch,
 }
 
 impl Transmission {
@@ -612,7 +571,7 @@ impl Row<'_> {
                     gather(component.notes);
                     continue;
                 }
-                shared_loads[i].noted = false;
+                shared_loads[i].overwritten();
                 notes.all().anew();
                 if component.placed.note(&state, own_loads, notes) {
                     gather(component.notes);
@@ -644,7 +603,7 @@ impl Row<'_> {
                     gather(mesh.model.notes);
                     continue;
                 }
-                shared_torques[i].noted = false;
+                shared_torques[i].overwritten();
                 notes.all().anew();
                 mesh.model.note(&at, own_torques, &meshes[i], notes);
                 gather(mesh.model.notes);
@@ -795,84 +754,5 @@ impl Transmission {
                 loads.set(lane, *one);
             }
         }
-    }
-}
-
-impl Block<'_> {
-    /// True where the point has to be evaluated by [`Row::alone`]; nothing else of the block counts for it.
-    pub fn alone(&self, lane: usize) -> bool {
-        self.s.alone_lanes[lane]
-    }
-
-    fn powers(&self, lane: usize) -> impl Iterator<Item = f64> + Clone + '_ {
-        let ports = self.transmission.ports.iter();
-        ports.map(move |p| self.s.work.ports[p.member][lane] * self.s.state.speeds[p.member])
-    }
-
-    /// What the transmission does.
-    pub fn status(&self, lane: usize) -> Status {
-        Status::of(self.powers(lane), self.reference)
-    }
-
-    /// Power in and out. \[W\]
-    pub fn balance(&self, lane: usize) -> Balance {
-        Balance::of(self.powers(lane))
-    }
-
-    /// Sums of all losses. \[W\]
-    pub fn losses(&self) -> &Lane {
-        &self.s.sum
-    }
-
-    /// Losses of all parts, in their order. \[W\]
-    pub fn watts(&self) -> &[Lane] {
-        &self.s.watts
-    }
-
-    /// Power of one term of a part, all copies together. \[W\]
-    pub fn term_watts(&self, part: usize, term: usize) -> Lane {
-        let (t, s) = (self.transmission, self.s);
-        let info = &t.parts[part];
-        match info.kind {
-            PartKind::Component(i) if t.hangs_on_torque(info) => {
-                let (speed, count) = (s.state.relative[i], t.components[i].count);
-                if speed == 0.0 {
-                    return Lane::all(0.0);
-                }
-                wide(
-                    #[inline(always)]
-                    || over(&s.components[i].watts(term, speed), |watts| watts * count),
-                )
-            }
-            PartKind::Mesh(i) => {
-                let speed = t.mesh_speed(i, &s.state.speeds);
-                if speed == 0.0 {
-                    return Lane::all(0.0);
-                }
-                wide(
-                    #[inline(always)]
-                    || {
-                        let watts = s.meshes[i].watts(term, speed);
-                        each(|lane| watts[lane] * s.factors[i][lane])
-                    },
-                )
-            }
-            _ => Lane::all(t.part_loss(info, &s.state).term_watts(term)),
-        }
-    }
-
-    /// True where a model left its stated range.
-    pub fn outside(&self, lane: usize) -> bool {
-        self.s.outside[lane].get()
-    }
-
-    /// Passes over the loss models.
-    pub fn passes(&self, lane: usize) -> usize {
-        self.s.work.passes[lane]
-    }
-
-    /// Speed of a member by number. \[rad/s\]
-    pub fn speed(&self, member: usize) -> f64 {
-        self.s.state.speeds[member]
     }
 }

@@ -1,0 +1,93 @@
+//! What is known of some solved points of a row.
+
+use super::RowScratch;
+use crate::flow::{Balance, Status};
+use crate::lanes::{Lane, each, over, wide};
+use crate::transmission::{PartKind, Transmission};
+
+/// Some solved points of a row.
+pub struct Block<'a> {
+    pub(super) transmission: &'a Transmission,
+    /// Number of the reference port.
+    pub(super) reference: usize,
+    pub(super) s: &'a RowScratch,
+}
+
+impl Block<'_> {
+    /// True where the point has to be evaluated by [`Row::alone`](super::Row::alone); nothing else of the block counts for it.
+    pub fn alone(&self, lane: usize) -> bool {
+        self.s.alone_lanes[lane]
+    }
+
+    fn powers(&self, lane: usize) -> impl Iterator<Item = f64> + Clone + '_ {
+        let ports = self.transmission.ports.iter();
+        ports.map(move |p| self.s.work.ports[p.member][lane] * self.s.state.speeds[p.member])
+    }
+
+    /// What the transmission does.
+    pub fn status(&self, lane: usize) -> Status {
+        Status::of(self.powers(lane), self.reference)
+    }
+
+    /// Power in and out. \[W\]
+    pub fn balance(&self, lane: usize) -> Balance {
+        Balance::of(self.powers(lane))
+    }
+
+    /// Sums of all losses. \[W\]
+    pub fn losses(&self) -> &Lane {
+        &self.s.sum
+    }
+
+    /// Losses of all parts, in their order. \[W\]
+    pub fn watts(&self) -> &[Lane] {
+        &self.s.watts
+    }
+
+    /// Power of one term of a part, all copies together. \[W\]
+    pub fn term_watts(&self, part: usize, term: usize) -> Lane {
+        let (t, s) = (self.transmission, self.s);
+        let info = &t.parts[part];
+        match info.kind {
+            PartKind::Component(i) if t.hangs_on_torque(info) => {
+                let (speed, count) = (s.state.relative[i], t.components[i].count);
+                if speed == 0.0 {
+                    return Lane::all(0.0);
+                }
+                wide(
+                    #[inline(always)]
+                    || over(&s.components[i].watts(term, speed), |watts| watts * count),
+                )
+            }
+            PartKind::Mesh(i) => {
+                let speed = t.mesh_speed(i, &s.state.speeds);
+                if speed == 0.0 {
+                    return Lane::all(0.0);
+                }
+                wide(
+                    #[inline(always)]
+                    || {
+                        let watts = s.meshes[i].watts(term, speed);
+                        each(|lane| watts[lane] * s.factors[i][lane])
+                    },
+                )
+            }
+            _ => Lane::all(t.part_loss(info, &s.state).term_watts(term)),
+        }
+    }
+
+    /// True where a model left its stated range.
+    pub fn outside(&self, lane: usize) -> bool {
+        self.s.outside[lane].get()
+    }
+
+    /// Passes over the loss models.
+    pub fn passes(&self, lane: usize) -> usize {
+        self.s.work.passes[lane]
+    }
+
+    /// Speed of a member by number. \[rad/s\]
+    pub fn speed(&self, member: usize) -> f64 {
+        self.s.state.speeds[member]
+    }
+}
