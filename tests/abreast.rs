@@ -69,6 +69,15 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
                             continue;
                         }
                         count.together += 1;
+                        if lane == 0 {
+                            // Nothing of the points before is left in a scratch.
+                            let point = Point {
+                                torques: &own_torques,
+                                ..point
+                            };
+                            let anew = t.evaluate(&case, &point, &temperature, &mut t.scratch(&case)).loss();
+                            assert_eq!(bits(anew), bits(solution.loss()), "{speed} {torque}");
+                        }
                         let at = format!("{} {} {speed} {torque}", t.title(), state.name);
                         assert_eq!(block.status(lane), solution.status(), "{at}");
                         assert_eq!(block.passes(lane), solution.passes(), "{at}");
@@ -213,6 +222,12 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
         .chain([1e-6, -1e-3, 0.01, 150.0])
         .collect();
     let speeds = [0.0, 30.0 * RPM, 4321.0 * RPM, -2000.0 * RPM, 20000.0 * RPM];
+    // Two full blocks and a rest.
+    let many: Vec<f64> = (1..=150).map(|i| 0.2 * f64::from(i)).collect();
+    let mut full = Count::default();
+    let joint = transmission(&language, "examples/two-speed-ev/gearbox.yaml", Some("joint"));
+    compare(&joint, &speeds[1..3], &many, &[80.0], &mut full);
+    assert!(full.together > 0 && full.alone == 0, "{full:?}");
     let mut count = Count::default();
     for (path, sets) in [
         (
@@ -248,4 +263,36 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
     }
     // Most points are solved side by side, or nothing is won.
     assert!(count.together > 3 * count.alone, "{count:?}");
+}
+
+#[test]
+fn what_was_seen_is_the_same_taken_in_one_go_or_in_the_middle_of_a_row() {
+    let language = language();
+    let t = transmission(&language, "examples/two-speed-ev/gearbox.yaml", Some("joint"));
+    let case = t.case(&t.states()[0].name, &[], &[t.ports()[0].name.as_str()]).unwrap();
+    let torques: Vec<f64> = (1..=200).map(|i| 0.1 * f64::from(i)).collect();
+    let seen = |parts: &[&[f64]]| {
+        let mut rows = t.row_scratch(&case);
+        let mut seen: Option<Vec<Extent>> = None;
+        for part in parts {
+            let point = Point {
+                speeds: &[3000.0 * RPM],
+                torques: &[0.0],
+                ..Point::default()
+            };
+            let mut row = t.row(&case, &point, &[90.0], &mut rows);
+            for some in part.chunks(LANES) {
+                row.solve(some);
+            }
+            let own = rows.take_totals();
+            seen = Some(match seen {
+                None => own,
+                Some(before) => before.into_iter().zip(own).map(|(a, b)| a.merge(b)).collect(),
+            });
+        }
+        seen.unwrap()
+    };
+    let whole = seen(&[&torques]);
+    assert!(whole.iter().any(|extent| extent.seen == 200));
+    assert_eq!(whole, seen(&[&torques[..70], &torques[70..]]));
 }

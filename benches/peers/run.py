@@ -102,7 +102,7 @@ class Library:
         self.process.stdin.flush()
         said = self.process.stdout.readline().split()
         if not said:
-            sys.exit("the library ended early")
+            sys.exit(f"the library ended early: {self.process.wait()}")
         self.words = dict(zip(said[::2], said[1::2]))
         wall = float(self.words["seconds"])
         return np.array([wall, wall if before is None else self.cpu() - before])

@@ -81,8 +81,8 @@ pub fn count(mut holds: impl FnMut(usize) -> bool) -> u64 {
     count
 }
 
-/// A lane from sums over some items: `step` adds an item to the `N` sums of a lane, given by its place, and `end` makes its number of
-/// them, one lane after the other. The sums of several lanes at a time stay in registers over all items, where a loop over lanes for each item would write
+/// A lane from sums over some items: `step` adds an item to the `N` sums of a lane, given by its place, and `end` makes its
+/// number of them, one lane after the other. The sums of several lanes at a time stay in registers over all items, where a loop over lanes for each item would write
 /// and read them again.
 #[inline(always)]
 pub fn gather<const N: usize, T: Copy>(

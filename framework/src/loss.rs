@@ -7,7 +7,7 @@ use std::cell::{Cell, RefCell};
 /// The most terms that one model may have.
 pub const MOST_TERMS: usize = 4;
 
-/// The most numbers that a model may keep over the passes of one point.
+/// The most numbers that a model may keep over the passes of one point, and over all points that differ in torque alone.
 pub const MOST_KEPT: usize = 6;
 
 /// One named share of a loss, such as rolling, sliding or drag.
@@ -445,7 +445,7 @@ impl<'a> Notes<'a> {
 
     /// Notes of one instance that nobody reads.
     #[inline]
-    pub fn muted(base: NoteBase) -> Self {
+    pub(crate) fn muted(base: NoteBase) -> Self {
         Self::new(&[], base)
     }
 
@@ -472,9 +472,15 @@ impl<'a> Notes<'a> {
         self
     }
 
-    /// The same place to write, seen by a nested instance.
+    /// The same place to write, seen by a nested instance. It keeps nothing, because it may be asked at several speeds or in several oils.
     #[inline]
     pub fn of(self, base: NoteBase) -> Self {
+        self.within(base).forgetting()
+    }
+
+    /// The same for a nested instance that is asked at the speed, the oil and the level of this one alone, so that it may keep numbers too.
+    #[inline]
+    pub fn within(self, base: NoteBase) -> Self {
         Self { base, ..self }
     }
 
@@ -491,12 +497,13 @@ impl<'a> Notes<'a> {
 
     /// The same notes for an instance that is asked several times at a point, at other speeds or in other oil: nothing is kept.
     #[inline]
-    pub fn forgetting(self) -> Self {
+    pub(crate) fn forgetting(self) -> Self {
         Self { kept: &[], ..self }
     }
 
-    /// Numbers that follow from speed, oil and its level alone. The passes of one point, between which only loads change,
-    /// share them; without a place to keep them they are computed anew. Limits and observed quantities are noted elsewhere.
+    /// Numbers that follow from speed, oil and its level alone. The passes of one point and all points that differ in torque alone
+    /// share them; without a place to keep them they are computed anew. Each instance has one place, so that it asks for the same
+    /// numbers always. Limits and observed quantities are noted elsewhere.
     #[inline]
     pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
         const { assert!(0 < N && N <= MOST_KEPT) };

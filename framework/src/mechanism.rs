@@ -305,7 +305,8 @@ macro_rules! context {
                 self.notes.show(symbol, unit, x)
             }
 
-            /// Numbers that follow from speed, oil and its level alone, computed once for all passes of a point.
+            /// Numbers that follow from speed, oil and its level alone, computed once for all passes of a point and all
+            /// points that differ in torque alone.
             #[inline]
             pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
                 self.notes.once(numbers)

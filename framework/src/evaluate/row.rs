@@ -97,7 +97,8 @@ impl RowScratch {
         }
     }
 
-    /// Calls of loss models for all points so far; a call for a block counts once for each of its points.
+    /// What was asked of loss models for all points so far: a question for a block counts once for each of its points, also where the
+    /// answer is that of the block before, because all points carry the same.
     pub fn calls(&self) -> usize {
         self.called + self.state.all_calls() + self.alone.all_calls()
     }

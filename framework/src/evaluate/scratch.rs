@@ -35,7 +35,7 @@ pub struct Scratch {
     pub(super) relative: Vec<f64>,
     /// Components that carry load and turn: they are asked in every pass.
     pub(super) braking: Vec<usize>,
-    /// What the models keep over the passes of a point, by instance.
+    /// What the models keep over the passes of a point or the points of a row, by instance.
     pub(super) kept: Vec<[f64; MOST_KEPT]>,
     pub(super) cells: Vec<Extent>,
     pub(super) work: Work,

@@ -23,8 +23,8 @@ static NO_RATE: Lane = Lane::all(UNKNOWN);
 /// What one block needs and leaves.
 #[derive(Debug, Clone)]
 pub struct WorkLanes {
-    /// Multipliers of the rows as written.
-    pub multipliers: Vec<Lane>,
+    /// Multipliers of the rows as written, of the torques at which models were asked last.
+    multipliers: Vec<Lane>,
     /// Torques of ports on all columns.
     pub ports: Vec<Lane>,
     /// Loss of each mesh as used in the accepted solve. \[W\]
@@ -625,9 +625,7 @@ impl Flow {
             work.mesh_loss[mesh] = each(|i| share[i] * rolling[i].abs() + if moves { constant[i] } else { 0.0 });
         }
         let step = |[total]: [f64; 1], number: &Lane, i: usize| [total + number[i].abs()];
-        let total = gather(work.unknown.iter().chain(&work.mesh_loss), [0.0], step, |[total], _| {
-            total
-        });
+        let total = gather(work.unknown.iter().chain(&work.mesh_loss), [0.0], step, |[sum], _| sum);
         if count(|i| !total[i].is_finite()) > 0 {
             for i in 0..LANES {
                 work.alone[i] |= !total[i].is_finite();

@@ -179,14 +179,14 @@ impl LossLanes {
         }
     }
 
-    /// Something of the sums of values times a factor over all terms, in each lane.
+    /// What `end` makes of the sum of all terms times a factor, in each lane.
     #[inline(always)]
     fn sum(&self, factor: f64, end: impl Fn(f64) -> f64) -> Lane {
         let step = |[sum]: [f64; 1], values: &Lane, i: usize| [sum + values[i] * factor];
         gather(self.values[..self.terms].iter(), [0.0], step, |[sum], _| end(sum))
     }
 
-    /// Something of the powers of all terms together (W) at a relative speed in rad/s.
+    /// What `end` makes of the powers of all terms together (W) at a relative speed in rad/s.
     #[inline(always)]
     pub(crate) fn total_watts(&self, speed: f64, end: impl Fn(f64) -> f64) -> Lane {
         self.sum(self.factor(speed), end)

@@ -42,7 +42,7 @@ impl LoadLanes {
     #[inline]
     pub(crate) fn is_even(&self) -> bool {
         // Mostly the last one tells.
-        self.lane(0).radial == self.lane(LANES - 1).radial
+        self.radial[0] == self.radial[LANES - 1]
             && wide(
                 #[inline(always)]
                 || {
@@ -99,7 +99,7 @@ impl ShaftLoads {
     ) {
         for (cases, load) in self.cases.iter().zip(&mut *loads) {
             let start = cases.torqueless(|member| speeds[member]);
-            load.radial = match &cases.alone {
+            load.radial = match &cases.only {
                 Some((mesh, lengths)) => over(&tangential[*mesh], |force| under(lengths, force)),
                 None => length(start.force, &cases.meshes, |reaction| reaction.force, tangential),
             };

@@ -27,7 +27,7 @@ pub(super) struct Cases {
     /// Whether there is ever a couple.
     pub couples: bool,
     /// Where one mesh alone loads the support: the length of the force to one newton, positive and negative.
-    pub alone: Option<(usize, [f64; 2])>,
+    pub only: Option<(usize, [f64; 2])>,
 }
 
 impl Cases {
@@ -49,12 +49,12 @@ impl Cases {
             .filter(|(_, pair)| *pair != [nothing; 2])
             .collect();
         let torqueless = reactions[0].force != [0.0; 2] || planets.iter().any(|planet| planet.force != [0.0; 2]);
-        let alone = match &meshes[..] {
+        let only = match &meshes[..] {
             [(mesh, senses)] if !torqueless => Some((*mesh, senses.map(|reaction| length(reaction.force)))),
             _ => None,
         };
         Self {
-            alone,
+            only,
             couples: reactions.iter().any(|reaction| reaction.couple != [0.0; 2]),
             always: reactions[0],
             meshes,
@@ -233,7 +233,7 @@ impl ShaftLoads {
             let cases = &self.cases[support];
             let sum = cases.sum(tangential, |m| speeds[m]);
             loads[support] = SupportLoad {
-                radial: match &cases.alone {
+                radial: match &cases.only {
                     Some((mesh, lengths)) => under(lengths, tangential[*mesh]),
                     None => length(sum.force),
                 },

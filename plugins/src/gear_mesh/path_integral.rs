@@ -173,7 +173,7 @@ impl GearMeshModel for Integral {
         let normal = at.show("F_bn", "N", mean.normal_force);
         let path = self
             .path
-            .at(&mean, at.notes.of(self.friction.notes))
+            .at(&mean, at.notes.within(self.friction.notes))
             .with(|to| to.bodies = at.bodies());
         let line_load = at.show("F_bn/b", "N/m", path.line_load);
         let short = self.short.as_ref().map_or(f64::NAN, |short| short.sum(&path));
@@ -290,7 +290,7 @@ impl Integral {
         }
         let pair = &at.part.pair;
         let mean = MeanFrictionAt::of(at, Notes::MUTED);
-        let notes = at.notes.of(self.friction.notes);
+        let notes = at.notes.within(self.friction.notes);
         let path = self.path.at(&mean, notes).with(|to| to.bodies = at.bodies());
         wide(
             #[inline(always)]

@@ -63,8 +63,9 @@ fn main() -> Result<(), Box<dyn Error>> {
                 passes += (0..torques.len()).map(|lane| block.passes(lane)).sum::<usize>();
             }
         }
-        let seconds = begun.elapsed().as_secs_f64();
         let (passes, calls) = (passes as f64 / points, scratch.calls() as f64 / points);
+        drop(scratch);
+        let seconds = begun.elapsed().as_secs_f64();
         let sum: f64 = losses.iter().sum();
         writeln!(out, "seconds {seconds} passes {passes} calls {calls} sum {sum}")?;
         out.flush()?;

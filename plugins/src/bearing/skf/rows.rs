@@ -694,6 +694,43 @@ mod tests {
     }
 
     #[test]
+    fn lanes_have_the_bits_of_single_loads_beside_every_border() {
+        let row = Variables::DeepGroove {
+            rolling: 4.4e-7,
+            r2: 1.7,
+            sliding: [2e-3, 3.1e-3],
+            s2: 90.0,
+            c0: 7800.0,
+        };
+        let fr = 1000.0;
+        for blend in [None, Some(0.1)] {
+            // All above the blend; one below, on, near nothing, at nothing; all without.
+            let of_one = |one: f64| each(move |i| if i == 7 { one } else { 150.0 + i as f64 });
+            for fa in [500.0, 30.0, 0.1 * fr, 1e-310, 0.0]
+                .map(of_one)
+                .into_iter()
+                .chain([Lane::ZERO])
+            {
+                for radial in [Lane::all(fr), of_one(0.0), Lane::ZERO] {
+                    let mut exact = Powers::EXACT;
+                    let (g_rr, g_sl) = row.lanes(&radial, &fa, blend, &mut exact);
+                    for i in 0..LANES {
+                        let own = row.at(radial[i], fa[i], 1000.0, 30.0, blend);
+                        let lanes = (g_rr[i].to_bits(), g_sl[i].to_bits());
+                        assert_eq!(
+                            lanes,
+                            (own.0.to_bits(), own.1.to_bits()),
+                            "{blend:?} {} {}",
+                            radial[i],
+                            fa[i]
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_blend_joins_radial_and_combined_load() {
         let row = row(&part(BearingKind::DeepGrooveBall, "63", 65.0), false).unwrap();
         let at = |fa: f64, blend| row.variables.at(3000.0, fa, 3000.0, 15.0, blend);
