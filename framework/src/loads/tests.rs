@@ -116,7 +116,20 @@ fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64;
     assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let mut loads = vec![SupportLoad::default(); layout.supports.len()];
     let mut passed = vec![0.0; solved.scratch_len()];
-    solved.evaluate(tangential, &vec![0.0; layout.members.len()], &mut passed, &mut loads);
+    // Turned first, so that the forces of the caller stay.
+    for sense in [-1.0, 1.0] {
+        let tangential: Vec<f64> = tangential.iter().map(|force| sense * force).collect();
+        solved.evaluate(&tangential, &vec![0.0; layout.members.len()], &mut passed, &mut loads);
+        // A support that one mesh alone loads has no vector of its own; it must be as long as the vector.
+        for (load, [y, z]) in loads.iter().zip(solved.vectors(&tangential)) {
+            let length = y.hypot(z);
+            assert!(
+                (load.radial - length).abs() <= 1e-12 * length,
+                "{} {length}",
+                load.radial
+            );
+        }
+    }
     (loads, solved.vectors(tangential))
 }
 

@@ -1,11 +1,13 @@
 //! Friction between flanks along the path of contact.
 
+mod suite;
+
 use std::sync::Arc;
 
 use crate::context;
 use crate::generic::Scalar;
 use crate::lanes::{Lane, LaneNotes, Powers};
-use crate::loss::{Notes, Undefined};
+use crate::loss::{NoteBase, Notes, Undefined};
 use crate::mechanism::mean_friction::MeanFrictionAt;
 use crate::mechanism::{Mechanism, NoPart, Quantity};
 use crate::registry::Slot;
@@ -46,7 +48,7 @@ pub trait ToothFrictionModel: Send + Sync {
     }
 
     /// The sum of the coefficients over the nodes of a path with given weights, prepared where the law knows a shorter way to it
-    /// than node by node. The heat must go into both bodies alike, and the sum be no number where [`along`](Self::along) is undefined.
+    /// than node by node; within 1e-9. The heat must go into both bodies alike, and the sum be no number where [`along`](Self::along) is undefined.
     fn weighted(&self, _nodes: &[PathNode], _weights: &[f64]) -> Option<Box<dyn WeightedFriction>> {
         None
     }
@@ -356,6 +358,9 @@ impl Mechanism for ToothFriction {
     }
     fn answer(model: &Self::Model, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         model.mu(at)
+    }
+    fn side_by_side(model: &Self::Model, at: &ContactAt<'_>, notes: NoteBase) -> Option<&'static str> {
+        suite::fault(model, at, notes)
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
         Arc::new(law)
