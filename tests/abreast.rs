@@ -63,7 +63,7 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
                             ..point
                         };
                         let solution = t.evaluate(&case, &point, &temperature, &mut scratch);
-                        if block.alone(lane) {
+                        if block.alone()[lane] {
                             alone.push((*torque, solution.loss()));
                             count.alone += usize::from(*speed != 0.0);
                             continue;
@@ -80,7 +80,7 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
                         }
                         let at = format!("{} {} {speed} {torque}", t.title(), state.name);
                         assert_eq!(block.status(lane), solution.status(), "{at}");
-                        assert_eq!(block.passes(lane), solution.passes(), "{at}");
+                        assert_eq!(block.passes()[lane], solution.passes(), "{at}");
                         assert_eq!(
                             bits(block.watts().iter().map(|w| w[lane])),
                             bits(solution.watts().iter().copied()),
@@ -167,7 +167,7 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
                 let mut row = t.row(&case, &point, &temperature, &mut rows);
                 for some in own.chunks(LANES) {
                     let block = row.follow(some);
-                    for (lane, torque) in some.iter().enumerate().filter(|(lane, _)| !block.alone(*lane)) {
+                    for (lane, torque) in some.iter().enumerate().filter(|(lane, _)| !block.alone()[*lane]) {
                         let point = Point {
                             torques: &[*torque],
                             ..point
@@ -191,7 +191,7 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
                         let balance = block.balance(lane);
                         assert!((balance.input - balance.output - sum).abs() <= 1e-9 * power, "{at}");
                         passes += solution.passes();
-                        fewer += block.passes(lane);
+                        fewer += block.passes()[lane];
                         points += 1;
                     }
                 }

@@ -106,7 +106,7 @@ fn passes() -> f64 {
         };
         let mut row = t.row(&case, &point, &[100.0], &mut scratch);
         let block = row.follow(&torques);
-        passes += (0..LANES).map(|lane| block.passes(lane)).sum::<usize>();
+        passes += block.passes().iter().sum::<usize>();
     }
     passes as f64 / (32 * LANES) as f64
 }

@@ -201,7 +201,7 @@ impl<'a> Solver<'a> {
             let start = results.len();
             let block = row.follow(given);
             self.of_block(given, speed, oil, &block, spare, results);
-            let alone: [bool; LANES] = std::array::from_fn(|lane| block.alone(lane));
+            let alone = *block.alone();
             for (lane, torque) in given.iter().enumerate().filter(|(lane, _)| alone[*lane]) {
                 let given = Given {
                     torque: *torque,
@@ -269,7 +269,7 @@ impl<'a> Solver<'a> {
                     .collect(),
                 outside: block.outside(lane),
                 undefined: None,
-                passes: block.passes(lane),
+                passes: block.passes()[lane],
                 evaluations: 0,
             });
         }

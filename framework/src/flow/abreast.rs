@@ -18,7 +18,6 @@ const FEW: usize = PATIENCE - 2;
 const NEGLIGIBLE: f64 = 1e-3;
 
 const ZERO: Lane = Lane::all(0.0);
-static NO_RATE: Lane = Lane::all(UNKNOWN);
 
 /// What one block needs and leaves.
 #[derive(Debug, Clone)]
@@ -250,9 +249,14 @@ impl Flow {
             self.ask_abreast(work, &mut losses);
             wide(
                 #[inline(always)]
-                || self.judge_abreast(task, trail, work),
+                || {
+                    let (growth, measured) = (trail.growth(at), trail.rate.as_ref());
+                    let rate = measured.map_or(Lane::all(UNKNOWN), |rate| over(rate, |rate| rate * growth));
+                    self.judge_abreast(task, &rate, work)
+                },
             )
         };
+        trail.good = guessed && !work.done.contains(&false);
         self.iterate_abreast(task, guessed, usize::from(guess), work, &mut losses);
         if work.alone.contains(&true) {
             return trail.clear();
@@ -328,14 +332,14 @@ impl Flow {
             *unknown = trail.guess(place);
         }
         // Whether the drivers are still those of the trail shows when the losses have been seen.
-        self.torques_abreast(task.speeds, work);
+        self.torques_abreast(work);
         true
     }
 
     /// What follows a first pass from guessed torques: the equilibrium with its losses, and which lanes need no other pass. False
     /// where a driver turned, so that the guess was none.
     #[inline(always)]
-    fn judge_abreast(&self, task: &TaskLanes<'_>, trail: &Trail, work: &mut WorkLanes) -> bool {
+    fn judge_abreast(&self, task: &TaskLanes<'_>, rate: &Lane, work: &mut WorkLanes) -> bool {
         let k = self.meshes.len();
         work.answers();
         std::mem::swap(&mut work.used, &mut work.answer);
@@ -355,7 +359,6 @@ impl Flow {
                 .map(|(row, power)| (*power, &work.step[row.row]))
                 .chain(ports.map(|(port, step)| (speed(task.speeds[*port]), step))),
         );
-        let rate = trail.rate.as_ref().unwrap_or(&NO_RATE);
         let left = each(|i| to_come(moved[i], rate[i]) + moved[i] * neglected[i]);
         for i in 0..LANES {
             work.done[i] = left[i] <= SAFETY * task.tolerance.power * work.largest[i];
@@ -617,7 +620,9 @@ impl Flow {
     /// Torques and the losses used, from solved unknowns.
     #[inline(always)]
     fn accept_abreast(&self, speeds: &[f64], work: &mut WorkLanes) {
-        self.torques_abreast(speeds, work);
+        self.torques_abreast(work);
+        let ports = speeds.iter().copied().zip(&work.ports);
+        work.largest = greatest(work.rolling.iter().map(|rolling| (1.0, rolling)).chain(ports));
         let k = self.meshes.len();
         for mesh in 0..k {
             let moves = work.relative[mesh][usize::from(work.drives[mesh] == Drive::Second)] != 0.0;
@@ -633,9 +638,9 @@ impl Flow {
         }
     }
 
-    /// Torques of ports and powers, from the unknowns.
+    /// Torques of ports and powers of meshes, from the unknowns.
     #[inline(always)]
-    fn torques_abreast(&self, speeds: &[f64], work: &mut WorkLanes) {
+    fn torques_abreast(&self, work: &mut WorkLanes) {
         for (port, torque) in self.unknown.iter().zip(&work.unknown[self.rows..]) {
             work.ports[*port] = *torque;
         }
@@ -644,8 +649,6 @@ impl Flow {
             let scale = self.scale[row.row];
             work.rolling[mesh] = over(&work.unknown[row.row], |x| -(x * scale) * row.z1 * relative[1]);
         }
-        let ports = speeds.iter().copied().zip(&work.ports);
-        work.largest = greatest(work.rolling.iter().map(|rolling| (1.0, rolling)).chain(ports));
     }
 
     /// Factors the small system of the meshes with friction. It is close to identity, so that no rows change places.

@@ -1,5 +1,6 @@
 //! What the same points at the speeds before say of the torques at the next speed.
 
+use super::linear::larger;
 use super::work::Drive;
 use crate::lanes::{LANES, Lane, count, weighted};
 
@@ -7,10 +8,8 @@ use crate::lanes::{LANES, Lane, count, weighted};
 const DEPTH: usize = 4;
 /// Most that the errors of the torques before may add up to in a guess; a cubic over even steps has 15.
 const SPREAD: f64 = 16.0;
-/// Most guessed steps after which a block is solved without a guess once, which measures anew how fast it converges.
-const LONGEST: usize = 256;
-/// The distance from the last such measurement after which there is another one: twice its speed, or half of it.
-const FARTHEST: f64 = std::f64::consts::LN_2 * (1.0 + 1e-9);
+/// Where a measured rate counts as it is: to twice the speed or half of it, and for so many guesses.
+const NEAR: (f64, f64) = (2.0 * (1.0 + 1e-9), 256.0);
 /// A rate that could not be measured, with which a pass is never the last.
 pub(super) const UNKNOWN: f64 = f64::INFINITY;
 
@@ -27,7 +26,10 @@ pub struct Trail {
     steps: Vec<Step>,
     /// Numbers and weights of the steps in a guess.
     weights: Vec<(usize, f64)>,
+    /// Guesses since the rate was measured.
     guesses: usize,
+    /// Whether the last guess was good enough: its first pass was the last one.
+    pub(super) good: bool,
     /// Where the rate was measured.
     measured: f64,
 }
@@ -52,8 +54,8 @@ impl Trail {
         if !same_points(&self.torques, torques) {
             self.clear();
         }
-        let far = (place - self.measured).abs() > FARTHEST;
-        if far || self.guesses == LONGEST || self.rate.is_none() {
+        // Where the last guess was not good enough and the rate is known from far away only, it is measured anew.
+        if self.rate.is_none() || !self.good && self.growth(place) > 1.0 {
             return false;
         }
         let weights = &mut self.weights;
@@ -62,6 +64,14 @@ impl Trail {
             weights.extend(lagrange(&self.steps, first, place));
             weights.iter().map(|(_, weight)| weight.abs()).sum::<f64>() <= SPREAD
         })
+    }
+
+    /// By how much the rate counts as grown at a place. It hardly moves along speeds; far from where it was measured it counts, to be safe, as
+    /// if it grew with the ratio of speeds, up or down, and with the number of guesses.
+    #[inline(always)]
+    pub(super) fn growth(&self, place: f64) -> f64 {
+        let ratio = (place - self.measured).abs().exp();
+        larger(ratio / NEAR.0, 1.0) * larger(self.guesses as f64 / NEAR.1, 1.0)
     }
 
     /// The guess of one unknown at the place that was weighed last.
@@ -136,12 +146,11 @@ mod tests {
             trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], &mut torques, i > 0);
         }
         trail.rate = Some(Lane::all(0.1));
-        trail.measured = speeds[speeds.len() - 1];
+        trail.good = true;
     }
 
-    /// How many steps count for a guess at a place, not far from where the rate was measured.
+    /// How many steps count for a guess at a place.
     fn steps_at(trail: &mut Trail, given: f64, place: f64) -> usize {
-        trail.measured = place;
         if trail.weigh(&[Lane::all(given)], place) {
             trail.weights.len()
         } else {
@@ -170,35 +179,39 @@ mod tests {
         // The same speed once more leaves one step.
         follow(&mut trail, &[1.0, 2.0, 2.0], |x| x);
         assert_eq!(steps_at(&mut trail, 3.0, 3.0), 1);
-        let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
-        follow(&mut trail, &many, |x| x);
-        assert_eq!(steps_at(&mut trail, 3.0, 40.0), 0);
     }
 
     #[test]
-    fn measurements_grow_rarer() {
+    fn a_rate_counts_as_grown_far_away_and_after_many_guesses() {
         let mut trail = Trail::default();
         let given = [Lane::all(3.0)];
-        let mut measured = Vec::new();
-        for step in 1..=1000 {
-            let place = f64::from(step).ln();
-            let guessed = trail.weigh(&given, place);
-            trail.rate = Some(Lane::all(0.1));
-            trail.push(&given, place, &[Drive::First], &mut vec![Lane::ZERO], guessed);
-            if !guessed {
-                measured.push(step);
+        let push = |trail: &mut Trail, speed: f64, guessed: bool| {
+            trail.push(&given, speed.ln(), &[Drive::First], &mut vec![Lane::ZERO], guessed);
+        };
+        push(&mut trail, 100.0, false);
+        trail.rate = Some(Lane::all(0.1));
+        for (speed, growth) in [(100.0, 1.0), (200.0, 1.0), (50.0, 1.0), (600.0, 3.0), (10.0, 5.0)] {
+            let own = trail.growth(f64::ln(speed));
+            assert!((own / growth - 1.0).abs() < 1e-8, "{speed}: {own}");
+            // While guesses are good enough that does not matter.
+            for good in [true, false] {
+                trail.good = good;
+                assert_eq!(trail.weigh(&given, speed.ln()), good || growth == 1.0, "{speed}");
             }
         }
-        assert_eq!(measured, [1, 3, 7, 15, 31, 63, 127, 255, 511, 768]);
+        for _ in 0..512 {
+            push(&mut trail, 100.0, true);
+        }
+        assert_eq!(trail.growth(f64::ln(100.0)), 2.0);
+        push(&mut trail, 100.0, false);
+        assert_eq!(trail.growth(f64::ln(100.0)), 1.0);
     }
 
     #[test]
     fn steps_outlive_a_solution_without_a_guess_but_not_other_drivers() {
         let mut trail = Trail::default();
-        let many: Vec<f64> = (0..=LONGEST as u32).map(f64::from).collect();
-        follow(&mut trail, &many, |x| x);
-        let (given, next) = ([Lane::all(3.0)], LONGEST as f64 + 1.0);
-        assert_eq!(steps_at(&mut trail, 3.0, next), 0);
+        follow(&mut trail, &[1.0, 2.0, 3.0, 4.0, 5.0], |x| x);
+        let (given, next) = ([Lane::all(3.0)], 6.0);
         trail.push(&given, next, &[Drive::First], &mut vec![Lane::all(next)], false);
         assert_eq!(steps_at(&mut trail, 3.0, next + 1.0), DEPTH);
         trail.push(&given, next + 1.0, &[Drive::Second], &mut vec![Lane::all(next)], false);

@@ -201,24 +201,26 @@ impl LossLanes {
     /// that nothing takes.
     #[inline(always)]
     pub(crate) fn sound_sum(&mut self, untaken: &Lane) -> Lane {
-        let mut unsound = [0_u64; LANES];
-        let mut any = 0;
+        let mut unsound = 0_u64;
+        // The greatest sum that is a number, or none beside such a thrust; a negative part is no sum.
+        let sound = |sum: f64, least: f64, untaken: f64| {
+            let most = if untaken == 0.0 { f64::MAX } else { 0.0 };
+            least >= 0.0 && sum <= most
+        };
         // What is no number passes by the least one and stands in the sum.
         let step = |[sum, least]: [f64; 2], values: &Lane, i: usize| {
             [sum + values[i], if values[i] < least { values[i] } else { least }]
         };
         let sum = gather(self.values[..self.terms].iter(), [0.0; 2], step, |[sum, least], i| {
-            // The greatest sum that is a number, or none beside such a thrust; a negative part is no sum.
-            let most = if untaken[i] == 0.0 { f64::MAX } else { 0.0 };
-            unsound[i] = u64::from(!(least >= 0.0 && sum <= most));
-            any |= unsound[i];
+            unsound |= u64::from(!sound(sum, least, untaken[i]));
             sum
         });
-        if any == 0 {
+        if unsound == 0 {
             return sum;
         }
         for i in 0..LANES {
-            if unsound[i] > 0 {
+            let own = self.values[..self.terms].iter().map(|values| values[i]);
+            if !sound(sum[i], own.fold(0.0, f64::min), untaken[i]) {
                 self.alone[i] = true;
                 // Or torques of this lane would be no numbers, at which no model is asked.
                 for values in &mut self.values[..self.terms] {

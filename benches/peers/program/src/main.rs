@@ -55,12 +55,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             let mut row = transmission.row(&case, &point, &[100.0], &mut scratch);
             for (torques, losses) in torques.chunks(LANES).zip(losses.chunks_mut(LANES)) {
                 let block = row.follow(torques);
-                let alone = (0..torques.len()).any(|lane| block.alone(lane));
-                if alone {
+                if block.alone()[..torques.len()].contains(&true) {
                     return Err("a point has to be evaluated alone".into());
                 }
                 losses.copy_from_slice(&block.losses()[..torques.len()]);
-                passes += (0..torques.len()).map(|lane| block.passes(lane)).sum::<usize>();
+                passes += block.passes()[..torques.len()].iter().sum::<usize>();
             }
         }
         let (passes, calls) = (passes as f64 / points, scratch.calls() as f64 / points);

@@ -2,7 +2,7 @@
 
 use super::RowScratch;
 use crate::flow::{Balance, Status};
-use crate::lanes::{Lane, each, over, wide};
+use crate::lanes::{LANES, Lane, each, over, wide};
 use crate::transmission::{PartKind, Transmission};
 
 /// Some solved points of a row.
@@ -15,8 +15,8 @@ pub struct Block<'a> {
 
 impl Block<'_> {
     /// True where the point has to be evaluated by [`Row::alone`](super::Row::alone); nothing else of the block counts for it.
-    pub fn alone(&self, lane: usize) -> bool {
-        self.s.alone_lanes[lane]
+    pub fn alone(&self) -> &[bool; LANES] {
+        &self.s.alone_lanes
     }
 
     fn powers(&self, lane: usize) -> impl Iterator<Item = f64> + Clone + '_ {
@@ -82,8 +82,8 @@ impl Block<'_> {
     }
 
     /// Passes over the loss models.
-    pub fn passes(&self, lane: usize) -> usize {
-        self.s.work.passes[lane]
+    pub fn passes(&self) -> &[usize; LANES] {
+        &self.s.work.passes
     }
 
     /// Speed of a member by number. \[rad/s\]
