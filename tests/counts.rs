@@ -17,6 +17,7 @@ use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::identify::Settings;
+use gearloss_framework::lanes::LANES;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::Study;
 use gearloss_framework::thermal::Outcome;
@@ -64,6 +65,31 @@ fn a_point_takes_few_passes() {
         [of_set("iso"), of_set("joint")],
         [[(3, 34); 4], [(3, 37), (4, 47), (3, 37), (4, 47)]]
     );
+}
+
+/// Passes at 250 even speeds for 64 torques side by side, each beginning with what the speeds before say; more where a model jumps or the rate at
+/// which passes converge is measured anew.
+#[test]
+fn points_of_a_map_mostly_take_one_pass() {
+    let language = language();
+    let study = Study::read(&language, &file(STUDY)).unwrap();
+    let of_set = |set: &str| {
+        let choice = study.choice(Some(set));
+        let t = two_speed(&language).transmission(&language, &choice).unwrap();
+        let case = t.case("first", &[], &["input"]).unwrap();
+        let torques: [f64; LANES] = std::array::from_fn(|i| 5.0 + 0.1 * i as f64);
+        let mut scratch = t.row_scratch(&case);
+        let mut passes = 0;
+        for step in 1..=250 {
+            let speed = [f64::from(80 * step) * RPM];
+            let mut row = t.row(&case, &point(&speed, &[0.0]), &[100.0], &mut scratch);
+            let block = row.follow(&torques);
+            assert!(!block.alone().contains(&true));
+            passes += block.passes().iter().sum::<usize>();
+        }
+        (passes, LANES * 250)
+    };
+    assert_eq!([of_set("iso"), of_set("joint")], [(17_939, 16_000), (17_754, 16_000)]);
 }
 
 /// Ways along the path, passes over its places, and places, of each mesh; the third one turns idly. Ways change with the limit

@@ -256,7 +256,7 @@ impl Flow {
                 },
             )
         };
-        trail.good = guessed && !work.done.contains(&false);
+        let good = guessed && !work.done.contains(&false);
         self.iterate_abreast(task, guessed, usize::from(guess), work, &mut losses);
         if work.alone.contains(&true) {
             return trail.clear();
@@ -264,7 +264,13 @@ impl Flow {
         if !guessed {
             trail.rate = Some(work.rate);
         }
-        trail.push(task.torques, at, &work.drives, &mut work.unknown, guessed);
+        trail.push(
+            task.torques,
+            at,
+            &work.drives,
+            &mut work.unknown,
+            guessed.then_some(good),
+        );
     }
 
     /// Passes over models and equilibrium until they agree: from the beginning, or after a first one from a guess. `pass` is the

@@ -8,8 +8,12 @@ use crate::lanes::{LANES, Lane, count, weighted};
 const DEPTH: usize = 4;
 /// Most that the errors of the torques before may add up to in a guess; a cubic over even steps has 15.
 const SPREAD: f64 = 16.0;
-/// Where a measured rate counts as it is: to twice the speed or half of it, and for so many guesses.
-const NEAR: (f64, f64) = (2.0 * (1.0 + 1e-9), 256.0);
+/// To this many times the speed, or to that part of it, a measured rate counts as it is; speeds in even steps may meet it but for rounding.
+const NEAR: f64 = 2.0 * (1.0 + 1e-9);
+/// For this many guesses, too.
+const MANY: f64 = 256.0;
+/// The growth with which a rate is measured anew whatever the guesses say, since they are judged by it.
+const MOST: f64 = 4.0;
 /// A rate that could not be measured, with which a pass is never the last.
 pub(super) const UNKNOWN: f64 = f64::INFINITY;
 
@@ -28,8 +32,8 @@ pub struct Trail {
     weights: Vec<(usize, f64)>,
     /// Guesses since the rate was measured.
     guesses: usize,
-    /// Whether the last guess was good enough: its first pass was the last one.
-    pub(super) good: bool,
+    /// Whether the last block began with a guess that was good enough, so that its first pass was the last one.
+    good: bool,
     /// Where the rate was measured.
     measured: f64,
 }
@@ -54,8 +58,9 @@ impl Trail {
         if !same_points(&self.torques, torques) {
             self.clear();
         }
-        // Where the last guess was not good enough and the rate is known from far away only, it is measured anew.
-        if self.rate.is_none() || !self.good && self.growth(place) > 1.0 {
+        // Far from where the rate was measured, guesses go on while they are good enough; nothing is far or near where a speed is zero.
+        let farthest = if self.good { MOST } else { 1.0 };
+        if !place.is_finite() || self.rate.is_none() || self.growth(place) > farthest {
             return false;
         }
         let weights = &mut self.weights;
@@ -71,7 +76,7 @@ impl Trail {
     #[inline(always)]
     pub(super) fn growth(&self, place: f64) -> f64 {
         let ratio = (place - self.measured).abs().exp();
-        larger(ratio / NEAR.0, 1.0) * larger(self.guesses as f64 / NEAR.1, 1.0)
+        larger(1.0, ratio / NEAR) * larger(1.0, self.guesses as f64 / MANY)
     }
 
     /// The guess of one unknown at the place that was weighed last.
@@ -84,16 +89,18 @@ impl Trail {
         )
     }
 
-    /// Adds a step, for whose unknowns it gives older ones back; `guessed` says whether it began with a guess.
+    /// Adds a step, for whose unknowns it gives older ones back. `guess` says whether that with which it began was good enough; absent where it
+    /// began without one.
     pub(super) fn push(
         &mut self,
         given: &[Lane],
         place: f64,
         drives: &[Drive],
         unknowns: &mut Vec<Lane>,
-        guessed: bool,
+        guess: Option<bool>,
     ) {
-        if guessed {
+        self.good = guess == Some(true);
+        if guess.is_some() {
             self.guesses += 1;
         } else {
             self.guesses = 0;
@@ -143,14 +150,20 @@ mod tests {
     fn follow(trail: &mut Trail, speeds: &[f64], law: impl Fn(f64) -> f64) {
         for (i, speed) in speeds.iter().enumerate() {
             let mut torques = vec![Lane::all(law(*speed))];
-            trail.push(&[Lane::all(3.0)], *speed, &[Drive::First], &mut torques, i > 0);
+            trail.push(
+                &[Lane::all(3.0)],
+                *speed,
+                &[Drive::First],
+                &mut torques,
+                (i > 0).then_some(true),
+            );
         }
         trail.rate = Some(Lane::all(0.1));
-        trail.good = true;
     }
 
-    /// How many steps count for a guess at a place.
+    /// How many steps count for a guess at a place, where the rate was measured, too.
     fn steps_at(trail: &mut Trail, given: f64, place: f64) -> usize {
+        trail.measured = place;
         if trail.weigh(&[Lane::all(given)], place) {
             trail.weights.len()
         } else {
@@ -185,36 +198,48 @@ mod tests {
     fn a_rate_counts_as_grown_far_away_and_after_many_guesses() {
         let mut trail = Trail::default();
         let given = [Lane::all(3.0)];
-        let push = |trail: &mut Trail, speed: f64, guessed: bool| {
-            trail.push(&given, speed.ln(), &[Drive::First], &mut vec![Lane::ZERO], guessed);
+        let push = |trail: &mut Trail, speed: f64, guess: Option<bool>| {
+            trail.push(&given, speed.ln(), &[Drive::First], &mut vec![Lane::ZERO], guess);
         };
-        push(&mut trail, 100.0, false);
+        let growth = |trail: &Trail, speed: f64| trail.growth(speed.ln());
+        push(&mut trail, 100.0, None);
         trail.rate = Some(Lane::all(0.1));
-        for (speed, growth) in [(100.0, 1.0), (200.0, 1.0), (50.0, 1.0), (600.0, 3.0), (10.0, 5.0)] {
-            let own = trail.growth(f64::ln(speed));
-            assert!((own / growth - 1.0).abs() < 1e-8, "{speed}: {own}");
-            // While guesses are good enough that does not matter.
-            for good in [true, false] {
-                trail.good = good;
-                assert_eq!(trail.weigh(&given, speed.ln()), good || growth == 1.0, "{speed}");
+        for (speed, grown) in [
+            (100.0, 1.0),
+            (200.0, 1.0),
+            (50.0, 1.0),
+            (600.0, 3.0),
+            (12.5, 4.0),
+            (1000.0, 5.0),
+        ] {
+            assert!((growth(&trail, speed) / grown - 1.0).abs() < 1e-8, "{speed}");
+            // Far away a guess follows good ones only, and very far none.
+            for (good, most) in [(Some(true), MOST), (Some(false), 1.0)] {
+                let mut trail = trail.clone();
+                push(&mut trail, 100.0, good);
+                assert_eq!(trail.weigh(&given, speed.ln()), grown <= most, "{speed} {good:?}");
             }
         }
         for _ in 0..512 {
-            push(&mut trail, 100.0, true);
+            push(&mut trail, 100.0, Some(true));
         }
-        assert_eq!(trail.growth(f64::ln(100.0)), 2.0);
-        push(&mut trail, 100.0, false);
-        assert_eq!(trail.growth(f64::ln(100.0)), 1.0);
+        assert_eq!(growth(&trail, 100.0), 2.0);
+        push(&mut trail, 100.0, None);
+        assert_eq!(growth(&trail, 100.0), 1.0);
+        // A standstill is far from all speeds, and not near to itself.
+        assert!(!trail.weigh(&given, f64::NEG_INFINITY));
+        push(&mut trail, 0.0, None);
+        assert!(!trail.weigh(&given, f64::NEG_INFINITY) && !trail.weigh(&given, f64::ln(100.0)));
     }
 
     #[test]
     fn steps_outlive_a_solution_without_a_guess_but_not_other_drivers() {
         let mut trail = Trail::default();
-        follow(&mut trail, &[1.0, 2.0, 3.0, 4.0, 5.0], |x| x);
-        let (given, next) = ([Lane::all(3.0)], 6.0);
-        trail.push(&given, next, &[Drive::First], &mut vec![Lane::all(next)], false);
-        assert_eq!(steps_at(&mut trail, 3.0, next + 1.0), DEPTH);
-        trail.push(&given, next + 1.0, &[Drive::Second], &mut vec![Lane::all(next)], false);
-        assert_eq!(steps_at(&mut trail, 3.0, next + 2.0), 1);
+        follow(&mut trail, &[1.0, 1.1, 1.2, 1.3, 1.4], |x| x);
+        let (given, next) = ([Lane::all(3.0)], 1.5);
+        trail.push(&given, next, &[Drive::First], &mut vec![Lane::all(next)], None);
+        assert_eq!(steps_at(&mut trail, 3.0, next + 0.1), DEPTH);
+        trail.push(&given, next + 0.1, &[Drive::Second], &mut vec![Lane::all(next)], None);
+        assert_eq!(steps_at(&mut trail, 3.0, next + 0.2), 1);
     }
 }

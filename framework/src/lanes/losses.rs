@@ -202,7 +202,7 @@ impl LossLanes {
     #[inline(always)]
     pub(crate) fn sound_sum(&mut self, untaken: &Lane) -> Lane {
         let mut unsound = 0_u64;
-        // The greatest sum that is a number, or none beside such a thrust; a negative part is no sum.
+        // No negative part and a finite sum, or no sum beside a thrust that nothing takes.
         let sound = |sum: f64, least: f64, untaken: f64| {
             let most = if untaken == 0.0 { f64::MAX } else { 0.0 };
             least >= 0.0 && sum <= most

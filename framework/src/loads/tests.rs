@@ -120,7 +120,7 @@ fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64;
     for sense in [-1.0, 1.0] {
         let tangential: Vec<f64> = tangential.iter().map(|force| sense * force).collect();
         solved.evaluate(&tangential, &vec![0.0; layout.members.len()], &mut passed, &mut loads);
-        // A support that one mesh alone loads has no vector of its own; it must be as long as the vector.
+        // Where one mesh alone loads a support, its radial load comes from no vector; it must be as long as that of all meshes.
         for (load, [y, z]) in loads.iter().zip(solved.vectors(&tangential)) {
             let length = y.hypot(z);
             assert!(

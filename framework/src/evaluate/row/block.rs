@@ -14,7 +14,8 @@ pub struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// True where the point has to be evaluated by [`Row::alone`](super::Row::alone); nothing else of the block counts for it.
+    /// By lane: true where the point has to be evaluated by [`Row::alone`](super::Row::alone); nothing else of the block counts for it. Lanes beyond
+    /// the torques given mean nothing, here and in the passes.
     pub fn alone(&self) -> &[bool; LANES] {
         &self.s.alone_lanes
     }
@@ -81,7 +82,7 @@ impl Block<'_> {
         self.s.outside[lane].get()
     }
 
-    /// Passes over the loss models.
+    /// Passes over the loss models, by lane.
     pub fn passes(&self) -> &[usize; LANES] {
         &self.s.work.passes
     }

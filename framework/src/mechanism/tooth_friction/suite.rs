@@ -3,28 +3,35 @@
 use std::cell::Cell;
 
 use super::{Along, ContactAt, PathAt, PathExtent, PathNode, ToothFrictionModel, WeightedFriction};
-use crate::lanes::{LANES, Lane, LaneNotes, Powers, REMEMBERED, each, same_notes};
+use crate::lanes::{LANES, Lane, LaneNotes, Powers, REMEMBERED, each, over, same_notes};
 use crate::loss::{MOST_KEPT, NoteBase, Notes, Undefined};
 use crate::mechanism::gear_mesh::MeshPart;
 use crate::mechanism::mean_friction::MeanFrictionAt;
 
-/// Places on the path of the suite.
+/// Places on the path of the suite, of which one is the pitch point.
 const PLACES: usize = 6;
+const PITCH: f64 = 2.0;
 /// Speed of its first gear. \[rad/s\]
 const SPEED: f64 = 300.0;
 /// How well the sum of [`ToothFrictionModel::weighted`] agrees with that over the places.
 const SUM: f64 = 1e-9;
+/// Most models within a law that may keep numbers.
+const NESTED: usize = 16;
 
 /// A path through the neighbourhood of a contact.
 fn nodes(at: &ContactAt<'_>) -> [PathNode; PLACES] {
     std::array::from_fn(|k| {
         let k = k as f64;
-        PathNode::new(
-            at.sliding * (0.1 + 0.3 * k) / SPEED,
+        let node = PathNode::new(
+            at.sliding * 0.4 * (k - PITCH).abs() / SPEED,
             at.sum_speed * (1.0 + 0.05 * k) / SPEED,
             at.radius * (0.8 + 0.1 * k),
             (0.4 + 0.2 * k).min(1.0),
-        )
+        );
+        PathNode {
+            first_faster: k > PITCH,
+            ..node
+        }
     })
 }
 
@@ -37,84 +44,168 @@ pub(super) fn fault(model: &dyn ToothFrictionModel, contact: &ContactAt<'_>, not
     let Ok(part) = MeshPart::fzg_c() else {
         return Some("cannot be asked: the pair of the suite is impossible");
     };
-    let mean = MeanFrictionAt::usual(&part, Notes::MUTED);
     let nodes = nodes(contact);
-    let extent = PathExtent::of(&nodes);
-    let path = PathAt::of(&nodes, &extent, contact.length, &mean, Notes::muted(notes)).with(|to| {
-        to.speed = SPEED;
-        to.line_load = contact.line_load;
-        to.modulus = contact.modulus;
-        (to.ra, to.rq) = (contact.ra, contact.rq);
-        (to.temperature, to.nu, to.eta) = (contact.temperature, contact.nu, contact.eta);
-        (to.alpha, to.beta, to.conductivity) = (contact.alpha, contact.beta, contact.conductivity);
-        to.x_l = contact.x_l;
-    });
     let weights = nodes.map(|node| 0.3 * node.share);
     let weighted = model.weighted(&nodes, &weights);
-    let law = Law {
+    Law {
         model,
         weighted: weighted.as_deref(),
         weights,
+        nodes: &nodes,
+        extent: PathExtent::of(&nodes),
+        part: &part,
+        contact,
         notes,
-    };
-    law.keeping(&path).or_else(|| law.side_by_side(&path))
+        line_loads: each(|i| contact.line_load * (0.3 + 1.5 * i as f64 / LANES as f64)),
+    }
+    .fault()
 }
 
-/// A law with its sum over the path of the suite.
+/// A law with the path of the suite.
 struct Law<'a> {
     model: &'a dyn ToothFrictionModel,
     weighted: Option<&'a dyn WeightedFriction>,
     weights: [f64; PLACES],
+    nodes: &'a [PathNode; PLACES],
+    extent: PathExtent,
+    part: &'a MeshPart,
+    contact: &'a ContactAt<'a>,
     notes: NoteBase,
+    /// Those that are asked side by side. \[N/m\]
+    line_loads: Lane,
 }
 
 /// Coefficients at the places of a path, with what else is known of it.
 type Answer = Result<(Along, [f64; PLACES]), Undefined>;
+type Kept = [Cell<[f64; MOST_KEPT]>];
+
+/// Answers for all line loads.
+struct Wide {
+    /// Whether the law has a way of its own to the coefficients.
+    answers: bool,
+    mu: [Lane; PLACES],
+    sums: Lane,
+}
+
+/// The same bits, or both no number.
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+}
+
+fn all_same(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| same(*a, *b))
+}
 
 impl Law<'_> {
-    fn along(&self, path: &PathAt<'_>) -> Answer {
-        let mut mu = [f64::NAN; PLACES];
-        let along = self.model.along(path, &mut mu)?;
-        Ok((along, mu))
+    fn fault(&self) -> Option<&'static str> {
+        let answers: [Answer; LANES] = std::array::from_fn(|lane| self.along(lane, Notes::muted(self.notes)));
+        let sound = |mu: &f64| *mu >= 0.0 && mu.is_finite();
+        if !answers.iter().flatten().all(|(_, mu)| mu.iter().all(sound)) {
+            return Some("`along` leaves a coefficient that is negative or no number");
+        }
+        let wide = self.wide(&[], 1.0, &mut Powers::EXACT.clone());
+        self.keeping(&answers, &wide)
+            .or_else(|| self.lanes(&answers, &wide))
+            .or_else(|| self.sums(&answers, &wide))
+            .or_else(|| self.noting(&answers, &wide))
+    }
+
+    /// Asks something of the path at a line load, with the speed times a factor.
+    fn ask<R>(&self, line_load: f64, faster: f64, notes: Notes<'_>, then: impl FnOnce(&PathAt<'_>) -> R) -> R {
+        let (contact, load) = (self.contact, line_load / self.contact.line_load);
+        let mean = MeanFrictionAt::usual(self.part, Notes::MUTED).with(|to| {
+            to.line_load *= load;
+            to.normal_force *= load;
+            to.pressure *= load.sqrt();
+        });
+        then(
+            &PathAt::of(self.nodes, &self.extent, contact.length, &mean, notes).with(|to| {
+                to.speed = SPEED * faster;
+                to.line_load = line_load;
+                to.modulus = contact.modulus;
+                (to.ra, to.rq) = (contact.ra, contact.rq);
+                (to.temperature, to.nu, to.eta) = (contact.temperature, contact.nu, contact.eta);
+                (to.alpha, to.beta, to.conductivity) = (contact.alpha, contact.beta, contact.conductivity);
+                to.x_l = contact.x_l;
+            }),
+        )
+    }
+
+    fn along(&self, lane: usize, notes: Notes<'_>) -> Answer {
+        self.ask(self.line_loads[lane], 1.0, notes, |path| {
+            let mut mu = [f64::NAN; PLACES];
+            let along = self.model.along(path, &mut mu)?;
+            Ok((along, mu))
+        })
+    }
+
+    fn sum(&self, lane: usize, notes: Notes<'_>) -> f64 {
+        let sum = |path: &PathAt<'_>| self.weighted.map_or(0.0, |weighted| weighted.sum(path));
+        self.ask(self.line_loads[lane], 1.0, notes, sum)
+    }
+
+    /// The answers for all line loads, times a factor, on a path that has none of them.
+    fn wide(&self, kept: &Kept, factor: f64, powers: &mut Powers) -> Wide {
+        let line_loads = over(&self.line_loads, |load| load * factor);
+        let mut mu = [Lane::ZERO; PLACES];
+        // What was asked for other loads had another speed, too, unless what is kept is looked at.
+        let faster = if factor == 1.0 || !kept.is_empty() { 1.0 } else { 1.3 };
+        self.ask(0.0, faster, Notes::muted(self.notes).keeping(kept), |path| Wide {
+            answers: self.model.along_lanes(path, &line_loads, &mut mu),
+            mu,
+            sums: self
+                .weighted
+                .map_or(Lane::ZERO, |weighted| weighted.sums(path, &line_loads, powers)),
+        })
     }
 
     /// What is kept over the passes of a point must not hang on the load.
-    fn keeping(&self, path: &PathAt<'_>) -> Option<&'static str> {
-        let kept = vec![Cell::new([f64::NAN; MOST_KEPT]); self.notes.instance + 1];
-        let keeping = path.with(|to| to.notes = to.notes.keeping(&kept));
-        let ask = |path: &PathAt<'_>| {
-            let answer = self.along(path).map_err(|undefined| undefined.what);
-            (answer, self.weighted.map_or(0.0, |sum| sum.sum(path)).to_bits())
+    fn keeping(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
+        let fault = Some("keeps what hangs on the line load over the passes of a point");
+        let kept = || vec![Cell::new([f64::NAN; MOST_KEPT]); self.notes.instance + NESTED];
+        let (single, own) = (kept(), Notes::muted(self.notes));
+        let keeping = own.keeping(&single);
+        let _ = (self.along(LANES - 1, keeping), self.sum(LANES - 1, keeping));
+        let alike = match (&answers[0], self.along(0, keeping)) {
+            (Ok(answer), Ok(kept)) => answer.0 == kept.0 && all_same(&answer.1, &kept.1),
+            (Err(answer), Err(kept)) => answer.what == kept.what,
+            _ => false,
         };
-        let _ = ask(&keeping.with(|to| to.line_load *= 2.0));
-        (ask(&keeping) != ask(path)).then_some("keeps what hangs on the line load over the passes of a point")
+        if !alike || !same(self.sum(0, own), self.sum(0, keeping)) {
+            return fault;
+        }
+        let together = kept();
+        let _ = self.wide(&together, 2.0, &mut Powers::EXACT.clone());
+        let again = self.wide(&together, 1.0, &mut Powers::EXACT.clone());
+        let mu = (0..PLACES).all(|k| all_same(&wide.mu[k][..], &again.mu[k][..]));
+        if mu && all_same(&wide.sums[..], &again.sums[..]) {
+            None
+        } else {
+            fault
+        }
     }
 
-    fn side_by_side(&self, path: &PathAt<'_>) -> Option<&'static str> {
-        let line_loads = each(|i| path.line_load * (0.3 + 1.5 * i as f64 / LANES as f64));
-        let mut mu = [Lane::ZERO; PLACES];
-        let wide = self.model.along_lanes(path, &line_loads, &mut mu);
-        if !wide && self.weighted.is_none() {
-            return None;
-        }
-        let under = |lane: usize| path.with(|to| to.line_load = line_loads[lane]);
-        let answers: [Answer; LANES] = std::array::from_fn(|lane| self.along(&under(lane)));
-        let same = |lane: usize| match &answers[lane] {
-            Ok((_, along)) => (0..PLACES).all(|k| mu[k][lane].to_bits() == along[k].to_bits()),
-            Err(_) => (0..PLACES).any(|k| !mu[k][lane].is_finite()),
+    fn lanes(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
+        let agrees = |lane: usize| match &answers[lane] {
+            Ok((_, mu)) => (0..PLACES).all(|k| same(wide.mu[k][lane], mu[k])),
+            Err(_) => (0..PLACES).any(|k| !wide.mu[k][lane].is_finite()),
         };
-        if wide && !(0..LANES).all(same) {
+        if wide.answers && !(0..LANES).all(agrees) {
             return Some("`along_lanes` answers otherwise than `along`");
         }
-        if answers.iter().flatten().any(|(along, _)| *along != Along::default()) {
-            return Some("has a sum or lanes, but its heat does not go into both bodies alike");
-        }
-        let weighted = self.weighted?;
-        let sums = each(|lane| weighted.sum(&under(lane)));
+        let alike = |answer: &Answer| answer.as_ref().map_or(true, |(along, _)| *along == Along::default());
+        let ways = wide.answers || self.weighted.is_some();
+        (ways && !answers.iter().all(alike))
+            .then_some("has lanes or a sum, but its heat does not go into both bodies alike")
+    }
+
+    fn sums(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
+        self.weighted?;
+        let sums = each(|lane| self.sum(lane, Notes::muted(self.notes)));
         // A sum that is no number leaves the path to its places.
         let agrees = |lane: usize| match &answers[lane] {
-            Ok((_, along)) => {
-                let sum: f64 = self.weights.iter().zip(along).map(|(weight, mu)| weight * mu).sum();
+            Ok((_, mu)) => {
+                let sum: f64 = self.weights.iter().zip(mu).map(|(weight, mu)| weight * mu).sum();
                 sums[lane].is_nan() || (sums[lane] - sum).abs() <= SUM * sum.abs()
             }
             Err(_) => !sums[lane].is_finite(),
@@ -122,33 +213,38 @@ impl Law<'_> {
         if !(0..LANES).all(agrees) {
             return Some("`weighted` sums to something else than the places of `along`");
         }
-        let abreast = weighted.sums(path, &line_loads, &mut Powers::EXACT.clone());
-        if !(0..LANES).all(|lane| abreast[lane].to_bits() == sums[lane].to_bits()) {
+        if !all_same(&wide.sums[..], &sums[..]) {
             return Some("`sums` answers otherwise than `sum`");
         }
         // What is remembered comes from another speed and loads close by.
         let mut powers = Powers::remembering();
-        let before = path.with(|to| to.speed *= 1.3);
-        weighted.sums(&before, &each(|i| line_loads[i] * 1.001), &mut powers);
-        let remembered = weighted.sums(path, &line_loads, &mut powers);
-        if (0..LANES).any(|lane| (remembered[lane] - sums[lane]).abs() > REMEMBERED * sums[lane].abs()) {
-            return Some("`sums` remembers what is no power of the line loads times a constant");
-        }
+        let _ = self.wide(&[], 1.001, &mut powers);
+        let remembered = self.wide(&[], 1.0, &mut powers).sums;
+        let agrees = |lane: usize| {
+            let (own, sum) = (remembered[lane], sums[lane]);
+            own.is_nan() && sum.is_nan() || (own - sum).abs() <= REMEMBERED * sum.abs()
+        };
+        (!(0..LANES).all(agrees)).then_some("`sums` remembers what is no power of the line loads times a constant")
+    }
+
+    fn noting(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
+        let weighted = self.weighted?;
         // What is undefined at a load is noted by its point alone.
         if answers.iter().any(Result::is_err) {
             return None;
         }
         let single = |lane: usize, notes: Notes<'_>| {
-            let _ = self.along(&under(lane).with(|to| to.notes = notes));
+            let _ = self.along(lane, notes);
         };
         let together = |notes: LaneNotes<'_>| {
-            let path = path.with(|to| to.notes = notes.all());
-            if weighted.note(&path, &line_loads, notes) {
-                return;
-            }
-            if wide {
-                self.model.note_lanes(&path, &line_loads, &mu, notes);
-            } else {
+            let noted = self.ask(0.0, 1.0, notes.all(), |path| {
+                let noted = weighted.note(path, &self.line_loads, notes);
+                if !noted && wide.answers {
+                    self.model.note_lanes(path, &self.line_loads, &wide.mu, notes);
+                }
+                noted || wide.answers
+            });
+            if !noted {
                 (0..LANES).for_each(|lane| single(lane, notes.lane(lane)));
             }
         };
@@ -160,7 +256,6 @@ impl Law<'_> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::lanes::over;
     use crate::loss::Observed;
     use crate::mechanism::NoPart;
 
@@ -170,11 +265,15 @@ mod tests {
     enum Slip {
         None,
         Keeps,
+        LanesKeep,
+        Negative,
         Lanes,
+        Mean,
         Heat,
         Sum,
         Sums,
         Remembers,
+        Forgets,
         Notes,
     }
 
@@ -195,7 +294,7 @@ mod tests {
         }
 
         fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
-            let factor = self.factor(path);
+            let factor = self.factor(path) * if self.0 == Slip::Negative { -1.0 } else { 1.0 };
             for (node, mu) in path.nodes.iter().zip(mu) {
                 *mu = factor * path.line_load.sqrt() * node.share.sqrt();
                 path.notes.observe(&MU, *mu);
@@ -206,8 +305,12 @@ mod tests {
         }
 
         fn along_lanes(&self, path: &PathAt<'_>, line_loads: &Lane, mu: &mut [Lane]) -> bool {
-            let slip = if self.0 == Slip::Lanes { 1.0 + 1e-15 } else { 1.0 };
-            let factor = slip * self.factor(path);
+            let factor = match self.0 {
+                Slip::Lanes => (1.0 + 1e-15) * self.factor(path),
+                Slip::Mean => self.factor(path) * path.mean.normal_force,
+                Slip::LanesKeep => path.notes.once(|| [line_loads[0], 0.0])[0],
+                _ => self.factor(path),
+            };
             for (node, mu) in path.nodes.iter().zip(mu) {
                 *mu = over(line_loads, |load| factor * load.sqrt() * node.share.sqrt());
             }
@@ -250,6 +353,9 @@ mod tests {
                 _ => (1.0, self.law.factor(path)),
             };
             let raised = powers.of(0, |i| line_loads[i], 0.5, |load| load.sqrt() * within);
+            // Powers that come from a memory are no root.
+            let forgets = self.law.0 == Slip::Forgets && (0..LANES).any(|i| !same(raised[i], line_loads[i].sqrt()));
+            let raised = if forgets { Lane::all(f64::NAN) } else { raised };
             over(&raised, |raised| raised * outside * self.sum)
         }
     }
@@ -264,11 +370,15 @@ mod tests {
         assert_eq!(found(Slip::None), None);
         for (slip, words) in [
             (Slip::Keeps, "keeps what hangs on the line load"),
+            (Slip::LanesKeep, "keeps what hangs on the line load"),
+            (Slip::Negative, "negative or no number"),
             (Slip::Lanes, "`along_lanes` answers otherwise"),
+            (Slip::Mean, "`along_lanes` answers otherwise"),
             (Slip::Heat, "heat does not go into both bodies alike"),
             (Slip::Sum, "`weighted` sums to something else"),
             (Slip::Sums, "`sums` answers otherwise"),
             (Slip::Remembers, "`sums` remembers"),
+            (Slip::Forgets, "`sums` remembers"),
             (Slip::Notes, "notes otherwise than `along`"),
         ] {
             let fault = found(slip).unwrap();
