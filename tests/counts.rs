@@ -39,6 +39,14 @@ fn point<'a>(speeds: &'a [f64], torques: &'a [f64]) -> Point<'a> {
     }
 }
 
+/// The two-speed example under a set of its study.
+fn under(set: &str) -> Transmission {
+    let language = language();
+    let study = Study::read(&language, &file(STUDY)).unwrap();
+    let choice = study.choice(Some(set));
+    two_speed(&language).transmission(&language, &choice).unwrap()
+}
+
 /// Passes over the loss models and calls of them, at each point in first gear.
 fn work(t: &Transmission) -> [(usize, usize); 4] {
     let case = t.case("first", &[], &["input"]).unwrap();
@@ -55,12 +63,7 @@ fn work(t: &Transmission) -> [(usize, usize); 4] {
 /// where more models hang on load. Laws that hang on speed alone are called once, whatever the passes.
 #[test]
 fn a_point_takes_few_passes() {
-    let language = language();
-    let study = Study::read(&language, &file(STUDY)).unwrap();
-    let of_set = |set: &str| {
-        let choice = study.choice(Some(set));
-        work(&two_speed(&language).transmission(&language, &choice).unwrap())
-    };
+    let of_set = |set: &str| work(&under(set));
     assert_eq!(
         [of_set("iso"), of_set("joint")],
         [[(3, 34); 4], [(3, 37), (4, 47), (3, 37), (4, 47)]]
@@ -71,11 +74,8 @@ fn a_point_takes_few_passes() {
 /// which passes converge is measured anew.
 #[test]
 fn points_of_a_map_mostly_take_one_pass() {
-    let language = language();
-    let study = Study::read(&language, &file(STUDY)).unwrap();
     let of_set = |set: &str| {
-        let choice = study.choice(Some(set));
-        let t = two_speed(&language).transmission(&language, &choice).unwrap();
+        let t = under(set);
         let case = t.case("first", &[], &["input"]).unwrap();
         let torques: [f64; LANES] = std::array::from_fn(|i| 5.0 + 0.1 * i as f64);
         let mut scratch = t.row_scratch(&case);
