@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("first gear, 10 Nm at 8000 rpm, oil {} degC\n", oil[0]);
     println!("{:<26}{:<16}{:>9}{:>8}", "component", "model", "loss W", "share %");
     for (part, loss) in solution.parts() {
-        let model = transmission.instances()[part.notes.instance].entry.name;
+        let model = transmission.instances()[part.notes.instance()].entry.name;
         let watts = loss.watts();
         println!("{:<26}{model:<16}{watts:>9.3}{:>8.1}", part.path, 100.0 * watts / sum);
     }

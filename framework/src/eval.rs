@@ -175,13 +175,13 @@ pub fn eval<M: Mechanism>(
             let (path, i) = path(i);
             evaluated
                 .limits
-                .push((path, *limit, extents[instance.notes.limits + i]));
+                .push((path, *limit, extents[instance.notes.limits() + i]));
         }
         for (i, observed) in instance.entry.observed.iter().enumerate() {
             let (path, i) = path(i);
             evaluated
                 .observed
-                .push((path, *observed, extents[instance.notes.observed + i]));
+                .push((path, *observed, extents[instance.notes.observed() + i]));
         }
     }
     Ok(evaluated)

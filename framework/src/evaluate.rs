@@ -16,11 +16,15 @@ use std::cell::Cell;
 use crate::attach::State;
 use crate::flow::{Balance, Drive, FlowState, Outcome, Status, Tolerance};
 use crate::loads::SupportLoad;
-use crate::loss::{Extent, Loss, NoteBase, Notes, Undefined};
+use crate::loss::{Extent, Loss, NoteBase, Notebook, Undefined};
 use crate::mechanism::gear_drag::GearDragAt;
 use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
+
+/// Passes in which nothing is noted. The torques of the first are a guess, those of the second are seldom the last; where they are, the
+/// models are asked once more.
+const SILENT: usize = 2;
 
 /// Whether losses change the torques of what comes after them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -166,6 +170,10 @@ impl Transmission {
                 loads: &s.loads,
                 asked: &s.asked,
             };
+            let book = Notebook {
+                cells: if quiet { &[] } else { cells },
+                ..Notebook::CLOSED
+            };
             let losses = s.component_losses.iter_mut().zip(&mut s.relative);
             s.braking.clear();
             for (i, (component, (loss, relative))) in self.components.iter().zip(losses).enumerate() {
@@ -180,9 +188,10 @@ impl Transmission {
                         s.braking.push(i);
                     }
                 } else {
-                    *loss = component_loss(component, &state, noting(quiet, cells, component.notes));
-                    let moment = moment(loss, speed) * component.count;
+                    let answer = component_loss(component, &state, &book);
+                    let moment = moment(&answer, speed) * component.count;
                     brake(component.between, speed, moment, &mut s.idle_drags);
+                    *loss = answer;
                 }
             }
             for (i, loss) in s.drag_losses.iter_mut().enumerate() {
@@ -190,7 +199,7 @@ impl Transmission {
                 if model.off {
                     continue;
                 }
-                *loss = self.drag(i, &state, noting(quiet, cells, model.notes));
+                *loss = self.drag(i, &state, &book);
                 self.brake_gears(i, loss, &s.speeds, &mut s.idle_drags);
             }
         }
@@ -228,17 +237,19 @@ impl Transmission {
         let (idle_drags, relative) = (&*idle_drags, &*relative);
         let cells = Cell::from_mut(cells.as_mut_slice()).as_slice_of_cells();
         let kept = Cell::from_mut(kept.as_mut_slice()).as_slice_of_cells();
-        // Torques of the first pass are a guess that nobody reads about.
-        let mut guess = point.flow == PowerFlow::Real && !standing;
+        let silent = if point.flow == PowerFlow::Real && !standing {
+            SILENT
+        } else {
+            0
+        };
+        let mut pass = 0;
         let losses = |flow: &mut FlowState<'_>| {
-            let notes = |base| {
-                let notes = if guess || quiet {
-                    [Notes::muted(base); 2]
-                } else {
-                    [Notes::fresh(cells, base), Notes::new(cells, base)]
-                };
-                notes.map(|notes| notes.keeping(kept))
+            let book = Notebook {
+                cells: if quiet || pass < silent { &[] } else { cells },
+                kept,
+                ..Notebook::CLOSED
             };
+            pass += 1;
             // Meshes are the first rows, in their own order.
             for ((mesh, tangential), multiplier) in self.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers)
             {
@@ -266,10 +277,11 @@ impl Transmission {
             flow.drags[..idle_drags.len()].copy_from_slice(idle_drags);
             for &i in &*braking {
                 let (component, speed) = (&self.components[i], relative[i]);
-                let loss = &mut component_losses[i];
-                *loss = loaded_loss(component, &state, uneven_loads, notes(component.notes));
-                let moment = moment(loss, speed) * component.count;
+                // Kept when everything was read of it: a copy waits for all that was just written.
+                let loss = loaded_loss(component, &state, uneven_loads, &book);
+                let moment = moment(&loss, speed) * component.count;
                 brake(component.between, speed, moment, flow.drags);
+                component_losses[i] = loss;
             }
             for (i, loss) in mesh_losses.iter_mut().enumerate() {
                 let mesh = &self.meshes[i];
@@ -277,14 +289,14 @@ impl Transmission {
                     continue;
                 }
                 let drives = flow.drives[i];
-                *loss = self.mesh(i, tangential[i], drives, &state, notes(mesh.model.notes));
+                let answer = self.mesh(i, tangential[i], drives, &state, &book);
                 let speed = self.mesh_speed(i, speeds);
-                flow.mesh_loss[i] = match loss {
+                flow.mesh_loss[i] = match &answer {
                     Ok(loss) if speed != 0.0 => loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor,
                     _ => 0.0,
                 };
+                *loss = answer;
             }
-            guess = false;
         };
         let outcome = match point.flow {
             PowerFlow::Real if standing => {
@@ -299,10 +311,38 @@ impl Transmission {
                 Outcome::Converged { passes: 1 }
             }
         };
+        if !quiet && matches!(outcome, Outcome::Converged { passes } if passes <= silent) {
+            self.note(s);
+        }
         self.rest(s, quiet);
         self.finish(standing, outcome, s);
         if noting_as == Noting::Counted && matches!(outcome, Outcome::Converged { .. }) {
             s.count_seen();
+        }
+    }
+
+    /// Notes what the models see at the torques of their last answers.
+    fn note(&self, s: &mut Scratch) {
+        let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
+        let kept = Cell::from_mut(s.kept.as_mut_slice()).as_slice_of_cells();
+        let book = Notebook {
+            cells,
+            kept,
+            ..Notebook::CLOSED
+        };
+        let state = State {
+            speeds: &s.speeds,
+            oils: &s.oils,
+            temperatures: &s.temperatures,
+            surface: s.surface,
+            loads: &s.loads,
+            asked: &s.asked,
+        };
+        for &i in &s.braking {
+            let _ = loaded_loss(&self.components[i], &state, &s.uneven_loads, &book);
+        }
+        for i in (0..self.meshes.len()).filter(|i| !self.meshes[*i].model.off) {
+            let _ = self.mesh(i, s.tangential[i], s.work.drives[i], &state, &book);
         }
     }
 
@@ -317,22 +357,25 @@ impl Transmission {
             loads: &s.loads,
             asked: &s.asked,
         };
+        let book = Notebook {
+            cells: if quiet { &[] } else { cells },
+            ..Notebook::CLOSED
+        };
         for ((component, loss), speed) in self.components.iter().zip(&mut s.component_losses).zip(&s.relative) {
             if component.loaded && !component.off && *speed == 0.0 {
-                let notes = [noting(quiet, cells, component.notes); 2];
-                *loss = loaded_loss(component, &state, &s.uneven_loads, notes);
+                *loss = loaded_loss(component, &state, &s.uneven_loads, &book);
             }
         }
     }
 
     /// Loss of one drag model.
-    fn drag(&self, index: usize, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+    fn drag(&self, index: usize, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
         state.asked.set(state.asked.get() + 1);
-        sound(self.drags[index].model.loss(&self.drag_at(index, state, notes)))
+        sound(self.drags[index].model.loss(&self.drag_at(index, state, book)))
     }
 
     /// What a drag model sees, one copy.
-    fn drag_at<'a>(&'a self, index: usize, state: &State<'_>, notes: Notes<'a>) -> GearDragAt<'a> {
+    fn drag_at<'a>(&'a self, index: usize, state: &State<'_>, book: &Notebook<'a>) -> GearDragAt<'a> {
         let drag = &self.drags[index];
         let seat = &drag.seat;
         let oil = &state.oils[drag.oil as usize];
@@ -355,7 +398,7 @@ impl Transmission {
             nu: oil.nu,
             eta: oil.eta,
             rho: oil.rho,
-            notes,
+            notes: book.notes(drag.model.notes),
         }
     }
 
@@ -366,17 +409,18 @@ impl Transmission {
         tangential: f64,
         drives: Drive,
         state: &State<'_>,
-        notes: [Notes<'_>; 2],
+        book: &Notebook<'_>,
     ) -> Result<Loss, Undefined> {
         let mesh = &self.meshes[index];
-        let one = |factor: f64, notes: Notes<'_>| {
+        book.clear(mesh.model.notes);
+        let one = |factor: f64| {
             state.asked.set(state.asked.get() + 1);
-            let at = self.mesh_at(index, factor * tangential, drives, state, notes);
+            let at = self.mesh_at(index, factor * tangential, drives, state, book);
             sound(mesh.model.loss(&at))
         };
         match mesh.sharing {
-            None => one(1.0, notes[0]),
-            Some(sharing) => over_planets(sharing, notes, |which, notes| one(sharing.factors()[which], notes)),
+            None => one(1.0),
+            Some(sharing) => over_planets(sharing, book, mesh.model.notes, |which| one(sharing.factors()[which])),
         }
     }
 
@@ -387,7 +431,7 @@ impl Transmission {
         tangential: f64,
         drives: Drive,
         state: &State<'_>,
-        notes: Notes<'a>,
+        book: &Notebook<'a>,
     ) -> GearMeshAt<'a> {
         let mesh = &self.meshes[index];
         let oil = &state.oils[mesh.oil as usize];
@@ -410,7 +454,7 @@ impl Transmission {
             bodies_known: f64::from(u8::from(bodies.is_some())),
             temperature_1: bodies.map_or(oil.temperature, |b| b[0]),
             temperature_2: bodies.map_or(oil.temperature, |b| b[1]),
-            notes,
+            notes: book.notes(mesh.model.notes),
         }
     }
 
@@ -502,16 +546,12 @@ impl Transmission {
     }
 }
 
-/// Notes that count, or none.
-fn noting(quiet: bool, cells: &[Cell<Extent>], base: NoteBase) -> Notes<'_> {
-    if quiet { Notes::MUTED } else { Notes::new(cells, base) }
-}
-
 /// Loss of one copy of a component. Where the shaft has thrust that nothing takes, the load of its bearings is unknown and
 /// so is their loss, unless it was switched off.
-pub(crate) fn component_loss(component: &Component, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+#[inline]
+pub(crate) fn component_loss(component: &Component, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
     state.asked.set(state.asked.get() + 1);
-    let answer = component.placed.loss(state, notes);
+    let answer = component.placed.loss(state, book);
     let untaken = component.support.map_or(0.0, |n| state.loads[n as usize].untaken);
     match &answer {
         Ok(loss) if !loss.is_sound() => Err(unsound(loss)),
@@ -524,32 +564,36 @@ pub(crate) fn component_loss(component: &Component, state: &State<'_>, notes: No
 }
 
 /// Loss of one copy of a component that carries load; the mean over the copies where they carry different loads.
+#[inline(always)]
 fn loaded_loss(
     component: &Component,
     state: &State<'_>,
     uneven: &[Vec<SupportLoad>; 2],
-    notes: [Notes<'_>; 2],
+    book: &Notebook<'_>,
 ) -> Result<Loss, Undefined> {
+    book.clear(component.notes);
     match component.sharing {
-        None => component_loss(component, state, notes[0]),
-        Some(sharing) => over_planets(sharing, notes, |which, notes| {
+        None => component_loss(component, state, book),
+        Some(sharing) => over_planets(sharing, book, component.notes, |which| {
             let loads = &uneven[which];
-            component_loss(component, &State { loads, ..*state }, notes)
+            component_loss(component, &State { loads, ..*state }, book)
         }),
     }
 }
 
-/// The mean over the planets of a set: the most loaded one and the others, each asked once. The second notes add to what
-/// the first have noted.
+/// The mean over the planets of a set: the most loaded one and the others, each asked once. The others add to what the first
+/// has noted.
 fn over_planets(
     sharing: Sharing,
-    notes: [Notes<'_>; 2],
-    ask: impl Fn(usize, Notes<'_>) -> Result<Loss, Undefined>,
+    book: &Notebook<'_>,
+    base: NoteBase,
+    ask: impl Fn(usize) -> Result<Loss, Undefined>,
 ) -> Result<Loss, Undefined> {
-    notes[0].branch("the most loaded planet");
-    let most = ask(0, notes[0])?;
-    notes[1].branch("each of the other planets");
-    Ok(most.mean(sharing.weight, ask(1, notes[1])?))
+    let notes = book.notes(base);
+    notes.branch("the most loaded planet");
+    let most = ask(0)?;
+    notes.branch("each of the other planets");
+    Ok(most.mean(sharing.weight, ask(1)?))
 }
 
 /// A model's answer counts only when it is a number that is not negative.

@@ -2,6 +2,10 @@
 //!
 //! Terms, limits and observed quantities are constants with an index. No name is compared or stored per point.
 
+mod notebook;
+
+pub use notebook::Notebook;
+
 use std::cell::{Cell, RefCell};
 
 /// The most terms that one model may have.
@@ -172,7 +176,7 @@ impl Loss {
     pub fn is_sound(&self) -> bool {
         // What is negative or no number fails the first comparison, infinity the second.
         let [a, b, c, d] = self.values;
-        a >= 0.0 && b >= 0.0 && c >= 0.0 && d >= 0.0 && a + b + c + d < f64::INFINITY
+        a >= 0.0 && b >= 0.0 && c >= 0.0 && d >= 0.0 && self.sum() < f64::INFINITY
     }
 }
 
@@ -399,48 +403,87 @@ impl Trace {
 /// Where the notes of one model instance stand among all cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct NoteBase {
+    // As small as they may be, because every call of a model copies them.
+    instance: u32,
+    limits: u32,
+    observed: u32,
+    end: u32,
+}
+
+impl NoteBase {
+    /// The place of an instance by number that notes so many limits and observed quantities from some cell on.
+    pub(crate) fn new(instance: usize, first: usize, limits: usize, observed: usize) -> Self {
+        Self {
+            instance: instance as u32,
+            limits: first as u32,
+            observed: (first + limits) as u32,
+            end: (first + limits + observed) as u32,
+        }
+    }
+
+    /// The same with the cells of the models nested in it, which end before a cell.
+    pub(crate) fn until(self, end: usize) -> Self {
+        Self {
+            end: end as u32,
+            ..self
+        }
+    }
+
     /// Number of the instance in the transmission.
-    pub instance: usize,
+    #[inline]
+    pub fn instance(self) -> usize {
+        self.instance as usize
+    }
+
     /// First cell of its limits.
-    pub limits: usize,
+    #[inline]
+    pub fn limits(self) -> usize {
+        self.limits as usize
+    }
+
     /// First cell of its observed quantities.
-    pub observed: usize,
+    #[inline]
+    pub fn observed(self) -> usize {
+        self.observed as usize
+    }
+
     /// The cell behind its own and those of the models nested in it.
-    pub end: usize,
+    #[inline]
+    pub fn end(self) -> usize {
+        self.end as usize
+    }
 }
 
 /// Where one model instance writes its notes. Muted when it has no cells.
+// In this order both parts are copied in the same pieces alone and as one; a copy in other pieces than those just written waits
+// for them, in every call of a model.
+#[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct Notes<'a> {
-    cells: &'a [Cell<Extent>],
     base: NoteBase,
-    trace: Option<&'a Trace>,
-    kept: &'a [Cell<[f64; MOST_KEPT]>],
+    pub(crate) book: Notebook<'a>,
 }
 
 impl<'a> Notes<'a> {
     /// Notes that nobody reads.
     pub const MUTED: Notes<'static> = Notes {
-        cells: &[],
         base: NoteBase {
             instance: 0,
             limits: 0,
             observed: 0,
             end: 0,
         },
-        trace: None,
-        kept: &[],
+        book: Notebook::CLOSED,
     };
 
     /// Notes of one instance into the cells of a scratch.
     #[inline]
     pub fn new(cells: &'a [Cell<Extent>], base: NoteBase) -> Self {
-        Self {
+        let book = Notebook {
             cells,
-            base,
-            trace: None,
-            kept: &[],
-        }
+            ..Notebook::CLOSED
+        };
+        Self { base, book }
     }
 
     /// Notes of one instance that nobody reads.
@@ -451,10 +494,11 @@ impl<'a> Notes<'a> {
 
     /// The same notes, with every step written down.
     pub fn traced(self, trace: &'a Trace) -> Self {
-        Self {
+        let book = Notebook {
             trace: Some(trace),
-            ..self
-        }
+            ..self.book
+        };
+        Self { book, ..self }
     }
 
     /// Notes of one instance into the cells of a scratch, with nothing noted there yet.
@@ -466,9 +510,7 @@ impl<'a> Notes<'a> {
     /// The same with nothing noted there yet.
     #[inline]
     pub(crate) fn anew(self) -> Self {
-        for cell in self.cells.get(self.base.limits..self.base.end).unwrap_or_default() {
-            cell.set(Extent::EMPTY);
-        }
+        self.book.clear(self.base);
         self
     }
 
@@ -486,19 +528,21 @@ impl<'a> Notes<'a> {
 
     /// The same instance, noting into other cells.
     pub(crate) fn into(self, cells: &'a [Cell<Extent>]) -> Self {
-        Self { cells, ..self }
+        let book = Notebook { cells, ..self.book };
+        Self { book, ..self }
     }
 
     /// The same notes, with places for what each instance computes [`once`](Self::once); not a number where nothing was yet.
     #[inline]
     pub(crate) fn keeping(self, kept: &'a [Cell<[f64; MOST_KEPT]>]) -> Self {
-        Self { kept, ..self }
+        let book = Notebook { kept, ..self.book };
+        Self { book, ..self }
     }
 
     /// The same notes for an instance that is asked several times at a point, at other speeds or in other oil: nothing is kept.
     #[inline]
     pub(crate) fn forgetting(self) -> Self {
-        Self { kept: &[], ..self }
+        self.keeping(&[])
     }
 
     /// Numbers that follow from speed, oil and its level alone. The passes of one point and all points that differ in torque alone
@@ -507,7 +551,7 @@ impl<'a> Notes<'a> {
     #[inline]
     pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
         const { assert!(0 < N && N <= MOST_KEPT) };
-        let Some(kept) = self.kept.get(self.base.instance) else {
+        let Some(kept) = self.book.kept.get(self.base.instance()) else {
             return numbers();
         };
         let kept = kept.as_array_of_cells();
@@ -522,19 +566,19 @@ impl<'a> Notes<'a> {
     /// True where nobody reads what is noted.
     #[inline]
     pub fn is_muted(&self) -> bool {
-        self.cells.is_empty() && self.trace.is_none()
+        self.book.cells.is_empty() && self.book.trace.is_none()
     }
 
     /// True when the steps are written down.
     #[inline]
     pub fn is_traced(&self) -> bool {
-        self.trace.is_some()
+        self.book.trace.is_some()
     }
 
     /// Notes whether a value, in the limit's unit, lies in its stated range. Returns the value.
     #[inline]
     pub fn check(&self, limit: &Limit, x: f64) -> f64 {
-        if let Some(cell) = self.cells.get(self.base.limits + limit.index) {
+        if let Some(cell) = self.book.cells.get(self.base.limits() + limit.index) {
             let inside = x >= limit.least && x <= limit.greatest;
             cell.set(cell.get().add(x, !inside));
         }
@@ -545,7 +589,7 @@ impl<'a> Notes<'a> {
     /// Notes an observed quantity in its unit. Returns the value.
     #[inline]
     pub fn observe(&self, observed: &Observed, x: f64) -> f64 {
-        if let Some(cell) = self.cells.get(self.base.observed + observed.index) {
+        if let Some(cell) = self.book.cells.get(self.base.observed() + observed.index) {
             cell.set(cell.get().add(x, false));
         }
         self.step(observed.name, observed.unit, x);
@@ -563,9 +607,9 @@ impl<'a> Notes<'a> {
     /// Says which branch of the formula was taken, when an explanation was asked for.
     #[inline]
     pub fn branch(&self, taken: &'static str) {
-        if let Some(trace) = self.trace {
+        if let Some(trace) = self.book.trace {
             trace.write(Step::Branch {
-                instance: self.base.instance,
+                instance: self.base.instance(),
                 taken,
             });
         }
@@ -573,9 +617,9 @@ impl<'a> Notes<'a> {
 
     #[inline]
     fn step(&self, symbol: &'static str, unit: &'static str, value: f64) {
-        if let Some(trace) = self.trace {
+        if let Some(trace) = self.book.trace {
             trace.write(Step::Value {
-                instance: self.base.instance,
+                instance: self.base.instance(),
                 symbol,
                 unit,
                 value,

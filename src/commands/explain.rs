@@ -61,7 +61,7 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
         steps(&transmission, trace, out)?;
         match loss.result {
             Ok(_) => {
-                for term in transmission.instances()[info.notes.instance].entry.terms {
+                for term in transmission.instances()[info.notes.instance()].entry.terms {
                     out.line(format!(
                         "  {}: {} W",
                         term.name,
@@ -172,7 +172,7 @@ fn base_path(info: &PartInfo) -> &str {
 }
 
 fn source(transmission: &Transmission, info: &PartInfo) -> String {
-    let entry = &transmission.instances()[info.notes.instance].entry;
+    let entry = &transmission.instances()[info.notes.instance()].entry;
     format!(
         "{}: {} `{}`\n  {}\n  source: {}\n",
         info.path,

@@ -160,7 +160,7 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
         "relative rpm",
     ]);
     for (part, loss) in solution.parts() {
-        let entry = &transmission.instances()[part.notes.instance].entry;
+        let entry = &transmission.instances()[part.notes.instance()].entry;
         let dependent: f64 = entry
             .terms
             .iter()
@@ -346,7 +346,7 @@ pub fn by_name(sums: [f64; 6]) -> Value {
 fn sums(transmission: &Transmission, solution: &Solution<'_>) -> [f64; 6] {
     let mut sums = [0.0; 6];
     for (part, loss) in solution.parts() {
-        for term in transmission.instances()[part.notes.instance].entry.terms {
+        for term in transmission.instances()[part.notes.instance()].entry.terms {
             sums[sum_of(part.mechanism, term.load_dependent)] += loss.term_watts(term.index);
         }
     }
@@ -425,7 +425,7 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
     let parts: Vec<Value> = solution
         .parts()
         .map(|(part, loss)| {
-            let entry = &transmission.instances()[part.notes.instance].entry;
+            let entry = &transmission.instances()[part.notes.instance()].entry;
             let terms: Vec<Value> = entry
                 .terms
                 .iter()

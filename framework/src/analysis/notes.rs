@@ -45,7 +45,7 @@ pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
     let mut notes = Vec::new();
     for instance in transmission.instances() {
         for limit in instance.entry.limits {
-            let extent = seen[instance.notes.limits + limit.index];
+            let extent = seen[instance.notes.limits() + limit.index];
             let stated = Stated {
                 least: limit.least,
                 greatest: limit.greatest,
@@ -58,7 +58,7 @@ pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
                 instance,
                 observed.name,
                 observed.unit,
-                seen[instance.notes.observed + observed.index],
+                seen[instance.notes.observed() + observed.index],
                 None,
             ));
         }

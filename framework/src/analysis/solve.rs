@@ -53,7 +53,7 @@ impl<'a> Solver<'a> {
         let member = |port: usize| transmission.ports()[port].member;
         let reference = transmission.reference_port();
         let terms = transmission.parts().iter().enumerate().flat_map(|(number, part)| {
-            let terms = transmission.instances()[part.notes.instance].entry.terms;
+            let terms = transmission.instances()[part.notes.instance()].entry.terms;
             terms
                 .iter()
                 .map(move |term| (number, term.index, sums::sum_of(part.mechanism, term.load_dependent)))

@@ -28,7 +28,7 @@ pub fn sum_of(mechanism: &str, load_dependent: bool) -> usize {
 
 /// Adds the terms of a part to the sums.
 pub(super) fn add(sums: &mut [f64; 6], transmission: &Transmission, part: &PartInfo, loss: &PartLoss) {
-    let instance: &Instance = &transmission.instances()[part.notes.instance];
+    let instance: &Instance = &transmission.instances()[part.notes.instance()];
     for term in instance.entry.terms {
         sums[sum_of(part.mechanism, term.load_dependent)] += loss.term_watts(term.index);
     }

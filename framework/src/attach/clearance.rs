@@ -63,7 +63,7 @@ impl Attach for Clearance {
         Some([a, b])
     }
 
-    #[inline]
+    #[inline(always)]
     fn site<'a>(seat: ClearanceSeat, spot: &Spot, state: &State<'a>) -> ClearanceSite<'a> {
         ClearanceSite {
             speed: state.relative(seat[0], seat[1]),

@@ -47,7 +47,7 @@ impl Attach for OnMember {
         Some(member)
     }
 
-    #[inline]
+    #[inline(always)]
     fn site<'a>(seat: u16, spot: &Spot, state: &State<'a>) -> MemberSite<'a> {
         MemberSite {
             speed: state.speed(Some(seat)),

@@ -170,7 +170,7 @@ impl Attach for Support {
         Some(SupportSeat { inner, outer, number })
     }
 
-    #[inline]
+    #[inline(always)]
     fn site<'a>(seat: SupportSeat, spot: &Spot, state: &State<'a>) -> SupportSite<'a> {
         let load = &state.loads[seat.number as usize];
         SupportSite {

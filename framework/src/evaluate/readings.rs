@@ -4,7 +4,7 @@ use super::{PartLoss, Solution};
 use crate::attach::State;
 use crate::document::Unit;
 use crate::flow::Drive;
-use crate::loss::Notes;
+use crate::loss::Notebook;
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
@@ -69,7 +69,7 @@ impl Solution<'_> {
         match t.parts[part].kind {
             PartKind::Component(i) => t.components[i].placed.readings(&state),
             PartKind::Mesh(i) => readings::<GearMesh>(&self.mesh_at(i)),
-            PartKind::Drag(i) => readings::<GearDrag>(&t.drag_at(i, &state, Notes::MUTED)),
+            PartKind::Drag(i) => readings::<GearDrag>(&t.drag_at(i, &state, &Notebook::CLOSED)),
         }
     }
 

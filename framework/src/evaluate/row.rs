@@ -16,7 +16,7 @@ use crate::attach::State;
 use crate::flow::{Drive, FlowLanes, TaskLanes, Trail, WorkLanes};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, Powers, count, each, is_even, over, weighted, wide};
 use crate::loads::{LoadLanes, SupportLoad};
-use crate::loss::{Extent, Measure, NoteBase, Notes};
+use crate::loss::{Extent, Measure, NoteBase, Notebook, Notes};
 use crate::transmission::{Case, Component, PartInfo, PartKind, Transmission};
 
 /// No thrust that nothing takes.
@@ -191,7 +191,7 @@ impl Transmission {
                 base: component.notes,
             };
             if !component.placed.note(&state, &LoadLanes::NONE, notes) {
-                let _ = component.placed.loss(&state, common);
+                let _ = component.placed.loss(&state, &common.book);
             }
         }
     }
@@ -360,6 +360,11 @@ impl Row<'_> {
         });
         exchange(&mut remembered, components, meshes);
         let kept = Cell::from_mut(settled.kept.as_mut_slice()).as_slice_of_cells();
+        // Notes are taken once, of the last answers.
+        let book = Notebook {
+            kept,
+            ..Notebook::CLOSED
+        };
         let state = State {
             speeds: &settled.speeds,
             oils: &settled.oils,
@@ -411,7 +416,6 @@ impl Row<'_> {
             );
             for &i in braking {
                 let (component, speed) = (&t.components[i], settled.relative[i]);
-                let notes = Notes::muted(component.notes).keeping(kept);
                 *called += asked;
                 if asked < torques.len() {
                     components[i].want(&wanted);
@@ -421,7 +425,7 @@ impl Row<'_> {
                     &state,
                     loads,
                     one,
-                    notes,
+                    &book,
                     &mut shared_loads[i],
                     &mut components[i],
                 );
@@ -438,8 +442,7 @@ impl Row<'_> {
                 if mesh.model.off {
                     continue;
                 }
-                let notes = Notes::muted(mesh.model.notes).keeping(kept);
-                let at = t.mesh_at(i, 0.0, flow.drives[i], &state, notes);
+                let at = t.mesh_at(i, 0.0, flow.drives[i], &state, &book);
                 let radius = mesh.seat.pair.working_radius[0];
                 let own_torques = &mut mesh_torques[i];
                 let even = wide(
@@ -493,13 +496,12 @@ impl Row<'_> {
         };
         for i in (0..t.components.len()).filter(resting) {
             *called += torques.len();
-            let notes = Notes::muted(t.components[i].notes).keeping(kept);
             let untaken = ask(
                 &t.components[i],
                 &state,
                 loads,
                 one,
-                notes,
+                &book,
                 &mut shared_loads[i],
                 &mut components[i],
             );
@@ -540,7 +542,7 @@ impl Row<'_> {
                 if handed.get() {
                     gather(base, own, totals, &counted, outside);
                 }
-                for cell in base.limits..base.end {
+                for cell in base.limits()..base.end() {
                     let seen = common[cell].get();
                     if seen.seen > 0 {
                         totals[cell].set(totals[cell].get().merge(seen.times(points)));
@@ -567,7 +569,7 @@ impl Row<'_> {
                     shared_loads[i].note(load, || {
                         one[support as usize] = load;
                         let state = State { loads: one, ..state };
-                        component.placed.loss(&state, notes.all().anew())
+                        component.placed.loss(&state, &notes.all().anew().book)
                     });
                     gather(component.notes);
                     continue;
@@ -581,7 +583,7 @@ impl Row<'_> {
                 for lane in (0..LANES).filter(|lane| counted[*lane]) {
                     one[support as usize] = own_loads.lane(lane);
                     let state = State { loads: one, ..state };
-                    let _ = component.placed.loss(&state, notes.lane(lane));
+                    let _ = component.placed.loss(&state, &notes.lane(lane).book);
                 }
                 gather(component.notes);
             }
@@ -590,7 +592,7 @@ impl Row<'_> {
                     continue;
                 }
                 let notes = notes(mesh.model.notes);
-                let at = t.mesh_at(i, 0.0, work.drives[i], &state, notes.all());
+                let at = t.mesh_at(i, 0.0, work.drives[i], &state, &notes.all().book);
                 let own_torques = &mesh_torques[i];
                 let even = wide(
                     #[inline(always)]
@@ -656,7 +658,7 @@ fn ask<'a>(
     state: &State<'_>,
     loads: &'a [LoadLanes],
     one: &mut [SupportLoad],
-    notes: Notes<'_>,
+    book: &Notebook<'_>,
     shared: &mut Shared<SupportLoad>,
     losses: &mut LossLanes,
 ) -> &'a Lane {
@@ -668,15 +670,15 @@ fn ask<'a>(
         let load = own.lane(0);
         losses.put_all(shared.answer(load, || {
             one[support] = load;
-            component.placed.loss(&State { loads: one, ..*state }, notes)
+            component.placed.loss(&State { loads: one, ..*state }, book)
         }));
-    } else if !component.placed.losses(state, own, notes, losses) {
+    } else if !component.placed.losses(state, own, book, losses) {
         for lane in 0..LANES {
             if !losses.wanted(lane) {
                 continue;
             }
             one[support] = own.lane(lane);
-            losses.put(lane, component.placed.loss(&State { loads: one, ..*state }, notes));
+            losses.put(lane, component.placed.loss(&State { loads: one, ..*state }, book));
         }
     }
     &own.untaken
@@ -722,7 +724,7 @@ fn gather(
 ) {
     let width = own.len() / LANES;
     for (lane, counted) in counted.iter().enumerate() {
-        for cell in base.limits..base.end {
+        for cell in base.limits()..base.end() {
             let seen = own[lane * width + cell].replace(Extent::EMPTY);
             if *counted && seen.seen > 0 {
                 totals[cell].set(totals[cell].get().merge(seen.once()));

@@ -3,7 +3,7 @@
 use super::Scratch;
 use crate::flow::Status;
 use crate::loads::SupportLoad;
-use crate::loss::{Extent, Loss, Notes, Trace, Undefined};
+use crate::loss::{Extent, Loss, Notebook, Trace, Undefined};
 use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::transmission::{Case, PartInfo, PartKind, Transmission};
 
@@ -227,7 +227,7 @@ impl Solution<'_> {
             asked: &s.asked,
         };
         self.transmission
-            .mesh_at(mesh, s.tangential[mesh], s.work.drives[mesh], &state, Notes::MUTED)
+            .mesh_at(mesh, s.tangential[mesh], s.work.drives[mesh], &state, &Notebook::CLOSED)
     }
 
     /// Loss of each part, in the order of the parts.
@@ -262,12 +262,15 @@ impl Solution<'_> {
             asked: &s.asked,
         };
         let info = &t.parts[part];
-        let notes = Notes::new(&[], info.notes).traced(&trace);
+        let book = Notebook {
+            trace: Some(&trace),
+            ..Notebook::CLOSED
+        };
         let mut loss = t.part_loss(info, s);
         loss.result = match info.kind {
-            PartKind::Component(i) => super::loaded_loss(&t.components[i], &state, &s.uneven_loads, [notes; 2]),
-            PartKind::Mesh(i) => t.mesh(i, s.tangential[i], s.work.drives[i], &state, [notes; 2]),
-            PartKind::Drag(i) => t.drag(i, &state, notes),
+            PartKind::Component(i) => super::loaded_loss(&t.components[i], &state, &s.uneven_loads, &book),
+            PartKind::Mesh(i) => t.mesh(i, s.tangential[i], s.work.drives[i], &state, &book),
+            PartKind::Drag(i) => t.drag(i, &state, &book),
         };
         (loss, trace)
     }

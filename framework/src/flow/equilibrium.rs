@@ -15,7 +15,7 @@ impl Flow {
             return false;
         }
         self.step(work);
-        work.unknown.copy_from_slice(&work.step);
+        std::mem::swap(&mut work.unknown, &mut work.step);
         if kept {
             // One step of refinement keeps the balance at rounding.
             product(&self.base, &work.unknown, &mut work.residual);

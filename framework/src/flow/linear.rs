@@ -2,7 +2,20 @@
 
 /// Factors a matrix, column by column, into L and U with partial pivoting; false where it is singular.
 pub(super) fn factor(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool {
-    for (k, place) in order.iter_mut().enumerate().take(n) {
+    // Few meshes have friction at once. A size that is known leaves nothing of the loops.
+    match n {
+        1 => eliminate(matrix, order, 1),
+        2 => eliminate(matrix, order, 2),
+        3 => eliminate(matrix, order, 3),
+        4 => eliminate(matrix, order, 4),
+        _ => eliminate(matrix, order, n),
+    }
+}
+
+#[inline(always)]
+fn eliminate(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool {
+    let (matrix, order) = (&mut matrix[..n * n], &mut order[..n]);
+    for (k, place) in order.iter_mut().enumerate() {
         let (left, right) = matrix.split_at_mut((k + 1) * n);
         let (before, column) = left.split_at_mut(k * n);
         let mut pivot = k;
@@ -41,7 +54,19 @@ pub(super) fn factor(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool 
 
 /// Solves with the factors of [`factor`], in place.
 pub(super) fn back(factors: &[f64], order: &[usize], n: usize, x: &mut [f64]) {
-    for (k, place) in order.iter().enumerate().take(n) {
+    match n {
+        1 => substitute(factors, order, 1, x),
+        2 => substitute(factors, order, 2, x),
+        3 => substitute(factors, order, 3, x),
+        4 => substitute(factors, order, 4, x),
+        _ => substitute(factors, order, n, x),
+    }
+}
+
+#[inline(always)]
+fn substitute(factors: &[f64], order: &[usize], n: usize, x: &mut [f64]) {
+    let (factors, order, x) = (&factors[..n * n], &order[..n], &mut x[..n]);
+    for (k, place) in order.iter().enumerate() {
         x.swap(k, *place);
     }
     for (k, column) in factors.chunks_exact(n).enumerate() {

@@ -42,7 +42,7 @@ impl Identification<'_> {
         let mut mechanisms: Vec<&'static str> = Vec::new();
         for (_, t) in &at_optimum.solved.transmissions {
             for part in t.parts() {
-                let lossless = t.instances()[part.notes.instance].entry.name == "none";
+                let lossless = t.instances()[part.notes.instance()].entry.name == "none";
                 if !lossless && !mechanisms.contains(&part.mechanism) {
                     mechanisms.push(part.mechanism);
                 }

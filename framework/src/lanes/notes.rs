@@ -28,7 +28,7 @@ pub(crate) fn same_notes(
     single: impl Fn(usize, Notes<'_>),
     together: impl FnOnce(LaneNotes<'_>),
 ) -> bool {
-    let width = base.end;
+    let width = base.end();
     let mut spaces: [Vec<Extent>; 4] = std::array::from_fn(|_| vec![Extent::EMPTY; width]);
     let [alone, sums, common, totals] = spaces
         .each_mut()
@@ -103,13 +103,13 @@ impl<'a> LaneNotes<'a> {
     /// limit in a block.
     #[inline]
     pub fn check(&self, limit: &Limit, least: &Lane, greatest: &Lane) {
-        self.see(self.base.limits + limit.index, least, greatest, Some(limit));
+        self.see(self.base.limits() + limit.index, least, greatest, Some(limit));
     }
 
     /// The same for one value in each of some lanes.
     #[inline]
     pub fn check_where(&self, limit: &Limit, values: &Lane, lanes: &[bool; LANES]) {
-        let Some(cell) = self.totals.get(self.base.limits + limit.index) else {
+        let Some(cell) = self.totals.get(self.base.limits() + limit.index) else {
             return;
         };
         for i in (0..LANES).filter(|i| lanes[*i] && self.counted[*i]) {
@@ -124,12 +124,12 @@ impl<'a> LaneNotes<'a> {
     /// Notes the least and the greatest value of an observed quantity in each lane, in its unit. Once for a quantity in a block.
     #[inline]
     pub fn observe(&self, observed: &Observed, least: &Lane, greatest: &Lane) {
-        self.see(self.base.observed + observed.index, least, greatest, None);
+        self.see(self.base.observed() + observed.index, least, greatest, None);
     }
 
     /// The least and the greatest value of an observed quantity so far, over all blocks.
     pub fn seen(&self, observed: &Observed) -> (f64, f64) {
-        let cell = self.totals.get(self.base.observed + observed.index);
+        let cell = self.totals.get(self.base.observed() + observed.index);
         let seen = cell.map_or(Extent::EMPTY, Cell::get);
         (seen.least, seen.greatest)
     }
@@ -164,14 +164,14 @@ impl<'a> LaneNotes<'a> {
         }
         if all_inside || all_outside {
             let outside = if all_outside { self.points } else { 0 };
-            self.merge(self.base.limits + limit.index, least.0, greatest.1, outside);
+            self.merge(self.base.limits() + limit.index, least.0, greatest.1, outside);
         }
         all_inside || all_outside
     }
 
     /// As [`observe`](Self::observe) for the least and the greatest value over all lanes.
     pub fn observe_range(&self, observed: &Observed, least: f64, greatest: f64) {
-        self.merge(self.base.observed + observed.index, least, greatest, 0);
+        self.merge(self.base.observed() + observed.index, least, greatest, 0);
     }
 
     /// The least and the greatest number of the lanes that count; what is no number passes by.

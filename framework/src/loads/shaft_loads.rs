@@ -239,11 +239,7 @@ impl ShaftLoads {
                 },
                 axial: 0.0,
                 // Few supports take a couple, and a root takes time.
-                tilting: if sum.couple == [0.0; 2] {
-                    0.0
-                } else {
-                    length(sum.couple)
-                },
+                tilting: if cases.couples { length(sum.couple) } else { 0.0 },
                 untaken: 0.0,
             };
         }

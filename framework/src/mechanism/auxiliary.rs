@@ -66,6 +66,7 @@ impl Component for Auxiliary {
     const SECTION: &'static str = "auxiliaries";
     type Attachment = OnMember;
 
+    #[inline(always)]
     fn at<'a>(part: &'a NoPart, site: MemberSite<'a>, notes: Notes<'a>) -> AuxiliaryAt<'a> {
         let oil = site.oil;
         AuxiliaryAt {

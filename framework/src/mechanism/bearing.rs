@@ -396,6 +396,7 @@ impl Component for Bearing {
     const SECTION: &'static str = "bearings";
     type Attachment = Support;
 
+    #[inline(always)]
     fn at<'a>(part: &'a BearingPart, site: SupportSite<'a>, notes: Notes<'a>) -> BearingAt<'a> {
         let oil = site.oil;
         BearingAt {

@@ -91,6 +91,7 @@ impl Component for Clutch {
     const SECTION: &'static str = "clutches";
     type Attachment = Clearance;
 
+    #[inline(always)]
     fn at<'a>(part: &'a ClutchPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> ClutchAt<'a> {
         let oil = site.oil;
         ClutchAt {

@@ -91,6 +91,7 @@ impl Component for Seal {
     const SECTION: &'static str = "seals";
     type Attachment = OnMember;
 
+    #[inline(always)]
     fn at<'a>(part: &'a SealPart, site: MemberSite<'a>, notes: Notes<'a>) -> SealAt<'a> {
         let oil = site.oil;
         SealAt {

@@ -119,6 +119,7 @@ impl Component for Synchronizer {
     const SECTION: &'static str = "couplings";
     type Attachment = Clearance;
 
+    #[inline(always)]
     fn at<'a>(part: &'a CouplingPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> SynchronizerAt<'a> {
         let oil = site.oil;
         SynchronizerAt {

@@ -237,14 +237,13 @@ impl<'a> Build<'a> {
             }
             self.around = Some(entry.scope);
         }
-        let observed = self.cells + entry.limits.len();
-        let mut notes = NoteBase {
-            instance: self.instances.len(),
-            limits: self.cells,
-            observed,
-            end: observed + entry.observed.len(),
-        };
-        self.cells = notes.end;
+        let notes = NoteBase::new(
+            self.instances.len(),
+            self.cells,
+            entry.limits.len(),
+            entry.observed.len(),
+        );
+        self.cells = notes.end();
         self.instances.push(Instance {
             path: self.path.clone(),
             entry,
@@ -253,9 +252,8 @@ impl<'a> Build<'a> {
         let built = (entry.build)(value, self);
         self.around = outer;
         let built = built?;
-        notes.end = self.cells;
         match built.downcast::<Arc<M::Model>>() {
-            Ok(model) => Ok(Slot::new(*model, notes, name == "none")),
+            Ok(model) => Ok(Slot::new(*model, notes.until(self.cells), name == "none")),
             Err(_) => Err(self.error(format!("bug: model `{name}` was built for another mechanism"))),
         }
     }

@@ -13,7 +13,7 @@ use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::lanes::{LaneNotes, LossLanes};
 use crate::loads::LoadLanes;
-use crate::loss::{Loss, NoteBase, Notes, Undefined};
+use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::Component;
 
 /// What the framework reads of every component, whatever its mechanism.
@@ -50,11 +50,11 @@ pub(crate) mod sealed {
 
 /// A component in its seat with its model. The framework alone puts them there.
 pub trait Placed: sealed::Sealed + Send + Sync {
-    /// Loss of one copy, with the notes of its model.
-    fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined>;
+    /// Loss of one copy; its model notes into the book.
+    fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined>;
     /// Losses of one copy at several loads of its support, where all else is as in the state; false where its mechanism has no
     /// way for that.
-    fn losses(&self, _state: &State<'_>, _loads: &LoadLanes, _notes: Notes<'_>, _losses: &mut LossLanes) -> bool {
+    fn losses(&self, _state: &State<'_>, _loads: &LoadLanes, _book: &Notebook<'_>, _losses: &mut LossLanes) -> bool {
         false
     }
     /// Notes of its model at these loads; false where [`Placed::losses`] has no way.
@@ -89,13 +89,14 @@ struct PlacedAs<C: Component> {
 impl<C: Component> sealed::Sealed for PlacedAs<C> {}
 
 impl<C: Component> Placed for PlacedAs<C> {
-    fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
+    fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::answer(&self.model, &C::at(&self.part, site, notes))
+        C::answer(&self.model, &C::at(&self.part, site, book.notes(self.model.notes)))
     }
-    fn losses(&self, state: &State<'_>, loads: &LoadLanes, notes: Notes<'_>, losses: &mut LossLanes) -> bool {
+    fn losses(&self, state: &State<'_>, loads: &LoadLanes, book: &Notebook<'_>, losses: &mut LossLanes) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::losses(&self.model, &C::at(&self.part, site, notes), loads, losses)
+        let at = C::at(&self.part, site, book.notes(self.model.notes));
+        C::losses(&self.model, &at, loads, losses)
     }
     fn note(&self, state: &State<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);

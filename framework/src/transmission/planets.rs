@@ -10,7 +10,7 @@ use crate::attach::{Places, Spot, State, dangling};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
-use crate::loss::{Loss, NoteBase, Notes, Undefined};
+use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
 use crate::registry::{Build, Common, ModelRef, Placed, Sealed, Slot};
@@ -110,8 +110,9 @@ impl PlacedDrag {
 impl Sealed for PlacedDrag {}
 
 impl Placed for PlacedDrag {
-    fn loss(&self, state: &State<'_>, notes: Notes<'_>) -> Result<Loss, Undefined> {
-        self.model.loss(&self.at(state, notes.of(self.model.notes)))
+    fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
+        self.model
+            .loss(&self.at(state, book.notes(self.model.notes).forgetting()))
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         readings::<PlanetaryDrag>(&self.at(state, Notes::MUTED))

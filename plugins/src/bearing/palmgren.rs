@@ -3,7 +3,7 @@
 //! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is kept); M1 = f1 P1^a dm^b with
 //! f1 = z (P0/C0)^y; M2 = f2 Fa dm of cylindrical rollers under axial load.
 
-use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, each, exp, ln, over, wide};
+use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, cube_root, each, exp, ln, over, wide};
 use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -155,7 +155,7 @@ impl Palmgren {
         let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
         let m0 = if product >= VISCOUS {
             at.branch("nu n at least 2000: viscous");
-            1e-7 * f0 * self.cube * product.powf(2.0 / 3.0)
+            1e-7 * f0 * self.cube * cube_root(product).powi(2)
         } else {
             at.branch("nu n below 2000: constant");
             160e-7 * f0 * self.cube

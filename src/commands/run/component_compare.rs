@@ -176,7 +176,7 @@ fn answered<'a>(
         .collect();
     let (answers, seen) =
         answers(runner, &transmission, &gear, part, &all).map_err(|list| Failure::from(gearbox.findings(list)))?;
-    let instance = transmission.parts()[part].notes.instance;
+    let instance = transmission.parts()[part].notes.instance();
     Ok(Model {
         terms: transmission.instances()[instance].entry.terms,
         notes: seen,

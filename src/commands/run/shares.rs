@@ -36,7 +36,7 @@ impl Shares {
             .iter()
             .map(|part| match by {
                 By::Term => {
-                    let entry = &t.instances()[part.notes.instance].entry;
+                    let entry = &t.instances()[part.notes.instance()].entry;
                     let terms = entry.terms.iter();
                     terms
                         .map(|term| place(format!("{} {}", part.mechanism, term.name)))
@@ -105,7 +105,7 @@ pub fn together<'a>(all: impl Iterator<Item = &'a Transmission> + Clone, by: By)
             all.clone().any(|t| {
                 let shares = Shares::of(t, by);
                 t.parts().iter().zip(&shares.places).any(|(part, places)| {
-                    let entry = &t.instances()[part.notes.instance].entry;
+                    let entry = &t.instances()[part.notes.instance()].entry;
                     entry.name != "none" && places.iter().any(|p| shares.names[*p] == *name)
                 })
             })

@@ -162,7 +162,7 @@ impl Law<'_> {
     /// What is kept over the passes of a point must not hang on the load.
     fn keeping(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
         let fault = Some("keeps what hangs on the line load over the passes of a point");
-        let kept = || vec![Cell::new([f64::NAN; MOST_KEPT]); self.notes.instance + NESTED];
+        let kept = || vec![Cell::new([f64::NAN; MOST_KEPT]); self.notes.instance() + NESTED];
         let (single, own) = (kept(), Notes::muted(self.notes));
         let keeping = own.keeping(&single);
         let _ = (self.along(LANES - 1, keeping), self.sum(LANES - 1, keeping));
@@ -362,10 +362,7 @@ mod tests {
 
     #[test]
     fn every_slip_of_a_law_for_paths_is_found() {
-        let base = NoteBase {
-            end: 1,
-            ..NoteBase::default()
-        };
+        let base = NoteBase::default().until(1);
         let found = |slip| fault(&RootLaw(slip), &ContactAt::usual(&NoPart {}, Notes::MUTED), base);
         assert_eq!(found(Slip::None), None);
         for (slip, words) in [

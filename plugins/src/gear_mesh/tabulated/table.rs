@@ -105,7 +105,7 @@ impl Asked<'_> {
     /// # Errors
     /// Where it has no value.
     pub fn answer(&self, point: &Point) -> Result<Answer, Undefined> {
-        let mut extents = vec![Extent::EMPTY; self.model.notes.end];
+        let mut extents = vec![Extent::EMPTY; self.model.notes.end()];
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
         let notes = Notes::new(cells, self.model.notes);
         let loss = self.model.loss(&point.at(self.part, self.lubricant, notes))?;

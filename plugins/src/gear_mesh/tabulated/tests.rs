@@ -99,7 +99,7 @@ impl Rig {
                 bodies: known.then_some([t + half, t - half]),
             };
             let told = self.told(&point);
-            let notes = &told.extents[self.table.notes.observed..];
+            let notes = &told.extents[self.table.notes.observed()..];
             stated = [notes[0].greatest / 100.0, notes[1].greatest / 100.0];
             let error = (told.watts / self.itself(&point).0 - 1.0).abs();
             over += f64::from(u8::from(error > stated[0]));
@@ -176,7 +176,7 @@ fn constant_friction_is_met_to_rounding() {
         let (told, (watts, share)) = (rig.told(&point), rig.itself(&point));
         assert!((told.watts / watts - 1.0).abs() < 1e-12 && (told.share - share).abs() < 1e-12);
         // The greatest error is rounding as well.
-        assert!(told.extents[rig.table.notes.observed].greatest < 1e-10);
+        assert!(told.extents[rig.table.notes.observed()].greatest < 1e-10);
     }
 }
 
@@ -193,9 +193,9 @@ fn beyond_its_ends_and_at_rest_the_model_itself_answers() {
         let told = rig.told(&point);
         assert_eq!((told.watts, told.share), rig.itself(&point));
         // Its place is noted as outside, and what it observes itself is seen.
-        let [place, left] = [0, 1].map(|i| told.extents[rig.table.notes.limits + i]);
+        let [place, left] = [0, 1].map(|i| told.extents[rig.table.notes.limits() + i]);
         assert_eq!((place.outside, left.seen), (1, 0));
-        assert!(told.extents[rig.of.notes.observed..].iter().any(|e| e.seen > 0));
+        assert!(told.extents[rig.of.notes.observed()..].iter().any(|e| e.seen > 0));
     }
     assert_eq!(rig.told(&point(0.0, 3000.0, 60.0)).watts, 0.0);
     assert_eq!(rig.told(&point(50.0, 0.0, 60.0)).watts, 0.0);
@@ -284,7 +284,7 @@ fn heat_passes_between_bodies_that_differ() {
                 ..point(2.0 * 140.0_f64.powf(x[2]), 20.0 * 900.0_f64.powf(x[3]), mean)
             };
             let (told, (_, share)) = (rig.told(&point), rig.itself(&point));
-            let stated = told.extents[rig.table.notes.observed + 2].greatest;
+            let stated = told.extents[rig.table.notes.observed() + 2].greatest;
             assert!(stated < 0.05, "{stated}");
             over += u32::from((told.share - share).abs() > stated);
             moved += u32::from((share - 0.5).abs() > 0.4);
@@ -296,7 +296,7 @@ fn heat_passes_between_bodies_that_differ() {
 #[test]
 fn ranges_that_the_model_leaves_at_a_node_are_noted() {
     let rig = Rig::new(1, &ehl(), &json!({}));
-    let left = |t: f64| rig.told(&point(30.0, 3000.0, t)).extents[rig.table.notes.limits + 1];
+    let left = |t: f64| rig.told(&point(30.0, 3000.0, t)).extents[rig.table.notes.limits() + 1];
     // The law of the film holds from 20 degC on.
     assert_eq!((left(70.0).outside, left(-10.0).outside), (0, 1));
 }
@@ -348,7 +348,7 @@ fn what_a_table_cannot_follow_is_stated() {
             bodies,
             ..point(100.0, 4000.0, 60.0)
         });
-        told.extents[rig.table.notes.observed + 1].greatest
+        told.extents[rig.table.notes.observed() + 1].greatest
     };
     assert!(rms(&rolling, None) < 1.5 && rms(&rolling, Some([80.0, 70.0])) > 10.0);
     // Friction that is cut off at nothing has a bend that no spline meets.

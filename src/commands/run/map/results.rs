@@ -167,7 +167,7 @@ impl Map<'_> {
                 .map(|p| PartResult {
                     part: &p.path,
                     mechanism: p.mechanism,
-                    model: t.instances()[p.notes.instance].entry.name,
+                    model: t.instances()[p.notes.instance()].entry.name,
                 })
                 .collect(),
             passes: self.passes,

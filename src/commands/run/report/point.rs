@@ -239,13 +239,13 @@ fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> 
     for (i, (part, loss)) in solution.parts().enumerate() {
         let watts = loss.watts();
         let component = part.path.split(".drag.").next().unwrap_or(&part.path);
-        let instance = &t.instances()[part.notes.instance];
+        let instance = &t.instances()[part.notes.instance()];
         let own = |path: &str| path == instance.path || path.starts_with(&format!("{}.", instance.path));
         let left = t.instances().iter().filter(|i| own(&i.path)).any(|i| {
             let limits = i.entry.limits.iter();
             limits
                 .into_iter()
-                .any(|l| extents[i.notes.limits + l.index].outside > 0)
+                .any(|l| extents[i.notes.limits() + l.index].outside > 0)
         });
         let flags = [
             gears_of(t, i)

@@ -124,7 +124,7 @@ impl Outputs {
 /// Whether the terms of a name vanish with the load; absent where models differ.
 fn load_dependent(t: &Transmission, name: &str) -> Option<bool> {
     let of = |part: &gearloss_framework::transmission::PartInfo| {
-        let terms = t.instances()[part.notes.instance].entry.terms;
+        let terms = t.instances()[part.notes.instance()].entry.terms;
         let own = terms
             .iter()
             .find(|term| format!("{} {}", part.mechanism, term.name) == name);
