@@ -87,9 +87,9 @@ fn told(line: Option<&str>) -> String {
 const PASS: [f64; 2] = [15.0, 12.0];
 /// The logarithms of the meshes for what they note, once for a point.
 const NOTES: f64 = 3.0;
-/// Exponentials, logarithms and powers of the least of three passes that one point alone takes: the meshes at 12 places in two of
+/// Exponentials, logarithms and powers of the least of three passes that one point alone takes: the meshes at 12 places in one of
 /// them, for the notes, and once for speed and oil 6 bearings, a cage, two wheels that dip and the oil.
-const ALONE: [f64; 3] = [228.0, 84.0, 16.0];
+const ALONE: [f64; 3] = [156.0, 81.0, 15.0];
 
 /// Passes of a point on the mean over what `benches/point.rs` solves side by side.
 fn passes() -> f64 {
