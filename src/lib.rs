@@ -15,6 +15,7 @@ mod interrupt;
 mod output;
 mod report;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -30,30 +31,35 @@ use output::{End, Failure, Out};
 ///
 /// Exit codes: 0 fine, 1 a finding, 2 wrong input, 3 a bug, 130 interrupted.
 pub fn main() -> ExitCode {
-    let args = match Args::try_parse() {
+    ExitCode::from(call(std::env::args_os()))
+}
+
+/// Runs one command with its arguments, the first of which names the program, and says the exit code that [`main`] would end with.
+pub fn call(args: impl IntoIterator<Item = OsString>) -> u8 {
+    let args = match Args::try_parse_from(args) {
         Ok(args) => args,
         Err(error) => {
             let wrong = error.use_stderr();
             let mut out = if wrong { Out::error() } else { Out::standard() };
             // A closed pipe is no failure.
             let _ = out.text(&error.render().to_string());
-            return ExitCode::from(if wrong { 2 } else { 0 });
+            return if wrong { 2 } else { 0 };
         }
     };
     match std::panic::catch_unwind(|| run(args)) {
-        Ok(Ok(End::Fine)) => ExitCode::SUCCESS,
-        Ok(Ok(End::Finding)) => ExitCode::from(1),
+        Ok(Ok(End::Fine)) => 0,
+        Ok(Ok(End::Finding)) => 1,
         Ok(Err(Failure::Input(text))) => {
             let _ = Out::error().text(&text);
-            ExitCode::from(2)
+            2
         }
         Ok(Err(Failure::Interrupted)) => {
             let _ = Out::error().text("interrupted\n");
-            ExitCode::from(130)
+            130
         }
         Err(_) => {
             let _ = Out::error().text("This is a bug in gearloss. Please report the input and the lines above.\n");
-            ExitCode::from(3)
+            3
         }
     }
 }

@@ -36,9 +36,13 @@ impl From<Findings> for Failure {
     }
 }
 
+/// What is printed cannot be written; errors of files name the file.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
-        Self::Input(format!("error: {error}\n"))
+        Self::input(
+            format!("cannot write to the standard output: {error}"),
+            "look at where it goes, such as a full disk",
+        )
     }
 }
 

@@ -13,6 +13,9 @@ use serde_json::Value;
 /// The template that is used unless the user gives one of his own.
 const TEMPLATE: &str = include_str!("report/template.html");
 
+/// Steps that a template may take. The page of a large study takes some ten thousands; as many as these take seconds.
+const MOST_STEPS: u64 = 10_000_000;
+
 /// Everything that a report shows, collected while a study runs.
 #[derive(Debug, Default)]
 pub struct Report {
@@ -92,6 +95,10 @@ impl From<minijinja::Error> for PageFault {
         let words = format!("{e:#}");
         match e.kind() {
             ErrorKind::WriteFailure => Self::Write(words),
+            ErrorKind::OutOfFuel => Self::Template(format!(
+                "it takes more than {} million steps; is there a loop inside of a loop?",
+                MOST_STEPS / 1_000_000
+            )),
             _ => Self::Template(words),
         }
     }
@@ -223,15 +230,16 @@ impl Report {
     pub fn html(&self, frame: &Frame, template: Option<&str>, to: impl Write) -> Result<(), PageFault> {
         let mut environment = Environment::new();
         environment.set_auto_escape_callback(|_| AutoEscape::Html);
-        environment.add_template("report", template.unwrap_or(TEMPLATE))?;
-        let page = environment.get_template("report")?;
+        environment.set_fuel(Some(MOST_STEPS));
+        // It stands in no list of templates, so that there is none to include, not even itself.
+        let page = environment.template_from_named_str("report", template.unwrap_or(TEMPLATE))?;
         let all: Vec<&Shown> = self.sections.iter().flat_map(|section| &section.figures).collect();
         let id = |number: usize| format!("figure-{number}");
         let datum = |(number, shown): (usize, &&Shown)| {
             let [id, title] = [id(number), shown.title.clone()].map(Value::from);
             let json = format!(r#"{{"id":{id},"title":{title},"spec":{}}}"#, shown.spec.json());
-            // A text in the data must not end the script that holds it.
-            json.replace("</", "<\\/")
+            // A text in the data must neither end the script that holds it nor begin a comment or a script in there.
+            json.replace('<', "\\u003c")
         };
         let data = || all.par_iter().enumerate().map(datum).collect::<Vec<String>>();
         let (data, script) = rayon::join(data, script);
@@ -283,7 +291,7 @@ mod tests {
         report.begin("limit", "How far it goes.");
         report.text("a < b");
         report.figure(Figure::Lines {
-            title: "</script><b>".to_owned(),
+            title: "<!--<script></script><b>".to_owned(),
             x: "x".to_owned(),
             y: "y".to_owned(),
             lines: vec![Line::default()],
@@ -313,7 +321,10 @@ mod tests {
     fn texts_cannot_break_the_page() {
         let page = page(&report(), None).unwrap();
         assert!(page.contains("A &amp; B") && page.contains("a &lt; b"));
-        assert!(!page.contains("</script><b>"), "a title ends the script");
+        let data = page.split_once("const figures = ").unwrap().1;
+        let data = data.split_once(";\n").unwrap().0;
+        assert!(!data.contains('<'), "a title ends the script, or hides what follows it: {data}");
+        assert!(data.contains(r"\u003c!--\u003cscript>"), "{data}");
     }
 
     #[test]
@@ -322,5 +333,18 @@ mod tests {
         assert_eq!(page(&report(), Some(own)).unwrap(), "A &amp; B: limit 1");
         let fault = page(&report(), Some("{% for %}")).unwrap_err();
         assert!(fault.starts_with("Template") && fault.contains("syntax"), "{fault}");
+    }
+
+    #[test]
+    fn a_template_comes_to_an_end_and_reads_no_other_file() {
+        let endless = "{% for a in range(99999) %}{% for b in range(99999) %}{% endfor %}{% endfor %}";
+        let fault = page(&report(), Some(endless)).unwrap_err();
+        assert!(fault.contains("more than 10 million steps"), "{fault}");
+        let deep = "{% macro again() %}{{ again() }}{% endmacro %}{{ again() }}";
+        assert!(page(&report(), Some(deep)).is_err());
+        for other in ["{% include 'report' %}", "{% import '/etc/passwd' as x %}", "{% extends 'report' %}"] {
+            let fault = page(&report(), Some(other)).unwrap_err();
+            assert!(fault.contains("does not exist"), "{fault}");
+        }
     }
 }

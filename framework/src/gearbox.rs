@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::document::{Diagnostic, Node, Places, Severity, Sources, read_yaml};
+use crate::files::{LONGEST_TEXT, read_text};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
 use crate::resolve::{Came, Choice, Resolved, resolve};
@@ -107,7 +108,7 @@ impl Gearbox {
     /// Everything that reading and the walk find.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
         let mut sources = Sources::default();
-        let text = match std::fs::read_to_string(file) {
+        let text = match read_text(file, LONGEST_TEXT) {
             Ok(text) => text,
             Err(e) => {
                 let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
@@ -249,7 +250,7 @@ fn chain(
         return None;
     }
     seen.push(file.clone());
-    match std::fs::read_to_string(&file) {
+    match read_text(&file, LONGEST_TEXT) {
         Err(e) => {
             found.push(error(format!("cannot read {}: {e}", file.display())));
             None

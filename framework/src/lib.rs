@@ -9,6 +9,7 @@ pub mod document;
 pub mod duty;
 pub mod eval;
 pub mod evaluate;
+pub mod files;
 pub mod fit;
 pub mod flow;
 pub mod formula;

@@ -9,6 +9,7 @@ mod data;
 mod files;
 mod identify;
 mod map;
+mod names;
 mod operating_points;
 mod range;
 mod rms_surface;
@@ -34,6 +35,7 @@ pub use identify::{
     IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
 };
 pub use map::MapEntry;
+pub use names::is_device;
 pub use operating_points::OperatingPointsEntry;
 pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};

@@ -2,6 +2,7 @@
 
 use gearloss_framework::analysis::evidence;
 use gearloss_framework::document::{Sources, read_yaml};
+use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
@@ -58,7 +59,7 @@ pub fn grade(name: &str) -> Result<Evidence, Failure> {
 }
 
 fn is_study(file: &std::path::Path) -> bool {
-    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let text = read_text(file, LONGEST_TEXT).unwrap_or_default();
     let node = read_yaml(0, &text).node;
     node.get("gearloss")
         .and_then(|n| n.text())

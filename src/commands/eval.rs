@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use gearloss_framework::eval;
+use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Step;
@@ -16,7 +17,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     let (mechanism, entry) = eval::named(&language, &args.model).map_err(Findings::from)?;
     let (text, folder) = match &args.input {
         Some(file) => (
-            std::fs::read_to_string(file).map_err(|e| {
+            read_text(file, LONGEST_TEXT).map_err(|e| {
                 Failure::input(
                     format!("cannot read {}: {e}", file.display()),
                     "check the name of the file",

@@ -7,6 +7,7 @@ mod study;
 use std::io::ErrorKind;
 use std::path::Path;
 
+use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::language::{Kind, Language};
 
 use super::schema::published;
@@ -64,7 +65,7 @@ fn schema_beside(file: &Path, language: &Language, kind: Kind, name: &str, out: 
     let schema = folder(file).join(name);
     let schema = schema.strip_prefix(".").unwrap_or(&schema);
     let text = published(language, kind)?;
-    match std::fs::read_to_string(schema) {
+    match read_text(schema, LONGEST_TEXT) {
         Err(error) if error.kind() == ErrorKind::NotFound => write(schema, &text, out),
         Ok(present) if present == text => Ok(()),
         Err(error) if error.kind() != ErrorKind::InvalidData => Err(Failure::input(

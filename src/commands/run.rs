@@ -11,6 +11,7 @@ mod cycle;
 mod deviations;
 mod duties;
 mod fluid_sweep;
+mod folder;
 mod identify;
 mod inputs;
 mod map;
@@ -39,6 +40,7 @@ pub(super) use parts::Parts;
 pub use shard::Shard;
 
 use self::axes::{axis, grid_axes, speeds, torques};
+use self::folder::Held;
 use self::runner::{Built, Runner};
 
 use std::path::{Path, PathBuf};
@@ -83,15 +85,13 @@ pub(super) fn all(
         ));
     }
     let template = report::template(args.template.as_deref())?;
-    replaced(&folder, args.force, out)?;
+    let held = taken(&folder, args.force, out)?;
     let runner = Runner::new(language, study, folder, parts);
     if let Some(title) = &study.entry.title {
         out.line(title)?;
         out.line("")?;
     }
     overridden(study, out)?;
-    // A folder that cannot be written is told before anything is computed.
-    write::folder(&runner)?;
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
@@ -119,6 +119,7 @@ pub(super) fn all(
         done_so_far += 1;
     }
     report::write(&runner, template.as_deref())?;
+    held.finish();
     out.line(format!("results in {}, report in report.html", runner.folder.display()))?;
     if let Some(finished) = finished {
         let all = study.entry.analyses.len();
@@ -196,33 +197,37 @@ fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A folder that holds something else than earlier results is not written into unasked; earlier results are replaced, which
-/// is said.
-fn replaced(folder: &Path, force: bool, out: &mut Out) -> Result<(), Failure> {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return Ok(());
-    };
-    let files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    if files.is_empty() || force {
-        return Ok(());
-    }
+/// Takes the folder of the results before anything is computed. One that holds something else than earlier results is not
+/// written into unasked; earlier results are replaced, which is said.
+fn taken(folder: &Path, force: bool, out: &mut Out) -> Result<Held, Failure> {
+    let files: Vec<PathBuf> = std::fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
     let written = |file: &PathBuf| {
         let kind = file.extension().and_then(|kind| kind.to_str());
-        matches!(
-            kind,
-            Some("csv" | "json" | "svg" | "html" | "parquet" | "vtlm" | "m" | "mo" | "yaml" | "part")
-        )
+        let kinds = ["csv", "json", "svg", "html", "parquet", "vtlm", "m", "mo", "yaml", folder::PART];
+        kind.is_some_and(|kind| kinds.contains(&kind)) || file.ends_with(folder::MARK)
     };
-    // Every run leaves a report, so a folder without one is the user's own.
-    let ours = files
-        .iter()
-        .any(|file| file.file_name().is_some_and(|name| name == write::REPORT));
-    if ours && files.iter().all(written) {
-        out.line(format!("replacing the results in {}", folder.display()))?;
-        return Ok(());
+    // Every run leaves a report, or the mark of one that is not finished; a folder without them is the user's own.
+    let is_one = |file: &PathBuf| file.ends_with(write::REPORT) || file.ends_with(folder::MARK);
+    let replace = !files.is_empty() && !force;
+    if replace && !(files.iter().any(is_one) && files.iter().all(written)) {
+        return Err(Failure::input(
+            format!("{} holds files, and no results of a study", folder.display()),
+            "name another folder with -o, or write into it with --force",
+        ));
     }
-    Err(Failure::input(
-        format!("{} holds files, and no results of a study", folder.display()),
-        "name another folder with -o, or write into it with --force",
-    ))
+    let (held, broken_off) = Held::take(folder)?;
+    if broken_off {
+        out.line(format!(
+            "an earlier run into {} was broken off; its files are replaced",
+            folder.display()
+        ))?;
+    } else if replace {
+        out.line(format!("replacing the results in {}", folder.display()))?;
+    }
+    Ok(held)
 }

@@ -8,6 +8,7 @@ use granit_parser::{Event, Parser, ScalarStyle};
 use super::diagnostic::Diagnostic;
 use super::node::{Content, Key, Node, Span};
 use super::quantity::number_length;
+use crate::files::LONGEST_TEXT;
 
 /// The most levels that a document may nest.
 const DEEPEST: usize = 40;
@@ -21,12 +22,9 @@ pub struct Read {
     pub findings: Vec<Diagnostic>,
 }
 
-/// The longest text that is read. \[byte\]
-const LONGEST: usize = 4 << 20;
-
 /// Reads a YAML text; `source` is its number for spans. Never fails: what is wrong is in the findings.
 pub fn read_yaml(source: u16, text: &str) -> Read {
-    if text.len() > LONGEST {
+    if text.len() as u64 > LONGEST_TEXT {
         let span = Span {
             source,
             start: 0,

@@ -11,6 +11,7 @@ use serde_json::Value;
 use super::slot::{ModelRef, Slot};
 use super::{Entry, Registry, from_resolved};
 use crate::document::{Diagnostic, did_you_mean};
+use crate::files::{LONGEST_DATA, read_text};
 use crate::loss::NoteBase;
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
@@ -41,7 +42,7 @@ impl Files {
         if let Some(text) = read.get(&path) {
             return Ok(Arc::clone(text));
         }
-        let text: Arc<str> = std::fs::read_to_string(&path)
+        let text: Arc<str> = read_text(&path, LONGEST_DATA)
             .map_err(|e| format!("cannot read {}: {e}", path.display()))?
             .into();
         read.insert(path, Arc::clone(&text));

@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
+use super::names::devices;
 use super::{Data, Grid, StudyEntry, Uses};
 use crate::analysis::{Field, OilTemperature, Points, Rows};
 use crate::attach::dangling;
 use crate::description::Ordered;
 use crate::document::{Diagnostic, Places, Sources, read_yaml};
+use crate::files::{LONGEST_DATA, LONGEST_TEXT, read_bytes, read_text};
 use crate::gearbox::{Findings, Gearbox};
 use crate::language::Language;
 use crate::measured::{Measured, MeasuredEntry};
@@ -37,7 +39,7 @@ impl Study {
     /// # Errors
     /// Everything that reading and the walk find.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
-        let text = std::fs::read_to_string(file).map_err(|e| {
+        let text = read_text(file, LONGEST_TEXT).map_err(|e| {
             let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
             Findings::from(vec![error.mend("check the name of the file")])
         })?;
@@ -80,6 +82,13 @@ impl Study {
             .cloned()
             .unwrap_or_default();
         let entry: StudyEntry = serde_json::from_value(walked.value).map_err(bug)?;
+        let unwritable = devices(&entry);
+        if !unwritable.is_empty() {
+            return Err(Findings {
+                list: unwritable.into_iter().map(|d| walked.places.place(d)).collect(),
+                sources,
+            });
+        }
         let mut gearboxes = Vec::new();
         for (name, gearbox) in entry.gearboxes.iter() {
             gearboxes.push((name.to_owned(), Gearbox::read(language, &folder.join(gearbox))?));
@@ -300,7 +309,7 @@ impl Study {
                 Diagnostic::error(path, format!("{}: {message}", entry.file)).mend(mend),
             ])
         };
-        let bytes = std::fs::read(self.folder.join(&entry.file)).map_err(|e| {
+        let bytes = read_bytes(&self.folder.join(&entry.file), LONGEST_DATA).map_err(|e| {
             let mend = "file names are relative to the study".to_owned();
             wrong(format!("cannot read: {e}"), mend)
         })?;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use gearloss_framework::document::{Dimension, Unit, did_you_mean};
+use gearloss_framework::files::{LONGEST_DATA, read_text};
 
 use crate::output::Failure;
 
@@ -76,7 +77,7 @@ impl Columns {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path)
+        let text = read_text(path, LONGEST_DATA)
             .map_err(|e| Failure::input(format!("cannot read {file}: {e}"), "check the name of the file"))?;
         let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
         // Line by line: a reader of the whole text counts comments to the record behind them.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use gearloss_framework::files::{LONGEST_DATA, read_text};
 use gearloss_framework::fit::power_law;
 use gearloss_framework::table::{Reading, Table, columns};
 
@@ -17,7 +18,7 @@ const AXES: [(&str, &str, [&str; 3]); 3] = [
 pub fn run(path: &Path, out: &mut Out) -> Result<End, Failure> {
     let file = path.display().to_string();
     let wrong = |fault: String| Failure::input(format!("{file}: {fault}"), "write the table as a drag model reads it");
-    let text = std::fs::read_to_string(path)
+    let text = read_text(path, LONGEST_DATA)
         .map_err(|e| Failure::input(format!("cannot read {file}: {e}"), "check the name of the file"))?;
     let names = columns(&text).map_err(wrong)?;
     let known = |name: &String| AXES.iter().find(|(axis, ..)| axis == name);

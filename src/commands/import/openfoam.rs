@@ -3,6 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use gearloss_framework::files::{LONGEST_DATA, read_text};
+
 /// Moments at one time. \[Nm\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
@@ -85,7 +87,7 @@ pub fn history(place: &Path) -> Result<Vec<Sample>, String> {
     };
     let mut all: Vec<Sample> = Vec::new();
     for file in files {
-        let text = std::fs::read_to_string(&file).map_err(|e| format!("cannot read {}: {e}", file.display()))?;
+        let text = read_text(&file, LONGEST_DATA).map_err(|e| format!("cannot read {}: {e}", file.display()))?;
         let samples = samples(&text).map_err(|fault| format!("{}, {fault}", file.display()))?;
         if let Some(first) = samples.first() {
             all.retain(|s| s.time < first.time);

@@ -2,6 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use gearloss_framework::study::is_device;
+
 use super::{folder, word, write};
 use crate::args::NewPluginArgs;
 use crate::output::{End, Failure, Out};
@@ -60,6 +62,12 @@ fn usable(name: &str) -> Result<(), Failure> {
         return Err(Failure::input(
             format!("`{name}` cannot name a crate: names have small letters, digits, `-` and `_`, with a letter first"),
             format!("write a name such as `{close}`"),
+        ));
+    }
+    if is_device(name) {
+        return Err(Failure::input(
+            format!("`{name}` cannot name a crate: it names a device on Windows, so that its folder could not be made"),
+            format!("put the name of your house in front, such as `acme-{name}`"),
         ));
     }
     if is_taken(name) {

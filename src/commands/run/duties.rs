@@ -3,6 +3,7 @@
 use gearloss_framework::analysis::{Driven, OilTemperature, Ride, drive};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::duty::{Demand, Duty, Given, Interval, Vehicle};
+use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::study::{Conditions, DriveEntry};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
@@ -60,7 +61,7 @@ impl<'a> Duties<'a> {
             let at = format!("cycles.{name}");
             let read = |file: &str| {
                 let bytes =
-                    std::fs::read(runner.study.folder.join(file)).map_err(|e| format!("cannot read {file}: {e}"))?;
+                    read_bytes(&runner.study.folder.join(file), LONGEST_DATA).map_err(|e| format!("cannot read {file}: {e}"))?;
                 let known = (file.to_owned(), hash(&bytes));
                 if !runner.read.borrow().contains(&known) {
                     runner.read.borrow_mut().push(known);

@@ -2,10 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::analysis::Piece;
 use gearloss_framework::document::read_yaml;
+use gearloss_framework::files::{LONGEST_DATA, open_regular, read_bytes};
 use gearloss_framework::language::Language;
 use gearloss_framework::study::Study;
 use serde::de::DeserializeOwned;
@@ -13,9 +15,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::Runner;
+use super::folder::{Held, cannot, is_unfinished, temporary};
 use super::pieces::{PieceFile, Place};
 use super::shard::{Deal, Kind, Shard};
-use super::write::{hash, inputs, keep};
+use super::write::{copy, hash_of, inputs};
 use crate::output::{Failure, Out};
 use crate::report::Section;
 
@@ -51,9 +54,9 @@ impl Manifest {
         });
         let folders: Vec<PathBuf> = std::iter::once(study.folder.clone()).chain(folders).collect();
         for word in words {
-            let bytes = folders.iter().find_map(|folder| fs::read(folder.join(&word)).ok());
-            if let Some(bytes) = bytes {
-                all.insert(word, hash(&bytes));
+            let hash = folders.iter().find_map(|folder| hash_of(&folder.join(&word)).ok());
+            if let Some(hash) = hash {
+                all.insert(word, hash);
             }
         }
         Self {
@@ -67,24 +70,21 @@ impl Manifest {
     }
 
     /// Takes a folder for the shard: a new one, or one that it began before.
-    pub fn claim(&self, folder: &Path) -> Result<(), Failure> {
-        let cannot = |e: std::io::Error| {
-            Failure::input(
-                format!("cannot write {}: {e}", folder.display()),
-                "name another folder with -o",
-            )
-        };
-        fs::create_dir_all(folder).map_err(cannot)?;
-        if folder.join(MANIFEST).is_file() {
-            return self.suits(folder).map(|_| ());
-        }
-        if fs::read_dir(folder).map_err(cannot)?.next().is_some() {
+    pub fn claim(&self, folder: &Path) -> Result<Held, Failure> {
+        let begun = folder.join(MANIFEST).is_file();
+        if begun {
+            self.suits(folder)?;
+        } else if !is_unfinished(folder) && fs::read_dir(folder).is_ok_and(|mut files| files.next().is_some()) {
             return Err(Failure::input(
                 format!("{} holds files, and no part of a study", folder.display()),
                 "name another folder with -o",
             ));
         }
-        store(&folder.join(MANIFEST), self).map_err(cannot)
+        let (held, _) = Held::take(folder)?;
+        if !begun {
+            store(&folder.join(MANIFEST), self)?;
+        }
+        Ok(held)
     }
 
     /// The shard whose folder it is, if it is one of the same study under the same program.
@@ -167,7 +167,7 @@ impl Outcome {
     /// What a runner whose folder is that of the files has done with one analysis.
     pub fn of(runner: &Runner<'_>, failed: bool) -> Option<Self> {
         let section = runner.report.borrow_mut().drop_last()?;
-        let hashed = |file: &String| Some((file.clone(), hash(&fs::read(runner.folder.join(file)).ok()?)));
+        let hashed = |file: &String| Some((file.clone(), hash_of(&runner.folder.join(file)).ok()?));
         let files = runner.names.borrow().iter().filter_map(hashed).collect();
         Some(Self {
             failed,
@@ -180,7 +180,7 @@ impl Outcome {
 
     /// Writes it beside its files, at last, so that it stands for whole ones.
     pub fn keep(&self, part: &Path, name: &str) -> Result<(), Failure> {
-        Ok(store(&part.join(name).join("outcome.json"), self)?)
+        store(&part.join(name).join("outcome.json"), self)
     }
 
     /// The outcome that a part holds, if all its files are as they were written.
@@ -188,7 +188,7 @@ impl Outcome {
         let mut outcome: Self = load(&part.join(name).join("outcome.json"))?;
         outcome.folder = Self::folder(part, name);
         let is_whole = |(file, known): &(String, String)| {
-            fs::read(outcome.folder.join(file)).is_ok_and(|bytes| hash(&bytes) == *known)
+            hash_of(&outcome.folder.join(file)).is_ok_and(|hash| hash == *known)
         };
         outcome.files.iter().all(is_whole).then_some(outcome)
     }
@@ -198,22 +198,28 @@ impl Outcome {
         out.text(self.section.text())?;
         runner.report.borrow_mut().add(self.section.clone());
         for (file, _) in &self.files {
-            let bytes = fs::read(self.folder.join(file)).map_err(|e| e.to_string());
-            keep(runner, file, bytes)?;
+            let path = self.folder.join(file);
+            let from = open_regular(&path).map_err(|e| {
+                let message = format!("cannot read {}: {e}", path.display());
+                Failure::input(message, "run its shard again, and merge then")
+            })?;
+            copy(runner, file, from)?;
         }
         runner.left.set(runner.left.get() + self.left);
         Ok(())
     }
 }
 
-fn store(file: &Path, value: &impl Serialize) -> std::io::Result<()> {
-    let part = file.with_extension("part");
-    fs::write(&part, serde_json::to_vec(value)?)?;
-    fs::rename(part, file)
+fn store(file: &Path, value: &impl Serialize) -> Result<(), Failure> {
+    let stored = temporary(file).and_then(|(part, mut to)| {
+        to.write_all(&serde_json::to_vec(value)?)?;
+        fs::rename(part, file)
+    });
+    stored.map_err(|e| cannot(file, &e))
 }
 
 fn load<T: DeserializeOwned>(file: &Path) -> Option<T> {
-    serde_json::from_slice(&fs::read(file).ok()?).ok()
+    serde_json::from_slice(&read_bytes(file, LONGEST_DATA).ok()?).ok()
 }
 
 /// The file of the pieces of one map of an analysis.

@@ -5,8 +5,11 @@ use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::analysis::{Bits, Piece};
+use gearloss_framework::files::{LONGEST_DATA, open_regular};
 
+use super::folder::{cannot, own, temporary};
 use super::write::fnv1a_64;
+use crate::output::Failure;
 
 /// Length and hash before the bytes of a piece.
 const HEAD: usize = 16;
@@ -23,15 +26,9 @@ pub struct PieceFile {
 }
 
 impl PieceFile {
-    /// A new file, in place of one that may be there.
-    pub fn create(path: PathBuf) -> io::Result<Self> {
-        let mut options = OpenOptions::new();
-        let file = options.read(true).write(true).create(true).truncate(true).open(&path)?;
-        Ok(Self::at_start(file, path))
-    }
-
     /// A file to go on with, with the numbers and places of its whole pieces; what follows the last of them is overwritten.
     pub fn reopen(path: PathBuf) -> io::Result<(Self, Vec<(usize, Place)>)> {
+        own(&path)?;
         let mut options = OpenOptions::new();
         let file = options
             .read(true)
@@ -47,14 +44,14 @@ impl PieceFile {
 
     /// A file to read only, with the numbers and places of its whole pieces.
     pub fn read_only(path: PathBuf) -> io::Result<(Self, Vec<(usize, Place)>)> {
-        let mut file = Self::at_start(File::open(&path)?, path);
+        let mut file = Self::at_start(open_regular(&path)?, path);
         let found = file.scan()?;
         Ok((file, found))
     }
 
     /// The piece at a place of a file.
     pub fn at_place(path: &Path, place: Place) -> io::Result<Piece> {
-        Self::at_start(File::open(path)?, path.to_owned()).piece(place)
+        Self::at_start(open_regular(path)?, path.to_owned()).piece(place)
     }
 
     fn at_start(file: File, path: PathBuf) -> Self {
@@ -76,7 +73,7 @@ impl PieceFile {
     }
 
     /// Adds a piece and tells its place.
-    pub fn append(&mut self, piece: &Piece<Bits>) -> io::Result<Place> {
+    pub fn append(&mut self, piece: &Piece<Bits>) -> Result<Place, Failure> {
         self.bytes.clear();
         self.bytes.resize(HEAD, 0);
         piece.write_bits(&mut self.bytes);
@@ -84,8 +81,9 @@ impl PieceFile {
         head[..8].copy_from_slice(&(body.len() as u64).to_le_bytes());
         head[8..].copy_from_slice(&fnv1a_64(body).to_le_bytes());
         let place = self.end;
-        self.file.seek(SeekFrom::Start(place))?;
-        self.file.write_all(&self.bytes)?;
+        let written = self.file.seek(SeekFrom::Start(place));
+        let written = written.and_then(|_| self.file.write_all(&self.bytes));
+        written.map_err(|e| cannot(&self.path, &e))?;
         self.end += self.bytes.len() as u64;
         Ok(place)
     }
@@ -110,7 +108,7 @@ impl PieceFile {
             let half: [u8; 8] = half.try_into().unwrap_or_default();
             u64::from_le_bytes(half)
         });
-        if length > whole - place - HEAD as u64 {
+        if length > LONGEST_DATA.min(whole - place - HEAD as u64) {
             return Ok(None);
         }
         self.bytes.resize(length as usize, 0);
@@ -127,11 +125,13 @@ impl PieceFile {
 pub struct Waiting(PieceFile);
 
 impl Waiting {
-    pub fn new(path: &Path) -> io::Result<Self> {
-        PieceFile::create(path.to_owned()).map(Self)
+    /// Pieces of what will stand at a path.
+    pub fn new(path: &Path) -> Result<Self, Failure> {
+        let (part, file) = temporary(path).map_err(|e| cannot(path, &e))?;
+        Ok(Self(PieceFile::at_start(file, part)))
     }
 
-    pub fn append(&mut self, piece: &Piece<Bits>) -> io::Result<Place> {
+    pub fn append(&mut self, piece: &Piece<Bits>) -> Result<Place, Failure> {
         self.0.append(piece)
     }
 

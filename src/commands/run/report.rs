@@ -7,6 +7,7 @@ use std::path::Path;
 
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::report::schematic;
 use gearloss_framework::transmission::Transmission;
@@ -21,7 +22,7 @@ use crate::report::{Frame, GearboxPage, PageFault, PageTable};
 /// The user's template, where there is one.
 pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
     let read = |file: &Path| {
-        std::fs::read_to_string(file).map_err(|e| {
+        read_text(file, LONGEST_TEXT).map_err(|e| {
             Failure::input(
                 format!("cannot read {}: {e}", file.display()),
                 "name a template with --template",

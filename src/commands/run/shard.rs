@@ -10,6 +10,7 @@ use gearloss_framework::study::{Analysis, Study};
 use serde::{Deserialize, Serialize};
 
 use super::Runner;
+use super::folder::{cannot, inside};
 use super::map::{Planned, planned};
 use super::parts::{Manifest, Outcome, piece_file};
 use super::pieces::PieceFile;
@@ -137,7 +138,7 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
             .join(format!("{}-of-{}", shard.number, shard.of))
     };
     let folder = args.results.output.clone().unwrap_or_else(own);
-    Manifest::of(language, study, shard).claim(&folder)?;
+    let held = Manifest::of(language, study, shard).claim(&folder)?;
     interrupt::listen();
     let runner = Runner::new(language, study, folder, None);
     let deal = Deal::of(&runner, shard.of);
@@ -150,6 +151,8 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
             of_map(&runner, work.name, number, map, own.collect(), &mut count)
         }),
     });
+    // Broken off or not: the same command goes on.
+    held.finish();
     let Count { computed, kept, failed } = count;
     let of_all = format!("{} of {} units", computed + kept, deal.units);
     let words = format!(
@@ -177,8 +180,10 @@ fn whole(runner: &Runner<'_>, work: &Work<'_>, count: &mut Count) -> Result<(), 
         return Ok(());
     }
     let folder = Outcome::folder(part, work.name);
-    let _ = fs::remove_dir_all(part.join(work.name));
-    fs::create_dir_all(&folder)?;
+    let of_work = part.join(work.name);
+    inside(&of_work).map_err(|e| cannot(&of_work, &e))?;
+    let _ = fs::remove_dir_all(&of_work);
+    fs::create_dir_all(&folder).map_err(|e| cannot(&folder, &e))?;
     let own = Runner::new(runner.language, runner.study, folder, None);
     let failed = match own.attempt(work.name, work.analysis, &mut Out::nowhere()) {
         Ok(()) => false,
@@ -209,8 +214,9 @@ fn of_map(
         return Ok(());
     }
     let path = piece_file(&runner.folder, name, number);
-    fs::create_dir_all(path.parent().unwrap_or(&runner.folder))?;
-    let (mut file, found) = PieceFile::reopen(path)?;
+    let parent = path.parent().unwrap_or(&runner.folder);
+    inside(parent).map_err(|e| cannot(parent, &e))?;
+    let (mut file, found) = PieceFile::reopen(path.clone()).map_err(|e| cannot(&path, &e))?;
     let missing = own
         .iter()
         .filter(|piece| found.iter().all(|(there, _)| there != *piece));

@@ -1,5 +1,6 @@
 //! Tables of results as files.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::fs;
 use std::io::{BufWriter, Write as _};
@@ -88,7 +89,7 @@ impl Lines {
                     }
                     Column::Texts(texts) => {
                         let text = texts.cells(row..row + 1).flatten().next();
-                        lines.write_field(text.map_or("", word))?;
+                        lines.write_field(text.map(word).map(inert).unwrap_or_default().as_ref())?;
                     }
                 }
             }
@@ -104,6 +105,17 @@ impl Lines {
     fn some(&self, own: Range<usize>) -> &[u8] {
         let ends = [own.start, own.end].map(|line| line.checked_sub(1).map_or(0, |last| self.ends[last]));
         &self.text[ends[0]..ends[1]]
+    }
+}
+
+/// A text as a spreadsheet takes for one: what would begin a formula there stands behind an apostrophe, which spreadsheets read
+/// as the sign of a text. Numbers keep their sign.
+fn inert(text: &str) -> Cow<'_, str> {
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    if is_formula && text.parse().is_ok_and(f64::is_finite) || !is_formula {
+        Cow::Borrowed(text)
+    } else {
+        Cow::Owned(format!("'{text}"))
     }
 }
 
@@ -190,5 +202,21 @@ impl TableFile {
             place.done(table.finish())?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_no_formulas_in_a_spreadsheet_and_numbers_keep_their_sign() {
+        for number in ["-5.5", "+1e-3", "12", "", "-0"] {
+            assert_eq!(inert(number), number);
+        }
+        for text in ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1", "-", "-inf", "+NaN"] {
+            assert_eq!(inert(text), format!("'{text}"));
+        }
+        assert_eq!(inert("a=b"), "a=b");
     }
 }

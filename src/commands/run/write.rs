@@ -3,15 +3,17 @@
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::{BufWriter, Write as _};
+use std::io::{BufRead as _, BufReader, BufWriter, Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use gearloss_framework::files::open_regular;
 use gearloss_framework::report::Figure;
 use gearloss_framework::study::{Study, Write};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::folder::{cannot, temporary};
 use super::table::TableFile;
 use super::{Built, Runner};
 use crate::output::Failure;
@@ -62,11 +64,6 @@ pub fn inputs(study: &Study) -> Vec<Value> {
 
 /// Name of the page.
 pub const REPORT: &str = "report.html";
-
-/// Makes the folder of the results, or says why it cannot.
-pub fn folder(runner: &Runner<'_>) -> Result<(), Failure> {
-    Place::new(runner, REPORT).map(|_| ())
-}
 
 /// Takes away what an earlier run of an analysis left, because it would pass for the results of this one. What this run has
 /// written stays: an analysis may fail in part.
@@ -126,27 +123,26 @@ impl Place {
             ));
         }
         let path = runner.folder.join(name);
-        let place = Self {
+        let mut place = Self {
             name: name.to_owned(),
             names: Rc::clone(&runner.names),
-            part: path.with_file_name(format!("{name}.part")),
+            part: PathBuf::new(),
             path,
         };
-        let made = fs::create_dir_all(&runner.folder).and_then(|()| fs::File::create(&place.part));
-        match made {
-            Ok(file) => Ok((place, BufWriter::new(file))),
+        match temporary(&place.path) {
+            Ok((part, file)) => {
+                place.part = part;
+                Ok((place, BufWriter::new(file)))
+            }
             Err(e) => Err(place.cannot(&e)),
         }
     }
 
     pub fn cannot(&self, e: &dyn std::fmt::Display) -> Failure {
-        Failure::input(
-            format!("cannot write {}: {e}", self.path.display()),
-            "name another folder with -o",
-        )
+        cannot(&self.path, e)
     }
 
-    /// Moves the file to its place, if it was written whole.
+    /// Moves the file to its place, if it was written whole. A link that stands there is replaced, not followed.
     pub fn done(mut self, written: Result<(), String>) -> Result<(), Failure> {
         let moved = written.and_then(|()| fs::rename(&self.part, &self.path).map_err(|e| e.to_string()));
         moved.map_err(|e| self.cannot(&e))?;
@@ -187,6 +183,13 @@ pub fn keep(runner: &Runner<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> 
     place.done(written)
 }
 
+/// Writes a file of results from what another one holds.
+pub fn copy(runner: &Runner<'_>, file: &str, mut from: impl Read) -> Result<(), Failure> {
+    let (place, mut to) = Place::new(runner, file)?;
+    let written = std::io::copy(&mut from, &mut to).and_then(|_| to.flush());
+    place.done(written.map_err(|e| e.to_string()))
+}
+
 /// A cell: the number with all its digits, or nothing.
 pub fn cell(value: Option<f64>) -> String {
     value.map_or_else(String::new, |x| format!("{x}"))
@@ -194,12 +197,38 @@ pub fn cell(value: Option<f64>) -> String {
 
 /// FNV-1a, 64 bit: tells whether an input changed, no more.
 pub fn fnv1a_64(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+    fnv1a_from(FNV_BASIS, bytes)
+}
+
+/// The hash of nothing.
+const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+
+fn fnv1a_from(hash: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(hash, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }
 
 /// The hash of bytes as it stands in results.
 pub fn hash(bytes: &[u8]) -> String {
-    format!("{:016x}", fnv1a_64(bytes))
+    words(fnv1a_64(bytes))
+}
+
+/// The hash of a regular file, which is read some bytes at a time.
+pub fn hash_of(file: &Path) -> std::io::Result<String> {
+    let mut file = BufReader::new(open_regular(file)?);
+    let mut hash = FNV_BASIS;
+    loop {
+        let bytes = file.fill_buf()?;
+        if bytes.is_empty() {
+            return Ok(words(hash));
+        }
+        hash = fnv1a_from(hash, bytes);
+        let count = bytes.len();
+        file.consume(count);
+    }
+}
+
+fn words(hash: u64) -> String {
+    format!("{hash:016x}")
 }

@@ -25,19 +25,13 @@ impl Waited {
         if !formats.contains(&Write::Json) {
             return Ok(None);
         }
-        let path = runner.folder.join(format!("{name}.points.part"));
-        let made = Waiting::new(&path).map_err(|e| {
-            Failure::input(
-                format!("cannot write {}: {e}", path.display()),
-                "name another folder with -o",
-            )
-        });
-        Ok(Some(Self(RefCell::new(made?))))
+        let waiting = Waiting::new(&runner.folder.join(format!("{name}.points")))?;
+        Ok(Some(Self(RefCell::new(waiting))))
     }
 
     /// Adds a piece and tells its place.
     pub fn append(&mut self, piece: &Piece<Bits>) -> Result<u64, Failure> {
-        Ok(self.0.get_mut().append(piece)?)
+        self.0.get_mut().append(piece)
     }
 
     /// All maps of an analysis as they are written.

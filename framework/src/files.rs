@@ -1,0 +1,107 @@
+//! Files that a user names, opened in one place: regular files only, and none longer than what holds it in memory may be.
+
+use std::fs::{File, FileType};
+use std::io::{Error, Read as _, Result};
+use std::path::Path;
+
+/// The longest description, study, input of `eval` or template of a report. \[byte\]
+///
+/// The tree that is read from a text takes some fifty times its length.
+pub const LONGEST_TEXT: u64 = 4 << 20;
+
+/// The longest file of data: measured points, series, tables, catalogues. \[byte\]
+///
+/// The cells of a table take up to twenty times the length of its text.
+pub const LONGEST_DATA: u64 = 256 << 20;
+
+/// Opens a file for reading. A link to a file is followed.
+///
+/// # Errors
+/// What the system says, or that it is no regular file: a folder holds no text, a device may have no end, and a pipe may
+/// never say anything.
+pub fn open_regular(path: &Path) -> Result<File> {
+    // Before it is opened, because opening a pipe waits for its writer.
+    regular(std::fs::metadata(path)?.file_type())?;
+    let file = File::open(path)?;
+    regular(file.metadata()?.file_type())?;
+    Ok(file)
+}
+
+fn regular(kind: FileType) -> Result<()> {
+    if kind.is_file() {
+        return Ok(());
+    }
+    let what = if kind.is_dir() { "a folder" } else { "a device or a pipe" };
+    Err(Error::other(format!("it is {what}, not a file")))
+}
+
+/// The bytes of a regular file of at most so many.
+///
+/// # Errors
+/// As [`open_regular`], or that it is longer.
+pub fn read_bytes(path: &Path, longest: u64) -> Result<Vec<u8>> {
+    let file = open_regular(path)?;
+    let told = file.metadata()?.len();
+    let mut bytes = Vec::new();
+    if told <= longest {
+        // What a file says of its length need not be true.
+        file.take(longest + 1).read_to_end(&mut bytes)?;
+    }
+    let length = told.max(bytes.len() as u64);
+    if length > longest {
+        let [length, longest] = [length, longest].map(|bytes| bytes.div_ceil(1 << 20));
+        let message = format!("it has {length} MB, and no more than {longest} MB are read");
+        return Err(Error::other(message));
+    }
+    Ok(bytes)
+}
+
+/// The text of a regular file of at most so many bytes.
+///
+/// # Errors
+/// As [`read_bytes`], or that it is no UTF-8.
+pub fn read_text(path: &Path, longest: u64) -> Result<String> {
+    let bytes = read_bytes(path, longest)?;
+    String::from_utf8(bytes).map_err(|_| Error::new(std::io::ErrorKind::InvalidData, "it is no text in UTF-8"))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn refused(path: impl AsRef<Path>) -> String {
+        read_text(path.as_ref(), 16).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn only_regular_files_of_a_stated_length_are_read() {
+        let folder = std::env::temp_dir().join(format!("gearloss-files-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("text");
+        std::fs::write(&file, "sixteen letters.").unwrap();
+        assert_eq!(read_text(&file, 16).unwrap(), "sixteen letters.");
+        std::fs::write(&file, "seventeen letters").unwrap();
+        assert_eq!(refused(&file), "it has 1 MB, and no more than 1 MB are read");
+        std::fs::write(&file, [0xff]).unwrap();
+        assert_eq!(refused(&file), "it is no text in UTF-8");
+        assert_eq!(refused(&folder), "it is a folder, not a file");
+        assert!(refused(folder.join("nowhere")).contains("No such file") || cfg!(windows));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn devices_without_end_are_refused() {
+        assert_eq!(refused("/dev/zero"), "it is a device or a pipe, not a file");
+    }
+
+    /// A file that says it is empty, and is not.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_file_is_not_read_beyond_the_limit_whatever_it_says_of_its_length() {
+        assert_eq!(std::fs::metadata("/proc/self/environ").unwrap().len(), 0);
+        assert!(read_bytes(Path::new("/proc/self/environ"), 1 << 20).is_ok());
+        assert!(read_bytes(Path::new("/proc/self/environ"), 1).is_err());
+    }
+}

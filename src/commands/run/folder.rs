@@ -1,0 +1,207 @@
+//! The folder of a run: held by one run at a time, and known for the run's own as long as it is not finished.
+
+use std::ffi::OsStr;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, ErrorKind, Seek as _, Write as _};
+use std::path::{Path, PathBuf};
+
+use gearloss_framework::files::{LONGEST_TEXT, read_text};
+
+use crate::output::Failure;
+
+/// A file that stands in the folder while a run writes into it. It is locked as long, so one that is not locked was left by a
+/// run that was broken off.
+pub const MARK: &str = "unfinished.run";
+
+/// Ending of files that are not whole yet.
+pub const PART: &str = "part";
+
+/// A folder that no other run writes into.
+pub struct Held {
+    mark: PathBuf,
+    /// Unlocked when it is closed, however the run ends.
+    _file: File,
+}
+
+impl Held {
+    /// Takes a folder, which is made where there is none, and says whether an earlier run was broken off in it.
+    ///
+    /// # Errors
+    /// That another run writes into it, or that it cannot be written.
+    pub fn take(folder: &Path) -> Result<(Self, bool), Failure> {
+        let mark = folder.join(MARK);
+        fs::create_dir_all(folder).map_err(|e| cannot(folder, &e))?;
+        loop {
+            let left = own(&mark).map_err(|e| cannot(&mark, &e))?;
+            let opened = OpenOptions::new()
+                .read(true)
+                .write(true)
+                .create(true)
+                .truncate(false)
+                .open(&mark);
+            let mut file = opened.map_err(|e| cannot(&mark, &e))?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => return Err(busy(folder, &mark)),
+                // A file system without locks: files still have names of their own while they are written.
+                Err(TryLockError::Error(_)) => {}
+            }
+            let token = token();
+            let marked = file.set_len(0).and_then(|()| file.rewind());
+            let marked = marked.and_then(|()| file.write_all(token.as_bytes()));
+            marked.map_err(|e| cannot(&mark, &e))?;
+            // The run that held it may have taken the file away since it was opened here. Where a lock keeps others from
+            // reading, it keeps them from taking away, too.
+            match read_text(&mark, LONGEST_TEXT) {
+                Ok(text) if text != token => {}
+                Err(e) if e.kind() == ErrorKind::NotFound => {}
+                _ => {
+                    if left {
+                        clear(folder);
+                    }
+                    return Ok((Self { mark, _file: file }, left));
+                }
+            }
+        }
+    }
+
+    /// Tells that all is written.
+    pub fn finish(self) {
+        let _ = fs::remove_file(&self.mark);
+    }
+}
+
+/// True where an earlier run was broken off, or another one is at work.
+pub fn is_unfinished(folder: &Path) -> bool {
+    fs::symlink_metadata(folder.join(MARK)).is_ok_and(|data| data.is_file())
+}
+
+/// What no other run writes at this time.
+fn token() -> String {
+    let since = std::time::UNIX_EPOCH.elapsed().unwrap_or_default();
+    format!("process {}, begun {} ns after 1970\n", std::process::id(), since.as_nanos())
+}
+
+fn busy(folder: &Path, mark: &Path) -> Failure {
+    let text = read_text(mark, LONGEST_TEXT).unwrap_or_default();
+    let process = text.split(',').next().filter(|words| words.starts_with("process "));
+    Failure::input(
+        format!(
+            "another run writes into {}{}",
+            folder.display(),
+            process.map_or_else(String::new, |process| format!(": {process}"))
+        ),
+        "wait for it, or name another folder with -o",
+    )
+}
+
+/// Why a place of results cannot be written.
+pub fn cannot(path: &Path, e: &dyn std::fmt::Display) -> Failure {
+    Failure::input(
+        format!("cannot write {}: {e}", path.display()),
+        "name another folder with -o",
+    )
+}
+
+/// Whether a file is there that may be written in place: not one that lies elsewhere.
+///
+/// # Errors
+/// That there is something else, such as a link.
+pub fn own(path: &Path) -> io::Result<bool> {
+    match fs::symlink_metadata(path) {
+        Ok(data) if data.is_file() => Ok(true),
+        Ok(_) => Err(io::Error::other("a link or a folder has its name")),
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(false),
+        Err(e) => Err(e),
+    }
+}
+
+/// Makes a folder inside of that of a run, which must not lie elsewhere.
+pub fn inside(folder: &Path) -> io::Result<()> {
+    match fs::symlink_metadata(folder) {
+        Ok(data) if data.is_dir() => Ok(()),
+        Ok(_) => Err(io::Error::other("a link or a file has its name")),
+        Err(_) => fs::create_dir_all(folder),
+    }
+}
+
+/// A new file beside the place where it belongs once it is whole, with a name that no other run takes.
+pub fn temporary(path: &Path) -> io::Result<(PathBuf, File)> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    for number in 0_u32.. {
+        let part = path.with_file_name(format!("{name}.{}-{number}.{PART}", std::process::id()));
+        // A new file is never one that a link leads to.
+        match OpenOptions::new().read(true).write(true).create_new(true).open(&part) {
+            Err(e) if e.kind() == ErrorKind::AlreadyExists => {}
+            made => return made.map(|file| (part, file)),
+        }
+    }
+    Err(ErrorKind::AlreadyExists.into())
+}
+
+/// Takes away what a run that was broken off has not written whole.
+fn clear(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.extension() == Some(OsStr::new(PART)) && own(&path).is_ok_and(|is| is) {
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("gearloss-{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        folder
+    }
+
+    #[test]
+    fn a_folder_is_held_by_one_run_and_known_when_it_was_broken_off() {
+        let folder = folder("held");
+        let (held, left) = Held::take(&folder).unwrap();
+        assert!(!left && is_unfinished(&folder));
+        let Err(Failure::Input(refused)) = Held::take(&folder) else {
+            panic!("two runs hold one folder");
+        };
+        let own = format!("another run writes into {}: process {}", folder.display(), std::process::id());
+        assert!(refused.contains(&own) || cfg!(windows), "{refused}");
+        // Broken off: the lock is gone, the mark is not.
+        let (part, _) = temporary(&folder.join("map.csv")).unwrap();
+        drop(held);
+        let (held, left) = Held::take(&folder).unwrap();
+        assert!(left && !part.exists());
+        held.finish();
+        assert!(!is_unfinished(&folder));
+        let (_, left) = Held::take(&folder).unwrap();
+        assert!(!left);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn files_that_are_not_whole_never_share_a_name() {
+        let folder = folder("parts");
+        fs::create_dir_all(&folder).unwrap();
+        let parts = [(); 3].map(|()| temporary(&folder.join("map.csv")).unwrap().0);
+        assert!(parts[0] != parts[1] && parts[1] != parts[2] && parts[0] != parts[2]);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed() {
+        let folder = folder("links");
+        let elsewhere = folder.join("elsewhere");
+        fs::create_dir_all(&elsewhere).unwrap();
+        fs::write(elsewhere.join("diary"), "dear").unwrap();
+        std::os::unix::fs::symlink(elsewhere.join("diary"), folder.join(MARK)).unwrap();
+        std::os::unix::fs::symlink(&elsewhere, folder.join("part")).unwrap();
+        assert!(Held::take(&folder).is_err() && inside(&folder.join("part")).is_err());
+        assert_eq!(fs::read_to_string(elsewhere.join("diary")).unwrap(), "dear");
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}
