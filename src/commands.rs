@@ -15,13 +15,27 @@ pub mod run;
 pub mod schema;
 pub mod solve;
 
+use std::sync::OnceLock;
+
 use gearloss_framework::document::{Sources, read_yaml};
 use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
 use crate::args::ChoiceArgs;
 use crate::output::{Failure, Out};
+
+/// The language of everything that is linked into the program, put together once however many commands it runs.
+fn language() -> Result<&'static Language, Failure> {
+    static LINKED: OnceLock<Language> = OnceLock::new();
+    if LINKED.get().is_none() {
+        // Of two threads that come here at once the first one's stays.
+        let _ = LINKED.set(Language::linked()?);
+    }
+    let bug = || Failure::input("bug: the language was put together and is not there", "report this");
+    LINKED.get().ok_or_else(bug)
+}
 
 /// Models and overrides from the arguments.
 fn choice(args: &ChoiceArgs) -> Result<Choice, Failure> {

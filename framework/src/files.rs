@@ -31,7 +31,11 @@ fn regular(kind: FileType) -> Result<()> {
     if kind.is_file() {
         return Ok(());
     }
-    let what = if kind.is_dir() { "a folder" } else { "a device or a pipe" };
+    let what = if kind.is_dir() {
+        "a folder"
+    } else {
+        "a device or a pipe"
+    };
     Err(Error::other(format!("it is {what}, not a file")))
 }
 

@@ -14,7 +14,7 @@ use crate::args::CheckArgs;
 use crate::output::{End, Failure, Out};
 
 pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
+    let language = super::language()?;
     let choice = choice(&args.choice)?;
     let deny = match &args.deny {
         Some(name) => Some(grade(name)?),
@@ -24,11 +24,11 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     let mut end = End::Fine;
     for file in &args.files {
         let result = if is_study(file) {
-            Study::read(&language, file)
-                .and_then(|study| study.check(&language))
+            Study::read(language, file)
+                .and_then(|study| study.check(language))
                 .map(|()| format!("{}: fine\n", file.display()))
         } else {
-            gearbox(&language, file, &choice, args.resolved).map(|(text, weakest)| {
+            gearbox(language, file, &choice, args.resolved).map(|(text, weakest)| {
                 if deny.is_some_and(|deny| weakest.is_some_and(|w| w >= deny)) {
                     end = End::Finding;
                     return text + &format!("  denied: {}\n", args.deny.as_deref().unwrap_or_default());

@@ -5,7 +5,6 @@ use std::path::Path;
 use gearloss_framework::eval;
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::Findings;
-use gearloss_framework::language::Language;
 use gearloss_framework::loss::Step;
 use serde_json::json;
 
@@ -13,8 +12,8 @@ use crate::args::{EvalArgs, Format};
 use crate::output::{End, Failure, Out, significant};
 
 pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
-    let (mechanism, entry) = eval::named(&language, &args.model).map_err(Findings::from)?;
+    let language = super::language()?;
+    let (mechanism, entry) = eval::named(language, &args.model).map_err(Findings::from)?;
     let (text, folder) = match &args.input {
         Some(file) => (
             read_text(file, LONGEST_TEXT).map_err(|e| {
@@ -28,7 +27,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
         None => Default::default(),
     };
     let source = args.input.as_deref().unwrap_or(Path::new("")).display().to_string();
-    let evaluated = eval::ask(&language, &args.model, &source, &text, &folder)?;
+    let evaluated = eval::ask(language, &args.model, &source, &text, &folder)?;
     if args.format == Format::Json {
         let value = json!({
             "format": "gearloss-eval/1",

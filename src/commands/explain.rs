@@ -2,7 +2,6 @@
 
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::Language;
 use gearloss_framework::loss::{Step, Trace};
 use gearloss_framework::resolve::{Came, Resolved, lookup};
 use gearloss_framework::transmission::{PartInfo, Transmission};
@@ -16,10 +15,10 @@ use crate::args::ExplainArgs;
 use crate::output::{End, Failure, Out, significant};
 
 pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
-    let gearbox = Gearbox::read(&language, &args.gearbox)?;
-    let resolved = gearbox.resolve(&language, &choice(&args.choice)?)?;
-    let transmission = gearbox.build(&language, &resolved)?;
+    let language = super::language()?;
+    let gearbox = Gearbox::read(language, &args.gearbox)?;
+    let resolved = gearbox.resolve(language, &choice(&args.choice)?)?;
+    let transmission = gearbox.build(language, &resolved)?;
     warn(&gearbox, &transmission)?;
     let ways = ways_of(&transmission, &args.component);
     let chosen = match parts_of(&transmission, &args.component) {

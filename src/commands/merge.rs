@@ -1,14 +1,12 @@
 //! `merge`: the parts of `run --shard`, joined to the results of the whole study.
 
-use gearloss_framework::language::Language;
-
 use super::run::{Parts, all, read};
 use crate::args::MergeArgs;
 use crate::output::{End, Failure, Out};
 
 pub fn run(args: &MergeArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
-    let study = read(&language, &args.study)?;
-    let parts = Parts::gather(&language, &study, &args.parts, &args.study)?;
-    all(&language, &study, Some(parts), &args.results, out)
+    let language = super::language()?;
+    let study = read(language, &args.study)?;
+    let parts = Parts::gather(language, &study, &args.parts, &args.study)?;
+    all(language, &study, Some(parts), &args.results, out)
 }

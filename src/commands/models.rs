@@ -11,15 +11,15 @@ use crate::args::ModelsArgs;
 use crate::output::{End, Failure, Out, Table, significant};
 
 pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
+    let language = super::language()?;
     if let Some(file) = &args.needs {
-        return needs::run(&language, file, args.mechanism.as_deref(), out);
+        return needs::run(language, file, args.mechanism.as_deref(), out);
     }
     match (&args.mechanism, &args.model) {
-        (None, _) => all(&language, out)?,
+        (None, _) => all(language, out)?,
         (Some(mechanism), None) => {
             let mechanism = language.registry().mechanism_named(mechanism).map_err(Findings::from)?;
-            one_mechanism(&language, mechanism, out)?;
+            one_mechanism(language, mechanism, out)?;
         }
         (Some(mechanism), Some(model)) => {
             let mechanism = language.registry().mechanism_named(mechanism).map_err(Findings::from)?;
@@ -27,7 +27,7 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
                 .registry()
                 .model_named(mechanism.key, model)
                 .map_err(Findings::from)?;
-            one_model(&language, model, out)?;
+            one_model(language, model, out)?;
         }
     }
     Ok(End::Fine)

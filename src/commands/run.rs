@@ -54,11 +54,11 @@ use crate::interrupt;
 use crate::output::{End, Failure, Out};
 
 pub fn run(args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
-    let study = read(&language, &args.study)?;
+    let language = super::language()?;
+    let study = read(language, &args.study)?;
     match args.shard {
-        Some(shard) => shard::run(&language, &study, shard, args, out),
-        None => all(&language, &study, None, &args.results, out),
+        Some(shard) => shard::run(language, &study, shard, args, out),
+        None => all(language, &study, None, &args.results, out),
     }
 }
 
@@ -208,7 +208,18 @@ fn taken(folder: &Path, force: bool, out: &mut Out) -> Result<Held, Failure> {
         .collect();
     let written = |file: &PathBuf| {
         let kind = file.extension().and_then(|kind| kind.to_str());
-        let kinds = ["csv", "json", "svg", "html", "parquet", "vtlm", "m", "mo", "yaml", folder::PART];
+        let kinds = [
+            "csv",
+            "json",
+            "svg",
+            "html",
+            "parquet",
+            "vtlm",
+            "m",
+            "mo",
+            "yaml",
+            folder::PART,
+        ];
         kind.is_some_and(|kind| kinds.contains(&kind)) || file.ends_with(folder::MARK)
     };
     // Every run leaves a report, or the mark of one that is not finished; a folder without them is the user's own.

@@ -17,7 +17,7 @@ pub fn run(args: &SchemaArgs, out: &mut Out) -> Result<End, Failure> {
         KindArg::Result => return written(RESULT, out),
         KindArg::Point => return written(POINT, out),
     };
-    out.text(&published(&Language::linked()?, kind)?)?;
+    out.text(&published(super::language()?, kind)?)?;
     Ok(End::Fine)
 }
 

@@ -4,7 +4,7 @@ use gearloss_framework::analysis::Found;
 use gearloss_framework::analysis::{Note, SUMS, evidence, notes, sum_of};
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::Language;
+use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::thermal::{Equilibrium, Outcome, Step, Unbalanced};
 use gearloss_framework::transmission::Transmission;
@@ -22,10 +22,10 @@ use crate::output::{End, Failure, Out, Table, number, significant};
 pub const RPM: f64 = 30.0 / std::f64::consts::PI;
 
 pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
-    let gearbox = Gearbox::read(&language, &args.gearbox)?;
-    let resolved = gearbox.resolve(&language, &choice(&args.choice)?)?;
-    let transmission = gearbox.build(&language, &resolved)?;
+    let language = super::language()?;
+    let gearbox = Gearbox::read(language, &args.gearbox)?;
+    let resolved = gearbox.resolve(language, &choice(&args.choice)?)?;
+    let transmission = gearbox.build(language, &resolved)?;
     warn(&gearbox, &transmission)?;
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
@@ -131,21 +131,15 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
     let mut text = heading(transmission, solution, prepared, at);
     if !transmission.supports().is_empty() {
         let mut loads = Table::new(&["support", "radial N", "axial N", "tilting Nm"]);
+        // A load beyond all numbers, of a torque that is near there, is no number to show.
+        let cell = |load: f64, digits: usize| number(Some(load).filter(|load| load.is_finite()), digits);
+        let row = |path: String, load: SupportLoad| {
+            vec![path, cell(load.radial, 1), cell(load.axial, 1), cell(load.tilting, 3)]
+        };
         for (i, path) in transmission.supports().iter().enumerate() {
-            let load = solution.load(i);
-            loads.row(vec![
-                path.clone(),
-                format!("{:.1}", load.radial),
-                format!("{:.1}", load.axial),
-                format!("{:.3}", load.tilting),
-            ]);
+            loads.row(row(path.clone(), solution.load(i)));
             if let Some(load) = solution.most_loaded(i) {
-                loads.row(vec![
-                    format!("{path}, most loaded planet"),
-                    format!("{:.1}", load.radial),
-                    format!("{:.1}", load.axial),
-                    format!("{:.3}", load.tilting),
-                ]);
+                loads.row(row(format!("{path}, most loaded planet"), load));
             }
         }
         text.push_str(&loads.render());

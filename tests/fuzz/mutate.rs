@@ -14,20 +14,77 @@ pub struct Words {
 
 /// Numbers at the ends of what can be written.
 const NUMBERS: [&str; 30] = [
-    "0", "-0", "1", "-1", "2", "3", "0.5", "-0.5", "7", "12.5", "50", "100", "999", "1000", "5000", "65535", "65536", "100000",
-    "1e6", "1e9", "-1e9", "1e12", "4294967296", "9007199254740993", "18446744073709551616", "1e-9", "1e-300", "1e300", "1e308", "1e400",
+    "0",
+    "-0",
+    "1",
+    "-1",
+    "2",
+    "3",
+    "0.5",
+    "-0.5",
+    "7",
+    "12.5",
+    "50",
+    "100",
+    "999",
+    "1000",
+    "5000",
+    "65535",
+    "65536",
+    "100000",
+    "1e6",
+    "1e9",
+    "-1e9",
+    "1e12",
+    "4294967296",
+    "9007199254740993",
+    "18446744073709551616",
+    "1e-9",
+    "1e-300",
+    "1e300",
+    "1e308",
+    "1e400",
 ];
 
 /// What is no number, or no plain one.
 const ODD: [&str; 32] = [
-    "", "none", "null", "true", "false", "~", ".inf", "nan", "1,5", "1_000", "0x10", "12:30", "1.2.3", "--1", "- 1", "1 2", "mm", "1 mm mm",
-    "*", "a.b.c", "..", ".", "/dev/zero", "/dev/null", "gearbox.yaml", "study.yaml", "nowhere.csv", "é\u{fffd}\u{202e}", "<!--<script>", "=1+1",
-    "con", "&a",
+    "",
+    "none",
+    "null",
+    "true",
+    "false",
+    "~",
+    ".inf",
+    "nan",
+    "1,5",
+    "1_000",
+    "0x10",
+    "12:30",
+    "1.2.3",
+    "--1",
+    "- 1",
+    "1 2",
+    "mm",
+    "1 mm mm",
+    "*",
+    "a.b.c",
+    "..",
+    ".",
+    "/dev/zero",
+    "/dev/null",
+    "gearbox.yaml",
+    "study.yaml",
+    "nowhere.csv",
+    "é\u{fffd}\u{202e}",
+    "<!--<script>",
+    "=1+1",
+    "con",
+    "&a",
 ];
 
 const UNITS: [&str; 24] = [
-    "mm", "m", "um", "nm", "Nm", "N", "rpm", "1/s", "degC", "K", "mm2/s", "m2/s", "mPa s", "deg", "rad", "kg", "kg/m3", "W", "kW", "W/(m2 K)",
-    "s", "%", "l", "1/K",
+    "mm", "m", "um", "nm", "Nm", "N", "rpm", "1/s", "degC", "K", "mm2/s", "m2/s", "mPa s", "deg", "rad", "kg", "kg/m3",
+    "W", "kW", "W/(m2 K)", "s", "%", "l", "1/K",
 ];
 
 impl Words {
@@ -64,7 +121,10 @@ impl Words {
 
     /// A value that stands somewhere under a key.
     fn value(&self, key: &str, random: &mut Random) -> Option<&Tree> {
-        self.values.get(key).filter(|known| !known.is_empty()).map(|known| random.one(known))
+        self.values
+            .get(key)
+            .filter(|known| !known.is_empty())
+            .map(|known| random.one(known))
     }
 
     fn any(&self, random: &mut Random) -> (&str, &Tree) {
@@ -141,7 +201,7 @@ fn scalars(tree: &mut Tree, way: &[usize], words: &Words, random: &mut Random) {
     if below.is_empty() {
         return;
     }
-    let way = [way, random.one(&below)].concat();
+    let way = [way, random.one(&below).as_slice()].concat();
     if let Some(Tree::Scalar(text)) = tree.at_mut(&way) {
         *text = changed(text, &words.scalars, random);
     }
@@ -149,14 +209,19 @@ fn scalars(tree: &mut Tree, way: &[usize], words: &Words, random: &mut Random) {
 
 /// A number with what follows it.
 fn number(text: &str) -> Option<(f64, &str)> {
-    let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(text.len());
+    let end = text
+        .find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c)))
+        .unwrap_or(text.len());
     Some((text[..end].parse().ok()?, &text[end..]))
 }
 
 /// Another scalar.
 fn changed(text: &str, scalars: &[String], random: &mut Random) -> String {
     match (random.below(10), number(text)) {
-        (0..=3, Some((x, unit))) => format!("{}{unit}", x * random.one(&[0.01, 0.1, 0.5, 0.9, 1.0 + 1e-9, 1.1, 2.0, 10.0, 100.0, -1.0])),
+        (0..=3, Some((x, unit))) => format!(
+            "{}{unit}",
+            x * random.one(&[0.01, 0.1, 0.5, 0.9, 1.0 + 1e-9, 1.1, 2.0, 10.0, 100.0, -1.0])
+        ),
         (4 | 5, Some((_, unit))) => format!("{}{unit}", random.one(&NUMBERS)),
         (6, Some((x, _))) => format!("{x} {}", random.one(&UNITS)),
         (7, Some((_, unit))) => format!("{}{unit}", "9".repeat(1 + random.below(400))),
@@ -223,7 +288,8 @@ fn rename(tree: &mut Tree, way: &[usize], words: &Words, random: &mut Random) {
 
 /// Repeats what stands in a list or a map, under other ids.
 fn grow(tree: &mut Tree, way: &[usize], random: &mut Random) {
-    let times = 1 + random.below(if random.once_in(10) { 300 } else { 4 });
+    let most = if random.once_in(10) { 300 } else { 4 };
+    let times = 1 + random.below(most);
     match tree.at_mut(way) {
         Some(Tree::Map(map)) if !map.is_empty() => {
             let (key, value) = random.one(map).clone();
@@ -252,14 +318,19 @@ pub fn text(text: &mut String, random: &mut Random) {
     let mut letters: Vec<char> = text.chars().collect();
     let start = random.below(letters.len() + 1);
     let end = (start + random.below(12)).min(letters.len());
-    let piece = *random.one(&["", "{", "]", ": ", "\n  ", "\t", "&a *a", "\"", "- ", "#", "\u{0}", "\u{feff}", "---\n", "? ", "| ", "!!x "]);
+    let piece = *random.one(&[
+        "", "{", "]", ": ", "\n  ", "\t", "&a *a", "\"", "- ", "#", "\u{0}", "\u{feff}", "---\n", "? ", "| ", "!!x ",
+    ]);
     letters.splice(start..end, piece.chars());
     *text = letters.into_iter().collect();
 }
 
 /// Changes a table in one place.
 pub fn table(csv: &mut String, random: &mut Random) {
-    let mut lines: Vec<Vec<String>> = csv.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
+    let mut lines: Vec<Vec<String>> = csv
+        .lines()
+        .map(|line| line.split(',').map(str::to_owned).collect())
+        .collect();
     if lines.is_empty() {
         return;
     }
@@ -297,7 +368,11 @@ pub fn table(csv: &mut String, random: &mut Random) {
             lines.truncate(start);
         }
     }
-    let separator = *random.one(&[",", ",", ",", ",", ",", ";", "\t"]);
+    let separator = if random.once_in(10) {
+        *random.one(&[";", "\t", " "])
+    } else {
+        ","
+    };
     *csv = lines.iter().map(|cells| cells.join(separator) + "\n").collect();
     if random.once_in(10) {
         text(csv, random);

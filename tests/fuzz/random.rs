@@ -34,9 +34,4 @@ impl Random {
     pub fn one<'a, T>(&mut self, list: &'a [T]) -> &'a T {
         &list[self.below(list.len())]
     }
-
-    /// A number between two.
-    pub fn between(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }

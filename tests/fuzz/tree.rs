@@ -7,7 +7,7 @@ use crate::random::Random;
 /// A document, or a part of one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Tree {
-    /// What is neither list nor map, as written.
+    /// What is neither list nor map, as written; in quotes where it would be a number without.
     Scalar(String),
     List(Vec<Tree>),
     /// In order; a key may stand twice.
@@ -29,9 +29,14 @@ impl Tree {
             Content::Null => Self::Scalar(String::new()),
             Content::Bool(is) => Self::Scalar(is.to_string()),
             Content::Number(x) => Self::Scalar(x.to_string()),
+            Content::Text { text, .. } if text.parse::<f64>().is_ok() => Self::Scalar(format!("\"{text}\"")),
             Content::Text { text, .. } => Self::Scalar(text.clone()),
             Content::List(list) => Self::List(list.iter().map(Self::of).collect()),
-            Content::Map(map) => Self::Map(map.iter().map(|(key, node)| (key.name.clone(), Self::of(node))).collect()),
+            Content::Map(map) => Self::Map(
+                map.iter()
+                    .map(|(key, node)| (key.name.clone(), Self::of(node)))
+                    .collect(),
+            ),
         }
     }
 
@@ -182,7 +187,8 @@ fn scalar(text: &str) -> String {
         && !text.starts_with("- ")
         && !text.starts_with("--")
         && !text.ends_with(' ');
-    if is_plain || text.is_empty() {
+    let is_quoted = text.starts_with('"') && serde_json::from_str::<String>(text).is_ok();
+    if is_plain || is_quoted || text.is_empty() {
         text.to_owned()
     } else {
         serde_json::to_string(text).unwrap_or_default()

@@ -5,7 +5,6 @@ use std::path::Path;
 use gearloss_framework::description::LubricantEntry;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::Language;
 use gearloss_framework::lubricant::Lubricant;
 use gearloss_framework::resolve::Choice;
 
@@ -14,19 +13,19 @@ use crate::output::Failure;
 
 /// The oil of the arguments.
 pub fn oil(args: &OilArgs) -> Result<Lubricant, Failure> {
-    let language = Language::linked()?;
+    let language = super::super::language()?;
     let gearbox = match (&args.gearbox, &args.oil) {
-        (Some(file), _) => Gearbox::read(&language, file)?,
+        (Some(file), _) => Gearbox::read(language, file)?,
         (None, text) => {
             // The entry is checked and completed as that of a gearbox is; the rest is the least that a gearbox needs.
             let entry = text.as_deref().unwrap_or_default().trim();
             let text = format!(
                 "gearloss: gearbox/1\nports: {{ input: shaft }}\nshafts: {{ shaft: {{ axis: [0, 0] }} }}\nlubricants:\n  oil:\n    {entry}\n"
             );
-            Gearbox::of_text(&language, &text, "--oil", Path::new(""))?
+            Gearbox::of_text(language, &text, "--oil", Path::new(""))?
         }
     };
-    let resolved = gearbox.resolve(&language, &Choice::default())?;
+    let resolved = gearbox.resolve(language, &Choice::default())?;
     let oils = resolved.value["lubricants"].as_object();
     let names: Vec<&str> = oils.into_iter().flatten().map(|(id, _)| id.as_str()).collect();
     let id = match (&args.lubricant, &names[..]) {

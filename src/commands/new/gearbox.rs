@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use gearloss_framework::language::{Kind, Language};
+use gearloss_framework::language::Kind;
 
 use super::{next, schema_beside, word, write};
 use crate::args::{Layout, NewGearboxArgs};
@@ -50,7 +50,13 @@ pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
     let start = Start::of(layout);
     let file = args.output.as_path();
     write(file, start.text, out)?;
-    schema_beside(file, &Language::linked()?, Kind::Gearbox, "gearbox.schema.json", out)?;
+    schema_beside(
+        file,
+        super::super::language()?,
+        Kind::Gearbox,
+        "gearbox.schema.json",
+        out,
+    )?;
     let name = word(file);
     next(
         &[

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::{Kind, Language};
+use gearloss_framework::language::Kind;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
@@ -19,28 +19,28 @@ const STUDY: &str = include_str!("study.yaml");
 const SHIPPED: [&str; 2] = ["iso14179_2", "joint"];
 
 pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
+    let language = super::super::language()?;
     if !args.gearbox.is_file() {
         return Err(Failure::input(
             format!("there is no gearbox {}", args.gearbox.display()),
             "start one with `gearloss new gearbox LAYOUT`, or name yours with --gearbox",
         ));
     }
-    let gearbox = Gearbox::read(&language, &args.gearbox)?;
-    let transmission = gearbox.transmission(&language, &Choice::default())?;
+    let gearbox = Gearbox::read(language, &args.gearbox)?;
+    let transmission = gearbox.transmission(language, &Choice::default())?;
     let fits = |set: &str| {
         let choice = Choice {
             set: Some(set.to_owned()),
             ..Choice::default()
         };
-        gearbox.transmission(&language, &choice).is_ok()
+        gearbox.transmission(language, &choice).is_ok()
     };
     let unfit = SHIPPED.into_iter().find(|set| !fits(set));
     let start = Start::of(&transmission, unfit.is_none())?;
     let file = args.output.as_path();
     let path = seen_from(folder(file), &args.gearbox);
     write(file, &start.study(&path), out)?;
-    schema_beside(file, &language, Kind::Study, "study.schema.json", out)?;
+    schema_beside(file, language, Kind::Study, "study.schema.json", out)?;
     out.line(format!(
         "gear state `{}`, the first that drives; torque and speed at `{}`",
         start.gear, start.port

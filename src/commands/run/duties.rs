@@ -60,8 +60,8 @@ impl<'a> Duties<'a> {
             let Some(cycle) = study.cycles.get(name) else { continue };
             let at = format!("cycles.{name}");
             let read = |file: &str| {
-                let bytes =
-                    read_bytes(&runner.study.folder.join(file), LONGEST_DATA).map_err(|e| format!("cannot read {file}: {e}"))?;
+                let bytes = read_bytes(&runner.study.folder.join(file), LONGEST_DATA)
+                    .map_err(|e| format!("cannot read {file}: {e}"))?;
                 let known = (file.to_owned(), hash(&bytes));
                 if !runner.read.borrow().contains(&known) {
                     runner.read.borrow_mut().push(known);

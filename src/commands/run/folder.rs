@@ -79,7 +79,11 @@ pub fn is_unfinished(folder: &Path) -> bool {
 /// What no other run writes at this time.
 fn token() -> String {
     let since = std::time::UNIX_EPOCH.elapsed().unwrap_or_default();
-    format!("process {}, begun {} ns after 1970\n", std::process::id(), since.as_nanos())
+    format!(
+        "process {}, begun {} ns after 1970\n",
+        std::process::id(),
+        since.as_nanos()
+    )
 }
 
 fn busy(folder: &Path, mark: &Path) -> Failure {
@@ -168,7 +172,11 @@ mod tests {
         let Err(Failure::Input(refused)) = Held::take(&folder) else {
             panic!("two runs hold one folder");
         };
-        let own = format!("another run writes into {}: process {}", folder.display(), std::process::id());
+        let own = format!(
+            "another run writes into {}: process {}",
+            folder.display(),
+            std::process::id()
+        );
         assert!(refused.contains(&own) || cfg!(windows), "{refused}");
         // Broken off: the lock is gone, the mark is not.
         let (part, _) = temporary(&folder.join("map.csv")).unwrap();

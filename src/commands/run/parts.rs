@@ -187,9 +187,8 @@ impl Outcome {
     pub fn read(part: &Path, name: &str) -> Option<Self> {
         let mut outcome: Self = load(&part.join(name).join("outcome.json"))?;
         outcome.folder = Self::folder(part, name);
-        let is_whole = |(file, known): &(String, String)| {
-            hash_of(&outcome.folder.join(file)).is_ok_and(|hash| hash == *known)
-        };
+        let is_whole =
+            |(file, known): &(String, String)| hash_of(&outcome.folder.join(file)).is_ok_and(|hash| hash == *known);
         outcome.files.iter().all(is_whole).then_some(outcome)
     }
 

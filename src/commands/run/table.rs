@@ -214,7 +214,17 @@ mod tests {
         for number in ["-5.5", "+1e-3", "12", "", "-0"] {
             assert_eq!(inert(number), number);
         }
-        for text in ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1", "-", "-inf", "+NaN"] {
+        for text in [
+            "=1+1",
+            "+cmd|' /C calc'!A0",
+            "-2+3",
+            "@SUM(A1)",
+            "\t=1",
+            "\r=1",
+            "-",
+            "-inf",
+            "+NaN",
+        ] {
             assert_eq!(inert(text), format!("'{text}"));
         }
         assert_eq!(inert("a=b"), "a=b");
