@@ -130,7 +130,7 @@ fn changed_documents_are_refused_or_answered() {
     let logs: Vec<String> = std::thread::scope(|scope| {
         let begun: Vec<_> = (0..processes)
             .map(|k| {
-                let folder = folder(&format!("process-{k}"));
+                let folder = folder(&format!("seed-{}-process-{k}", seed()));
                 scope.spawn(move || all_of(&folder, k, count, processes))
             })
             .collect();
