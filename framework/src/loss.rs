@@ -9,7 +9,7 @@ pub use notebook::Notebook;
 use std::cell::{Cell, RefCell};
 
 /// The most terms that one model may have.
-pub const MOST_TERMS: usize = 4;
+pub const MOST_TERMS: usize = 5;
 
 /// The most numbers that a model may keep over the passes of one point, and over all points that differ in torque alone.
 pub const MOST_KEPT: usize = 6;
@@ -175,8 +175,8 @@ impl Loss {
     #[inline]
     pub fn is_sound(&self) -> bool {
         // What is negative or no number fails the first comparison, infinity the second.
-        let [a, b, c, d] = self.values;
-        a >= 0.0 && b >= 0.0 && c >= 0.0 && d >= 0.0 && self.sum() < f64::INFINITY
+        let [a, b, c, d, e] = self.values;
+        a >= 0.0 && b >= 0.0 && c >= 0.0 && d >= 0.0 && e >= 0.0 && self.sum() < f64::INFINITY
     }
 }
 

@@ -7,6 +7,10 @@
 //! (Morales-Espejel and Wemekamp) is not public. `beyond: hold` keeps the speed of the drag there, by a convention of this program.
 //! At vanishing axial load the formulas of deep groove ball bearings do not join, as published: `blend_to` joins them.
 //! Needle roller bearings have no row; double rows count the whole load once.
+//! Load-independent is what remains without load: drag, seals, and in angular contact, four-point and self-aligning ball bearings
+//! what the centrifugal force of the balls adds to G_rr and G_sl (term `centrifugal`: both at Fr = Fa = 0). All else is
+//! load-dependent. In all other kinds G_rr and G_sl vanish with the load, so a dry one without seals has no load-independent
+//! loss, where Palmgren's form has its M0. No-load losses of both are compared at zero torque, not by this split.
 //! Editions differ in the coefficient of boundary friction: 0.15, and 0.12 running in 2018.
 
 mod drag;
@@ -31,6 +35,7 @@ const ROLLING: Term = Term::load(0, "rolling");
 const SLIDING: Term = Term::load(1, "sliding");
 const DRAG: Term = Term::no_load(2, "drag");
 const SEAL: Term = Term::no_load(3, "seal");
+const CENTRIFUGAL: Term = Term::no_load(4, "centrifugal");
 const SPEED: Limit = Limit::new(0, "n d_m", "mm/min", 0.0, 0.5e6, "above, drag follows other laws");
 const VISCOSITY: Limit = Limit::new(
     1,
@@ -343,10 +348,16 @@ impl BearingModel for Model {
         at.show("phi_rs", "-", moments.phi_rs);
         let m_rr = at.show("M_rr", "N mm", moments.rolling * g_rr);
         let m_sl = at.show("M_sl", "N mm", moments.mu_sl * g_sl);
-        let loss = Loss::MOMENTS
-            .with(&ROLLING, m_rr.nmm_in_nm())
-            .with(&SLIDING, m_sl.nmm_in_nm())
+        let (rolling_0, sliding_0) = self.variables.without_load(n);
+        let (m_rr_0, m_sl_0) = (moments.rolling * rolling_0, moments.mu_sl * sliding_0);
+        let mut loss = Loss::MOMENTS
+            .with(&ROLLING, (m_rr - m_rr_0).max(0.0).nmm_in_nm())
+            .with(&SLIDING, (m_sl - m_sl_0).max(0.0).nmm_in_nm())
             .with(&SEAL, seals);
+        if self.variables.feel_centrifugal_force() {
+            let centrifugal = at.show("M_rr + M_sl without load", "N mm", m_rr_0 + m_sl_0);
+            loss = loss.with(&CENTRIFUGAL, centrifugal.nmm_in_nm());
+        }
         if self.drag.is_none() {
             return Ok(loss);
         }
@@ -434,7 +445,7 @@ register!(Bearing, "skf", Skf,
         default_of("needle_as_full_complement", Evidence::Assumed, "no row is published"),
         default_of("full_replenishment", Evidence::OneSource, "starvation as in the catalogue"),
     ],
-    limits: [SPEED, VISCOSITY, VISCOSITY_DEEP, OUTER], terms: [ROLLING, SLIDING, DRAG, SEAL], observed: [MU_SL, PHI_BL], prepare: prepare);
+    limits: [SPEED, VISCOSITY, VISCOSITY_DEEP, OUTER], terms: [ROLLING, SLIDING, DRAG, SEAL, CENTRIFUGAL], observed: [MU_SL, PHI_BL], prepare: prepare);
 
 #[cfg(test)]
 mod tests {
@@ -499,6 +510,46 @@ mod tests {
             .at(3000.0, 0.0, 3000.0, 15.0, None);
         close(g_rr, 0.0998062);
         close(g_sl, 598.636);
+    }
+
+    /// A 7208 BE, d_m 60 mm, dry.
+    fn angular() -> BearingPart {
+        let entry = BearingEntry {
+            kind: Some(BearingKind::AngularContactBall),
+            series: Some("72 BE".to_owned()),
+            bore: Some(0.040),
+            outside: Some(0.080),
+            lubrication: Lubrication::Grease,
+            ..BearingEntry::default()
+        };
+        BearingPart::try_from(entry).unwrap()
+    }
+
+    #[test]
+    fn what_remains_without_load_is_load_independent() {
+        let part = angular();
+        let model = Model::new(&params(), &part).unwrap();
+        let loaded = model.loss(&at(&part, 2000.0, 1500.0, 0.0)).unwrap();
+        let unloaded = model.loss(&at(&part, 0.0, 0.0, 0.0)).unwrap();
+        // By hand from the row 72 BE: Fg = 2.44e-12 60^4 3000^2 = 284.6 N in both load variables.
+        let force = 2.44e-12 * 60.0_f64.powi(4) * 3000.0 * 3000.0;
+        let (g_rr, g_sl) = (
+            4.33e-7 * 60.0_f64.powf(1.97) * force.powf(0.54),
+            1.82e-2 * 60.0_f64.powf(0.26) * force.powf(4.0 / 3.0),
+        );
+        let moments = model.moments(&at(&part, 0.0, 0.0, 0.0), 3000.0);
+        let by_hand = moments.rolling * g_rr + moments.mu_sl * g_sl;
+        close(unloaded.value(CENTRIFUGAL.index) * 1e3, by_hand);
+        assert_eq!([0, 1, 2, 3].map(|i| unloaded.value(i)), [0.0; 4]);
+        assert_eq!(
+            loaded.value(CENTRIFUGAL.index).to_bits(),
+            unloaded.value(CENTRIFUGAL.index).to_bits()
+        );
+        // The split moves nothing between model and sum: 4 additions of positive numbers round by at most 4 epsilon.
+        let (g_rr, g_sl) = model.variables.at(2000.0, 1500.0, 3000.0, 15.0, None);
+        let whole = (moments.rolling * g_rr + moments.mu_sl * g_sl) * 1e-3;
+        assert!((loaded.sum() / whole - 1.0).abs() < 4.0 * f64::EPSILON);
+        assert!(loaded.value(0) > 0.0 && loaded.value(1) > 0.0);
     }
 
     #[test]

@@ -415,6 +415,20 @@ impl Variables {
         matches!(self, Self::DeepGroove { .. })
     }
 
+    /// Whether the centrifugal force of the balls counts beside the load.
+    pub fn feel_centrifugal_force(&self) -> bool {
+        matches!(self, Self::Ball { .. })
+    }
+
+    /// G_rr and G_sl that remain at a speed in 1/min where the bearing carries no load; zero for all kinds but
+    /// [`Variables::Ball`].
+    pub fn without_load(&self, n: f64) -> (f64, f64) {
+        match self {
+            Self::Ball { .. } => self.at(0.0, 0.0, n, 0.0, None),
+            _ => (0.0, 0.0),
+        }
+    }
+
     /// As [`Variables::at`] in all lanes, for kinds that have them, with powers that may be remembered.
     #[inline(always)]
     pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>, powers: &mut Powers) -> (Lane, Lane) {
