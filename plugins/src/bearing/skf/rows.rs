@@ -331,7 +331,8 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
                 rolling: (2.25e-6 * d_m.powf(2.38), 0.31),
                 sliding: (0.154 * d_m.powf(0.62), 1.0),
             };
-            roller(variables, 4.4, 0.43, Some(0.02))
+            // The 0.02 of "cylindrical roller bearings" is that of radial ones: see the head of the model.
+            roller(variables, 4.4, 0.43, None)
         }
         K::SphericalRollerThrust => {
             let [r1, r2, r3, r4, s1, s2, s3, s4, s5] = pick(SPHERICAL_THRUST, part)?;
