@@ -33,4 +33,14 @@ pub struct MapEntry {
     /// Tables of losses for other programs, one file for each gear state; a grid is needed.
     #[serde(default)]
     pub export: Vec<Export>,
+    /// Largest share of the loss torque by which the straight lines of a `lossy_gear` table may miss it at a point of the grid;
+    /// above it the table is refused. [-]
+    #[serde(default = "quarter")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub lossy_gear_limit: f64,
+}
+
+/// About what sets of models differ by among themselves.
+fn quarter() -> f64 {
+    0.25
 }

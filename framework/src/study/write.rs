@@ -35,8 +35,10 @@ impl Write {
 pub enum Export {
     /// Loss torque over input speed and torque as VECTO reads it, for engineering mode.
     Vecto,
-    /// Efficiency over torque and speed as a script with the vectors of Simulink's gearbox blocks.
+    /// Efficiency and loss torque over torque, speed and, where several were computed, oil temperature, as a script with the
+    /// vectors of Simulink's gearbox blocks.
     Matlab,
-    /// Efficiency and bearing friction over speed for `LossyGear` of the Modelica Standard Library, a fit.
+    /// Efficiency and bearing friction over speed for `LossyGear` of the Modelica Standard Library: straight lines from the no-load
+    /// loss, a fit by relative deviation.
     LossyGear,
 }

@@ -61,10 +61,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
     } else {
         maps.iter().try_for_each(|map| map.show(name, out))?;
     }
-    for export in &entry.export {
-        for line in export::write(runner, name, *export, &maps)? {
-            out.line(format!("{name}: {line}"))?;
-        }
+    for line in export::write(runner, name, entry, &maps)? {
+        out.line(format!("{name}: {line}"))?;
     }
     let measured = match &entry.measured {
         Some(data) => runner.read(&format!("{path}.measured"), data, &[])?,
