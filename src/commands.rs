@@ -13,17 +13,15 @@ pub mod new;
 mod point;
 pub mod run;
 pub mod schema;
+mod set;
 pub mod solve;
 
 use std::sync::OnceLock;
 
-use gearloss_framework::document::{Sources, read_yaml};
-use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
-use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
-use crate::args::ChoiceArgs;
 use crate::output::{Failure, Out};
 
 /// The language of everything that is linked into the program, put together once however many commands it runs.
@@ -35,35 +33,6 @@ fn language() -> Result<&'static Language, Failure> {
     }
     let bug = || Failure::input("bug: the language was put together and is not there", "report this");
     LINKED.get().ok_or_else(bug)
-}
-
-/// Models and overrides from the arguments.
-fn choice(args: &ChoiceArgs) -> Result<Choice, Failure> {
-    let mut overrides = Vec::new();
-    for text in &args.set {
-        let Some((path, value)) = text.split_once('=') else {
-            return Err(Failure::input(
-                format!("--set {text}: no `=`"),
-                "write --set PATH=VALUE",
-            ));
-        };
-        let mut sources = Sources::default();
-        let source = sources.add(format!("--set {path}"), value);
-        let read = read_yaml(source, value.trim());
-        if !read.findings.is_empty() {
-            return Err(Findings {
-                list: read.findings,
-                sources,
-            }
-            .into());
-        }
-        overrides.push((path.trim().to_owned(), read.node.to_json()));
-    }
-    Ok(Choice {
-        set: args.models.clone(),
-        overrides,
-        ..Choice::default()
-    })
 }
 
 /// Prints what was noticed while building, to standard error.

@@ -14,6 +14,7 @@ mod commands;
 mod interrupt;
 mod output;
 mod report;
+mod threads;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -65,6 +66,7 @@ pub fn call(args: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn run(args: Args) -> Result<End, Failure> {
+    threads::limit()?;
     let mut out = Out::standard();
     match args.command {
         Command::Check(args) => commands::check::run(&args, &mut out),

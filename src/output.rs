@@ -189,7 +189,29 @@ impl Table {
 
 /// A number with a sensible number of digits; a dash where there is none.
 pub fn number(value: Option<f64>, digits: usize) -> String {
-    value.map_or_else(|| "-".to_owned(), |x| format!("{x:.digits$}"))
+    value.map_or_else(|| "-".to_owned(), |x| fixed(x, digits))
+}
+
+/// A number with some digits behind the point; in engineering notation from a thousand million on, where all its digits would say
+/// nothing, and a dash where it is none.
+pub fn fixed(x: f64, digits: usize) -> String {
+    if !x.is_finite() {
+        return "-".to_owned();
+    }
+    if x.abs() < 1e9 {
+        return format!("{x:.digits$}");
+    }
+    // Six significant digits, the exponent a multiple of three.
+    let text = format!("{x:.5e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let (mantissa, exponent): (f64, i32) = (mantissa.parse().unwrap_or(x), exponent.parse().unwrap_or(0));
+    let shift = exponent.rem_euclid(3);
+    format!(
+        "{:.*}e{}",
+        5 - shift as usize,
+        mantissa * 10_f64.powi(shift),
+        exponent - shift
+    )
 }
 
 /// A number in six significant digits.
@@ -213,5 +235,21 @@ pub fn figures(x: f64, count: u32) -> String {
         }
     } else {
         format!("{x:.*e}", count.saturating_sub(1) as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{fixed, number};
+
+    #[test]
+    fn huge_numbers_are_short() {
+        assert_eq!(fixed(8000.0, 2), "8000.00");
+        assert_eq!(fixed(-999_999_999.4, 0), "-999999999");
+        assert_eq!(fixed(1e9, 2), "1.00000e9");
+        assert_eq!(fixed(-12_345_678_901.0, 2), "-12.3457e9");
+        assert_eq!(number(Some(9.999_999e299), 4), "1.00000e300");
+        assert_eq!(fixed(f64::MAX, 1), "179.769e306");
+        assert_eq!(fixed(f64::INFINITY, 1), "-");
     }
 }

@@ -427,3 +427,95 @@ fn results_are_replaced_openly_and_other_files_are_left_alone() {
     );
     assert_eq!(run(&["--deny", "recalled"]).status.code(), Some(2));
 }
+
+#[test]
+fn faults_of_an_override_point_into_the_option() {
+    let wrong = |set: &str| {
+        let output = gearloss(&[
+            "solve", GEARBOX, "--gear", "first", "--torque", "1 Nm", "--speed", "1000 rpm", "--set", set,
+        ]);
+        assert_eq!(output.status.code(), Some(2), "{set}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    for (set, column, carets) in [
+        ("bearings.B9.bore=3 mm", 10, "^^"),
+        ("gears.G1.facewith=3 mm", 10, "^^^^^^^^"),
+        ("gears.G1.facewidth=3 kg", 20, "^^^^"),
+        ("gears.*.facewidth = 3 kg", 21, "^^^^"),
+        ("thermal.oil=-400 degC", 13, "^^^^^^^^^"),
+        ("models.bearing.type=skf", 1, "^^^^^^"),
+        ("gears.G1.z=[1", 12, "^"),
+        ("nonsense", 1, "^^^^^^^^"),
+    ] {
+        let text = wrong(set);
+        assert!(text.contains(&format!(" --> --set:1:{column}\n")), "{set}: {text}");
+        let marked = format!("| {set}\n");
+        let under = text.split(&marked).nth(1).unwrap_or_else(|| panic!("{set}: {text}"));
+        let under = under.lines().next().unwrap();
+        let (_, under) = under.split_once("| ").unwrap();
+        assert_eq!(
+            under.trim_end(),
+            format!("{}{carets}", " ".repeat(column - 1)),
+            "{set}: {text}"
+        );
+    }
+    // Of what else is wrong nothing points there.
+    let output = gearloss(&[
+        "solve",
+        "tests/cases/wrong_unit/input.yaml",
+        "--speed",
+        "1 rpm",
+        "--set",
+        "thermal.oil=40 degC",
+    ]);
+    assert!(!String::from_utf8(output.stderr).unwrap().contains("--set"));
+}
+
+#[test]
+fn faults_of_an_input_of_eval_have_file_and_line() {
+    let folder = std::env::temp_dir().join(format!("gearloss-eval-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let wrong = |model: &str, input: &str| {
+        let file = folder.join("input.yaml");
+        std::fs::write(&file, input).unwrap();
+        let output = gearloss(&["eval", model, "--input", file.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2), "{input}");
+        (file.display().to_string(), String::from_utf8(output.stderr).unwrap())
+    };
+    for (model, input, place) in [
+        // Found while building: a tapered bearing needs `y`.
+        (
+            "bearing/skf",
+            "# a bearing\npart: { kind: tapered_roller, series: \"302\", bore: 30 mm, outside: 62 mm, width: 17 mm }\n",
+            ":2:1",
+        ),
+        (
+            "bearing/skf",
+            "at: { speed: 100 rpm }\nmodel: { type: timken }\n",
+            ":2:",
+        ),
+        ("bearing/skf", "\nat: { speed: 3 kg }\n", ":2:14"),
+    ] {
+        let (file, text) = wrong(model, input);
+        assert!(text.contains(&format!(" --> {file}{place}")), "{input}: {text}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn too_many_threads_are_limited_with_a_note() {
+    let output = Command::cargo_bin("gearloss")
+        .unwrap()
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .env("RAYON_NUM_THREADS", "20000")
+        .args(["check", GEARBOX])
+        .timeout(std::time::Duration::from_secs(60))
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        text.contains("note: RAYON_NUM_THREADS=20000: ") && text.contains(" threads are used"),
+        "{text}"
+    );
+}

@@ -67,6 +67,22 @@ fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
 }
 
 #[test]
+fn a_tiny_measured_loss_has_no_deviation_in_percent() {
+    let study = "analyses:\n  tests: { type: operating_points, data: { file: points.csv, faulty_rows: keep }, bind: { volume: housing.oil.volume } }\n";
+    let tiny = format!("{POINTS}tiny,1000,-16,60,1e-300,\n");
+    let (folder, text) = run("tiny", study, &[("points.csv", &tiny)]);
+    let fast = number(&json(&folder, "tests")["operating_points"][0]["points"][0]["loss_w"]);
+    let gap = 100.0 * (fast / 60.0 - 1.0);
+    assert!(
+        text.contains(&format!(
+            "loss minus measurement in %: mean {gap:.2}, worst {gap:.2}, 1 points"
+        )) && text.contains("note: 1 points are omitted"),
+        "{text}"
+    );
+    assert!(!text.contains("inf"), "{text}");
+}
+
+#[test]
 fn a_faulty_file_of_points_is_refused_with_line_and_column() {
     let study = "analyses:\n  tests: { type: operating_points, data: { file: points.csv, faulty_rows: keep }, bind: { volume: housing.oil.volume } }\n";
     for (text, said) in [

@@ -79,6 +79,7 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
     let (example, mut part) = language.example_of(entry).map_err(found)?;
     let mut model = None;
     let mut at = Map::new();
+    let mut places = None;
     if !input.trim().is_empty() {
         let read = read_yaml(source, input);
         if !read.findings.is_empty() {
@@ -88,6 +89,16 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         if !walked.findings.is_empty() {
             return Err(found(walked.findings));
         }
+        // What is not written itself is shown where the input begins.
+        let start = read.node.span;
+        let place = move |finding: Diagnostic| {
+            let finding = walked.places.place(finding);
+            if finding.spans.is_empty() {
+                finding.at(start)
+            } else {
+                finding
+            }
+        };
         let Value::Object(mut written) = walked.value else {
             return Err(found(vec![
                 Diagnostic::error("", "the input is no record").mend("write `part`, `at` or `model`"),
@@ -96,9 +107,9 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         if let Some(own) = written.remove("model") {
             let of = own.as_str().or_else(|| own["type"].as_str()).unwrap_or_default();
             if of != entry.name {
-                let error = Diagnostic::error("", format!("the input is for `{of}`, not for `{}`", entry.name));
+                let error = Diagnostic::error("model", format!("the input is for `{of}`, not for `{}`", entry.name));
                 let mend = format!("write `model: {{ type: {} }}`, or leave `model` out", entry.name);
-                return Err(found(vec![error.mend(mend)]));
+                return Err(found(vec![place(error.mend(mend))]));
             }
             model = Some(own);
         }
@@ -108,6 +119,7 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         if let Some(Value::Object(own)) = written.remove("at") {
             at = own;
         }
+        places = Some(place);
     }
     let files = Files::beside(folder.to_path_buf());
     // The example has its own files; to a record that somebody writes they serve where the folder has none of their name.
@@ -117,7 +129,12 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         }
     }
     let model = model.unwrap_or(example);
-    (mechanism.eval)(language.registry(), &files, &model, &part, &at).map_err(|error| found(vec![error]))
+    (mechanism.eval)(language.registry(), &files, &model, &part, &at).map_err(|error| {
+        found(vec![match &places {
+            Some(place) => place(error),
+            None => error,
+        }])
+    })
 }
 
 /// Evaluates a model of a mechanism on a part, at the usual context with the given quantities changed; all values SI.

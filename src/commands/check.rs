@@ -6,16 +6,14 @@ use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
-use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::Study;
 
-use super::choice;
-use crate::args::CheckArgs;
+use super::set;
+use crate::args::{CheckArgs, ChoiceArgs};
 use crate::output::{End, Failure, Out};
 
 pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
-    let choice = choice(&args.choice)?;
     let deny = match &args.deny {
         Some(name) => Some(grade(name)?),
         None => None,
@@ -28,7 +26,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
                 .and_then(|study| study.check(language))
                 .map(|()| format!("{}: fine\n", file.display()))
         } else {
-            gearbox(language, file, &choice, args.resolved).map(|(text, weakest)| {
+            gearbox(language, file, &args.choice, args.resolved).map(|(text, weakest)| {
                 if deny.is_some_and(|deny| weakest.is_some_and(|w| w >= deny)) {
                     end = End::Finding;
                     return text + &format!("  denied: {}\n", args.deny.as_deref().unwrap_or_default());
@@ -69,11 +67,11 @@ fn is_study(file: &std::path::Path) -> bool {
 fn gearbox(
     language: &Language,
     file: &std::path::Path,
-    choice: &Choice,
+    choice: &ChoiceArgs,
     print: bool,
 ) -> Result<(String, Option<Evidence>), Findings> {
     let gearbox = Gearbox::read(language, file)?;
-    let resolved = gearbox.resolve(language, choice)?;
+    let resolved = set::resolve(language, &gearbox, choice)?;
     let transmission = gearbox.build(language, &resolved)?;
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
     let weakest = known.first().map(|w| w.grade);

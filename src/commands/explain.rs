@@ -7,17 +7,16 @@ use gearloss_framework::resolve::{Came, Resolved, lookup};
 use gearloss_framework::transmission::{PartInfo, Transmission};
 use serde_json::Value;
 
-use super::choice;
 use super::point::prepare;
 use super::solve::{RPM, heading, of_warmth};
-use super::warn;
+use super::{set, warn};
 use crate::args::ExplainArgs;
 use crate::output::{End, Failure, Out, significant};
 
 pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
     let gearbox = Gearbox::read(language, &args.gearbox)?;
-    let resolved = gearbox.resolve(language, &choice(&args.choice)?)?;
+    let resolved = set::resolve(language, &gearbox, &args.choice)?;
     let transmission = gearbox.build(language, &resolved)?;
     warn(&gearbox, &transmission)?;
     let ways = ways_of(&transmission, &args.component);

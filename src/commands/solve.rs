@@ -14,7 +14,7 @@ use super::check::grade;
 use super::network::{json_of_network, of_network};
 use super::point::{Prepared, prepare};
 use super::run::tidy;
-use super::{choice, warn};
+use super::{set, warn};
 use crate::args::{Format, SolveArgs};
 use crate::output::{End, Failure, Out, Table, number, significant};
 
@@ -24,7 +24,7 @@ pub const RPM: f64 = 30.0 / std::f64::consts::PI;
 pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
     let gearbox = Gearbox::read(language, &args.gearbox)?;
-    let resolved = gearbox.resolve(language, &choice(&args.choice)?)?;
+    let resolved = set::resolve(language, &gearbox, &args.choice)?;
     let transmission = gearbox.build(language, &resolved)?;
     warn(&gearbox, &transmission)?;
     let prepared = prepare(&args.point, &gearbox, &transmission)?;

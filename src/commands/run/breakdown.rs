@@ -12,7 +12,7 @@ use super::super::solve::{RPM, outside};
 use super::map::tidy;
 use super::write::{head, write};
 use super::{Built, Runner, axis, gear_of, speeds, torques};
-use crate::output::{Failure, Out};
+use crate::output::{Failure, Out, fixed};
 
 pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
@@ -40,7 +40,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
             Over::Speed => loads
                 .iter()
                 .map(|load| {
-                    let bars = speeds.iter().map(|w| (format!("{:.0}", w * RPM), at(load, *w)));
+                    let bars = speeds.iter().map(|w| (fixed(w * RPM, 0), at(load, *w)));
                     (load.words(), bars.collect())
                 })
                 .collect(),
@@ -48,7 +48,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
                 .iter()
                 .map(|w| {
                     let bars = loads.iter().map(|load| (load.number(), at(load, *w)));
-                    (format!("{:.0} rpm", w * RPM), bars.collect())
+                    (format!("{} rpm", fixed(w * RPM, 0)), bars.collect())
                 })
                 .collect(),
         };
@@ -235,7 +235,7 @@ pub fn spin_loss(runner: &Runner<'_>, name: &str, entry: &SpinLossEntry, out: &m
             let row = Row {
                 over: "speed in rpm",
                 title,
-                bars: bars_of.map(|p| (format!("{:.0}", p.speed * RPM), None, p)).collect(),
+                bars: bars_of.map(|p| (fixed(p.speed * RPM, 0), None, p)).collect(),
             };
             bars.show(runner, b, gear, &row, out)?;
             let seen = notes(t, &solved.seen);
@@ -282,7 +282,10 @@ pub fn temperature_sweep(
                     };
                     (format!("{oil}"), given)
                 });
-                rows.push((format!("{} Nm, {:.0} rpm", tidy(*torque), speed * RPM), bars.collect()));
+                rows.push((
+                    format!("{} Nm, {} rpm", tidy(*torque), fixed(speed * RPM, 0)),
+                    bars.collect(),
+                ));
             }
         }
         solve(

@@ -17,7 +17,7 @@ use super::super::solve::RPM;
 use super::map::{spread, tidy};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, speeds, torques};
-use crate::output::{Failure, Out, Table, number};
+use crate::output::{Failure, Out, Table, fixed, number};
 
 /// The component under one model at one point.
 struct Answer {
@@ -309,7 +309,7 @@ fn show(
     for (t, torque) in torques.iter().enumerate() {
         out.line(format!("{name}: loss in W of {}, {torque} Nm", entry.component))?;
         let mut titles = vec!["model".to_owned(), "term".to_owned()];
-        titles.extend(shown.iter().map(|i| format!("{:.0} rpm", speeds[*i] * RPM)));
+        titles.extend(shown.iter().map(|i| format!("{} rpm", fixed(speeds[*i] * RPM, 0))));
         let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
         for model in models {
             let at = |i: usize| &model.answers[t * speeds.len() + i];

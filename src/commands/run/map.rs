@@ -28,7 +28,7 @@ use self::rows::RowsOf;
 use self::taken::{Taken, Taker};
 use super::super::solve::{RPM, outside};
 use super::{Built, Runner};
-use crate::output::{Failure, Out, Table, number};
+use crate::output::{Failure, Out, Table, fixed, number};
 
 /// The most rows and columns of a table on the terminal.
 const SHOWN: usize = 8;
@@ -323,7 +323,7 @@ impl Map<'_> {
                 let p = &self.kept.points[i];
                 table.row(vec![
                     format!("{}", tidy(p.torque)),
-                    format!("{:.0}", p.speed * RPM),
+                    fixed(p.speed * RPM, 0),
                     number(p.oil, 1),
                     number(percent(p), 2),
                     number(p.loss, 2),
@@ -355,7 +355,7 @@ impl Map<'_> {
     fn table(&self, Shown { axes, places }: &Shown, quantity: &dyn Fn(&Brief) -> Option<f64>) -> String {
         let shown = spread(axes.speeds.len());
         let mut head = vec!["torque Nm".to_owned()];
-        head.extend(shown.iter().map(|i| format!("{:.0} rpm", axes.speeds[*i] * RPM)));
+        head.extend(shown.iter().map(|i| format!("{} rpm", fixed(axes.speeds[*i] * RPM, 0))));
         let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
         for t in spread(axes.torques.len()) {
             let mut row = vec![format!("{}", tidy(axes.torques[t]))];

@@ -14,7 +14,7 @@ use super::map::tidy;
 use super::rows::Solved;
 use super::shares::{Shares, together};
 use super::write::{cell, head, picture, write};
-use crate::output::{Failure, Out, Table, number};
+use crate::output::{Failure, Out, Table, fixed, number};
 
 /// What may have been measured: quantity and unit.
 const MEASURED: [(&str, &str); 6] = [
@@ -175,7 +175,12 @@ fn result(entry: &OperatingPointsEntry, solved: &Solved<'_>, names: &[String], p
 fn bar(at: &At<'_>) -> Bar {
     let degrees = |t: Option<f64>| t.map_or_else(String::new, |t| format!("{t:.0} °C"));
     let [loss, accuracy, oil, _, surface, _] = at.measured;
-    let mut label = format!("{}\n{:.0} rpm\n{} Nm", at.name, at.point.speed * RPM, at.point.torque);
+    let mut label = format!(
+        "{}\n{} rpm\n{} Nm",
+        at.name,
+        fixed(at.point.speed * RPM, 0),
+        at.point.torque
+    );
     for value in &at.row.bound {
         label.push_str(&format!("\n{value}"));
     }
@@ -212,7 +217,7 @@ fn show(
         let mut cells = vec![at.name.clone()];
         cells.extend(at.row.bound.iter().cloned());
         cells.push(format!("{}", p.torque));
-        cells.push(format!("{:.0}", p.speed * RPM));
+        cells.push(fixed(p.speed * RPM, 0));
         cells.push(match (p.oil, p.balance) {
             (None, Some(outcome)) => outcome.name().to_owned(),
             (oil, _) => number(oil, 1),
@@ -229,7 +234,15 @@ fn show(
     }
     out.text(&table.render())?;
     let gaps = |f: &dyn Fn(&At<'_>) -> Option<f64>| -> Vec<f64> { points.iter().filter_map(f).collect() };
-    let of_loss = |at: &At<'_>| Some(100.0 * (at.point.loss? / at.measured[0].filter(|m| *m != 0.0)? - 1.0));
+    let of_loss = |at: &At<'_>| {
+        let (loss, seen) = (at.point.loss?, at.measured[0]?);
+        is_measurable(seen, loss).then(|| 100.0 * (loss / seen - 1.0))
+    };
+    let nothing = |at: &&At<'_>| {
+        let both = at.point.loss.zip(at.measured[0]);
+        both.is_some_and(|(loss, seen)| !is_measurable(seen, loss))
+    };
+    let omitted = points.iter().filter(nothing).count();
     let of_oil = |at: &At<'_>| Some(at.point.oil? - at.measured[2]?);
     let of_surface = |at: &At<'_>| Some(at.point.surface? - at.measured[4]?);
     for (gaps, what) in [
@@ -249,5 +262,17 @@ fn show(
             gaps.len()
         ))?;
     }
+    if omitted > 0 {
+        out.line(format!(
+            "note: {omitted} points are omitted from the loss minus measurement in %: their measured loss is below a millionth of \
+             the computed one"
+        ))?;
+    }
     Ok(())
+}
+
+/// Whether a deviation can be stated as a share of a measured loss: no instrument sees a millionth of the loss that is computed,
+/// and a share of nothing is no number.
+fn is_measurable(seen: f64, loss: f64) -> bool {
+    seen != 0.0 && seen.abs() >= 1e-6 * loss.abs()
 }

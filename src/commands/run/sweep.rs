@@ -14,7 +14,7 @@ use super::map::{tidy, word};
 use super::shares::{Shares, together};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, gear_of, speeds, torques};
-use crate::output::{Failure, Out, Table, number};
+use crate::output::{Failure, Out, Table, fixed, number};
 
 /// A quantity in short, in words, and how to read it.
 type Shown = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
@@ -148,7 +148,7 @@ fn show(name: &str, entry: &SweepEntry, words: &[String], all: &[At<'_>], out: &
             titles.extend(words.iter().cloned());
             let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
             for (i, point) in own[0].points.iter().enumerate() {
-                let mut row = vec![format!("{}", point.torque), format!("{:.0}", point.speed * RPM)];
+                let mut row = vec![format!("{}", point.torque), fixed(point.speed * RPM, 0)];
                 row.extend(own.iter().map(|at| number(at.points[i].loss, 2)));
                 table.row(row);
             }
@@ -214,7 +214,7 @@ fn figures(
     for set in sets(all) {
         let first = of(all, set, 0);
         for (i, point) in first[0].points.iter().enumerate() {
-            let at_point = format!("{} Nm, {:.0} rpm", point.torque, point.speed * RPM);
+            let at_point = format!("{} Nm, {} rpm", point.torque, fixed(point.speed * RPM, 0));
             if let Some(second) = &entry.second {
                 let rows = (0..second.values.len()).flat_map(|k| of(all, set, k));
                 let values: Vec<Option<f64>> = rows.map(|at| quantity(&at.points[i])).collect();

@@ -16,7 +16,7 @@ use super::trial::{Left, Trial, left};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, grid_axes};
 use crate::interrupt;
-use crate::output::{Failure, Out, Table, number};
+use crate::output::{Failure, Out, Table, fixed, number};
 
 /// A quantity: name in results, in words, how to read it.
 type Quantity = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
@@ -243,7 +243,7 @@ fn show(
     let columns = s.speeds.len();
     let shown = spread(columns);
     let mut titles = vec!["torque Nm".to_owned()];
-    titles.extend(shown.iter().map(|i| format!("{:.0} rpm", s.speeds[*i] * RPM)));
+    titles.extend(shown.iter().map(|i| format!("{} rpm", fixed(s.speeds[*i] * RPM, 0))));
     let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
     for t in spread(s.torques.len()) {
         let mut row = vec![format!("{}", tidy(s.torques[t]))];

@@ -10,7 +10,7 @@ use super::super::super::solve::{RPM, outside};
 use super::super::map::{spread, tidy};
 use super::super::write::{cell, head, picture, write};
 use super::super::{Runner, grid_axes};
-use crate::output::{Failure, Out, Table, number};
+use crate::output::{Failure, Out, Table, fixed, number};
 
 pub fn run(
     runner: &Runner<'_>,
@@ -97,7 +97,7 @@ pub fn run(
         ))?;
         let shown = spread(speeds.len());
         let mut titles = vec!["torque Nm".to_owned()];
-        titles.extend(shown.iter().map(|i| format!("{:.0} rpm", speeds[*i] * RPM)));
+        titles.extend(shown.iter().map(|i| format!("{} rpm", fixed(speeds[*i] * RPM, 0))));
         let mut table = Table::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
         for t in spread(torques.len()) {
             let mut row = vec![format!("{}", torques[t])];

@@ -14,7 +14,7 @@ use super::super::write::picture;
 use super::lines::Sheet;
 use super::outcome::Outcome;
 use super::tables::losses_by;
-use crate::output::Failure;
+use crate::output::{Failure, fixed};
 
 /// Correlation from which on the joint region of two parameters is drawn, and for how many pairs.
 const JOINT: (f64, usize) = (0.8, 4);
@@ -187,7 +187,7 @@ fn stacks(name: &str, entry: &IdentifyEntry, o: &Outcome<'_>) -> Vec<(String, Fi
                 let share = losses_by(o, which, *row, &shares.mechanisms);
                 let accuracy = seen.accuracy(Quantity::Loss).unwrap_or(0.0);
                 Bar {
-                    label: format!("{:.0}", point.speed * RPM),
+                    label: fixed(point.speed * RPM, 0),
                     shares: share,
                     above: String::new(),
                     measured: seen.loss.map(|loss| (loss, accuracy)),

@@ -7,7 +7,7 @@ use gearloss_framework::study::{Difference, IdentifyEntry, RuleEntry};
 use super::super::super::solve::{RPM, outside};
 use super::super::Runner;
 use super::outcome::Outcome;
-use crate::output::{Failure, Out, Table, figures};
+use crate::output::{Failure, Out, Table, figures, fixed};
 
 /// Condition of unit columns from which on it is told, and from which on it is a warning.
 const CONDITION: [f64; 2] = [30.0, 1000.0];
@@ -324,7 +324,7 @@ fn next(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, o: &Outcome<'_>,
         table.row(vec![
             measure,
             short(at.torque),
-            format!("{:.0}", at.speed * RPM),
+            fixed(at.speed * RPM, 0),
             at.oil.map_or_else(|| "-".to_owned(), short),
             short(choice.gain),
             lacking.map_or_else(

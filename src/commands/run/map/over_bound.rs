@@ -4,7 +4,7 @@ use gearloss_framework::analysis::{OilTemperature, merge, notes};
 
 use super::super::super::solve::{RPM, outside};
 use super::{Brief, Map, set_names, spread, word};
-use crate::output::{Failure, Out, Table, number};
+use crate::output::{Failure, Out, Table, fixed, number};
 
 /// A quantity in words, and how to read it.
 type Shown = (&'static str, fn(&Brief) -> Option<f64>);
@@ -37,7 +37,11 @@ pub fn over_bound(name: &str, maps: &[Map<'_>], out: &mut Out) -> Result<(), Fai
                 of_set[0].gear, points[0].torque
             ))?;
             let mut head = vec![of_set[0].bound[0].0.clone()];
-            head.extend(shown.iter().map(|i| format!("{:.0} rpm", points[*i].speed * RPM)));
+            head.extend(
+                shown
+                    .iter()
+                    .map(|i| format!("{} rpm", fixed(points[*i].speed * RPM, 0))),
+            );
             let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
             for map in &of_set {
                 let mut row = vec![word(&map.bound[0].1)];

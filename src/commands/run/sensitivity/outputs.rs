@@ -8,6 +8,7 @@ use super::super::super::solve::RPM;
 use super::super::map::tidy;
 use super::super::shares::{Shares, together};
 use super::super::trial::why;
+use crate::output::fixed;
 
 /// What an output is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -136,5 +137,5 @@ fn load_dependent(t: &Transmission, name: &str) -> Option<bool> {
 }
 
 fn place(p: &PointResult) -> String {
-    format!("{} Nm, {:.0} rpm", tidy(p.torque), p.speed * RPM)
+    format!("{} Nm, {} rpm", tidy(p.torque), fixed(p.speed * RPM, 0))
 }
