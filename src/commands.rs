@@ -5,6 +5,7 @@ pub mod eval;
 pub mod explain;
 pub mod fit;
 pub mod import;
+mod locking;
 pub mod merge;
 pub mod models;
 mod needs;

@@ -428,6 +428,131 @@ fn results_are_replaced_openly_and_other_files_are_left_alone() {
     assert_eq!(run(&["--deny", "recalled"]).status.code(), Some(2));
 }
 
+const LOCKS: &str = "tests/results/self_locking.yaml";
+
+/// The Wolfrom set of check P6 loses 1.2 % in each ring mesh and locks itself beyond 1.068 %.
+#[test]
+fn a_set_that_locks_itself_has_no_torques_and_says_which_way() {
+    let point = ["solve", LOCKS, "--speed", "3000 rpm"];
+    let at = |torque: &str, more: &[&str]| {
+        let output = gearloss(&[&point[..], &["--torque", torque], more].concat());
+        (output.status.code(), String::from_utf8(output.stdout).unwrap())
+    };
+    let (code, text) = at("-1 Nm", &[]);
+    assert_eq!(code, Some(1));
+    assert!(
+        text.contains("self-locking: no power passes from `output` to `input`, whatever the torque at `output`")
+            && text.contains("locked by meshes.p_r1, meshes.p_out")
+            && text.contains("driven from `input` its efficiency is 46.82 %"),
+        "{text}"
+    );
+    // Nothing that cannot be is printed: no watts but those of no equilibrium are left.
+    let input = text.lines().find(|line| line.starts_with("input")).unwrap();
+    let cells: Vec<&str> = input.split_whitespace().collect();
+    assert_eq!(cells, ["input", "3000.00", "-", "-"]);
+    assert!(!text.contains("sums W"), "{text}");
+    let (_, text) = at("-1 Nm", &["--format", "json"]);
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(value["status"], "self_locking");
+    assert_eq!(
+        value["self_locking"],
+        serde_json::json!({ "from": ["output"], "to": ["input"], "meshes": ["meshes.p_r1", "meshes.p_out"] })
+    );
+    for port in value["ports"].as_array().unwrap() {
+        assert!(port["torque_nm"].is_null() && port["power_w"].is_null(), "{port}");
+        assert!(port["speed_rpm"].is_number());
+    }
+    for part in value["parts"].as_array().unwrap() {
+        assert!(part["loss_w"].is_null() && part["moment_of_one_nm"].is_null(), "{part}");
+        let terms = part["terms"].as_array().unwrap();
+        assert!(terms.iter().all(|term| term["loss_w"].is_null()), "{part}");
+    }
+    assert!(value["sums_w"].is_null() && value["power"]["largest_internal_power_w"].is_null());
+
+    // Pushed from there it turns only because the input pushes too; the status alone says `dragged`.
+    let (code, text) = at("output=100 Nm", &[]);
+    assert_eq!(code, Some(0));
+    assert!(
+        text.contains("status dragged")
+            && text.contains("self-locking: driven from `output` it does not turn by itself")
+            && text.contains("only because `input` (0.0548"),
+        "{text}"
+    );
+    // Driven from the input, and with rings that lose less, nothing locks.
+    for (torque, more) in [
+        ("1 Nm", &[][..]),
+        ("-1 Nm", &["--set", "meshes.*.model.value=0.994"]),
+        ("output=100 Nm", &["--set", "meshes.*.model.value=0.994"]),
+    ] {
+        let (_, text) = at(torque, more);
+        assert!(!text.contains("self-locking"), "{torque}: {text}");
+    }
+    let explained = gearloss(&[
+        "explain",
+        LOCKS,
+        "meshes.sp",
+        "--speed",
+        "3000 rpm",
+        "--torque",
+        "-1 Nm",
+    ]);
+    let explained = String::from_utf8(explained.stdout).unwrap();
+    assert!(explained.contains("self-locking: no power passes"), "{explained}");
+}
+
+/// Drag that exceeds a small torque is no self-locking: pushing harder helps.
+#[test]
+fn a_torque_below_the_no_load_loss_is_only_dragged() {
+    let text = out(&[
+        "solve", GEARBOX, "--gear", "first", "--torque", "0.01 Nm", "--speed", "8000 rpm",
+    ]);
+    assert!(
+        text.contains("status dragged") && !text.contains("self-locking"),
+        "{text}"
+    );
+}
+
+#[test]
+fn an_ideal_flow_that_loses_more_than_goes_in_has_a_status_of_its_own() {
+    let args = [
+        "solve",
+        GEARBOX,
+        "--gear",
+        "first",
+        "--torque",
+        "0.01 Nm",
+        "--speed",
+        "8000 rpm",
+        "--power-flow",
+        "ideal",
+    ];
+    let text = out(&args);
+    assert!(text.contains("status loss_above_input"), "{text}");
+    let output = text.lines().find(|line| line.starts_with("output")).unwrap();
+    assert!(output.ends_with('-'), "{output}");
+    let value: serde_json::Value = serde_json::from_str(&out(&[&args[..], &["--format", "json"]].concat())).unwrap();
+    assert_eq!(value["status"], "loss_above_input");
+    assert!(value["power"]["output_w"].is_null() && value["efficiency"].is_null());
+    assert!(value["ports"][1]["power_w"].is_null() && value["ports"][1]["torque_nm"].is_null());
+    // The power that goes in and the losses are known.
+    let input = value["power"]["input_w"].as_f64().unwrap();
+    assert!(input > 0.0 && value["power"]["loss_w"].as_f64().unwrap() > input);
+    assert_eq!(value["ports"][0]["power_w"].as_f64().unwrap(), input);
+    let enough = out(&[
+        "solve",
+        GEARBOX,
+        "--gear",
+        "first",
+        "--torque",
+        "10 Nm",
+        "--speed",
+        "8000 rpm",
+        "--power-flow",
+        "ideal",
+    ]);
+    assert!(enough.contains("status drive"), "{enough}");
+}
+
 #[test]
 fn faults_of_an_override_point_into_the_option() {
     let wrong = |set: &str| {
@@ -516,6 +641,27 @@ fn too_many_threads_are_limited_with_a_note() {
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(
         text.contains("note: RAYON_NUM_THREADS=20000: ") && text.contains(" threads are used"),
+        "{text}"
+    );
+}
+
+#[test]
+fn huge_speeds_are_printed_in_engineering_notation() {
+    let output = gearloss(&[
+        "solve",
+        GEARBOX,
+        "--gear",
+        "first",
+        "--torque",
+        "1 Nm",
+        "--speed",
+        "1e300 rpm",
+    ]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let input = text.lines().find(|line| line.starts_with("input")).unwrap();
+    assert!(input.contains("1.00000e300"), "{input}");
+    assert!(
+        text.lines().all(|line| line.len() < 250) && !text.contains("inf"),
         "{text}"
     );
 }

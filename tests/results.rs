@@ -74,7 +74,7 @@ fn folder(study: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("results").join(name)
 }
 
-/// Operating points that show every branch: fixed, balanced, without balance, without a value, at rest.
+/// Operating points that show every branch: fixed, balanced, without balance, without a value, at rest, locking itself.
 fn points() -> Vec<Value> {
     let car = ["examples/two-speed-ev/gearbox.yaml", "--speed", "8000 rpm"];
     let reducer = ["examples/planetary-reducer/gearbox.yaml", "--speed", "4000 rpm"];
@@ -97,6 +97,7 @@ fn points() -> Vec<Value> {
         ),
         solve(car, &["--gear", "first"]),
         solve(car, &["--gear", "second", "--models", "joint"]),
+        solve(["tests/results/self_locking.yaml", "--speed", "-3000 rpm"], &[]),
         solve([car[0], "--speed", "0 rpm"], &["--gear", "first"]),
         solve(
             car,

@@ -119,7 +119,7 @@ impl Transmission {
         self.solve(case, point, temperatures, scratch, noting);
         match (scratch.undefined, scratch.status) {
             (Some((part, reason)), _) => Err(Unbalanced::Part(part, reason)),
-            (None, Status::SelfLocking | Status::NoConvergence) => Err(Unbalanced::Flow),
+            (None, status) if !status.has_flow() => Err(Unbalanced::Flow),
             (None, _) => Ok(()),
         }
     }
@@ -315,7 +315,7 @@ impl Transmission {
             self.note(s);
         }
         self.rest(s, quiet);
-        self.finish(standing, outcome, s);
+        self.finish(standing, point.flow, outcome, s);
         if noting_as == Noting::Counted && matches!(outcome, Outcome::Converged { .. }) {
             s.count_seen();
         }
@@ -510,7 +510,7 @@ impl Transmission {
         }
     }
 
-    fn finish(&self, standing: bool, outcome: Outcome, s: &mut Scratch) {
+    fn finish(&self, standing: bool, flow: PowerFlow, outcome: Outcome, s: &mut Scratch) {
         let mut undefined = None;
         let mut sum = 0.0;
         for (place, part) in self.parts.iter().enumerate() {
@@ -526,7 +526,8 @@ impl Transmission {
             }
         }
         s.sum = sum;
-        s.undefined = undefined;
+        // Without a flow no load has a value, and no loss a reason of its own.
+        s.undefined = undefined.filter(|_| matches!(outcome, Outcome::Converged { .. }));
         let powers = self.ports.iter().map(|p| s.work.ports[p.member] * s.speeds[p.member]);
         s.balance = Balance::of(powers.clone());
         s.status = match outcome {
@@ -538,6 +539,8 @@ impl Transmission {
                     Status::Undefined
                 } else if standing {
                     Status::Standstill
+                } else if flow == PowerFlow::Ideal && s.balance.input > 0.0 && sum > s.balance.input {
+                    Status::LossAboveInput
                 } else {
                     Status::of(powers, self.reference_port())
                 }

@@ -67,6 +67,8 @@ pub enum Status {
     Dragged,
     /// Nothing turns.
     Standstill,
+    /// With ideal flow: losses exceed the power that goes in, so none can come out.
+    LossAboveInput,
     /// No torque in the world holds this equilibrium in motion.
     SelfLocking,
     /// The iteration found no flow.
@@ -91,6 +93,11 @@ impl Status {
         }
     }
 
+    /// False where no torques were found: none of them, and no load or loss that follows from them, has a value.
+    pub fn has_flow(self) -> bool {
+        !matches!(self, Self::SelfLocking | Self::NoConvergence)
+    }
+
     /// Name in results.
     pub fn name(self) -> &'static str {
         match self {
@@ -99,6 +106,7 @@ impl Status {
             Self::Split => "split",
             Self::Dragged => "dragged",
             Self::Standstill => "standstill",
+            Self::LossAboveInput => "loss_above_input",
             Self::SelfLocking => "self_locking",
             Self::NoConvergence => "no_convergence",
             Self::Undefined => "undefined",

@@ -7,6 +7,7 @@ use gearloss_framework::resolve::{Came, Resolved, lookup};
 use gearloss_framework::transmission::{PartInfo, Transmission};
 use serde_json::Value;
 
+use super::locking;
 use super::point::prepare;
 use super::solve::{RPM, heading, of_warmth};
 use super::{set, warn};
@@ -35,6 +36,9 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
         &prepared,
         &format!("oil {} degC", significant(warm.oil)),
     ))?;
+    if let Some(locking) = locking::find(&transmission, &prepared, &solution, warm.temperatures()) {
+        out.line(locking.words())?;
+    }
     if warm.outcome().is_some() {
         out.text(&of_warmth(&transmission, &warm))?;
         out.line("")?;

@@ -14,9 +14,9 @@ use super::check::grade;
 use super::network::{json_of_network, of_network};
 use super::point::{Prepared, prepare};
 use super::run::tidy;
-use super::{set, warn};
+use super::{locking, set, warn};
 use crate::args::{Format, SolveArgs};
-use crate::output::{End, Failure, Out, Table, number, significant};
+use crate::output::{End, Failure, Out, Table, fixed, number, significant};
 
 /// rad/s in 1/min.
 pub const RPM: f64 = 30.0 / std::f64::consts::PI;
@@ -34,6 +34,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     // What ways of heat noted counts over all points, of which there is one.
     let of_heat = scratch.totals.clone();
     let solution = transmission.evaluate(&prepared.case, &point, warm.temperatures(), &mut scratch);
+    let locking = locking::find(&transmission, &prepared, &solution, warm.temperatures());
     let extents: Vec<Extent> = of_heat
         .iter()
         .zip(solution.extents())
@@ -45,6 +46,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
         Format::Json => {
             let mut value = as_json(&transmission, &solution, &prepared);
             value["packages"] = json!(language.registry().packages());
+            value["self_locking"] = json!(locking.map(|locking| locking.json()));
             // Without a balance there is no temperature of the oil; the losses belong to another one.
             value["oil_temperature_degc"] = json!(warm.is_sound().then_some(warm.oil));
             value["evaluated_at_degc"] = json!(warm.oil);
@@ -62,6 +64,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
                 format!("no balance, losses at {} degC", significant(warm.oil))
             };
             out.text(&as_table(&transmission, &solution, &prepared, &at))?;
+            out.text(&locking.map_or_else(String::new, |locking| locking.words()))?;
             out.text(&of_warmth(&transmission, &warm))?;
             out.text(&outside(&seen))?;
             for line in resolved.unreached.iter().chain(&resolved.without) {
@@ -114,12 +117,12 @@ pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &
     ));
     let mut ports = Table::new(&["port", "speed rpm", "torque Nm", "power W"]);
     for (i, port) in transmission.ports().iter().enumerate() {
-        let (speed, torque) = (solution.speed(port.member), solution.torque(i));
+        let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
         ports.row(vec![
             port.name.clone(),
-            format!("{:.2}", speed * RPM),
-            format!("{torque:.4}"),
-            format!("{:.2}", speed * torque),
+            fixed(speed * RPM, 2),
+            number(torque, 4),
+            number(torque.map(|torque| speed * torque), 2),
         ]);
     }
     text.push_str(&ports.render());
@@ -129,10 +132,18 @@ pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &
 
 fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, at: &str) -> String {
     let mut text = heading(transmission, solution, prepared, at);
-    if !transmission.supports().is_empty() {
+    // Without a flow there are no loads and no losses to show.
+    let flow = solution.has_flow();
+    if flow && !transmission.supports().is_empty() {
         let mut loads = Table::new(&["support", "radial N", "axial N", "tilting Nm"]);
         // A load beyond all numbers, of a torque that is near there, is no number to show.
-        let cell = |load: f64, digits: usize| number(Some(load).filter(|load| load.is_finite()), digits);
+        let cell = |load: f64, digits: usize| {
+            if load.is_finite() {
+                fixed(load, digits)
+            } else {
+                number(None, digits)
+            }
+        };
         let row = |path: String, load: SupportLoad| {
             vec![path, cell(load.radial, 1), cell(load.axial, 1), cell(load.tilting, 3)]
         };
@@ -160,29 +171,29 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
             .iter()
             .filter(|t| t.load_dependent)
             .fold(0.0, |sum, t| sum + loss.term_watts(t.index));
-        let watts = if loss.result.is_ok() {
-            format!("{:.4}", loss.watts())
-        } else {
-            "undefined".to_owned()
+        let watts = match &loss.result {
+            Err(_) if flow => "undefined".to_owned(),
+            _ => number(flow.then(|| loss.watts()), 4),
         };
         parts.row(vec![
             part.path.clone(),
             entry.name.to_owned(),
             watts,
-            format!("{dependent:.4}"),
-            number(loss.moment(), 6),
-            format!("{:.1}", loss.speed * RPM),
+            number(flow.then_some(dependent), 4),
+            number(loss.moment().filter(|_| flow), 6),
+            fixed(loss.speed * RPM, 1),
         ]);
     }
     text.push_str(&parts.render());
     text.push('\n');
-    let sums = sums(transmission, solution);
-    let words: Vec<String> = SUMS
-        .iter()
-        .zip(sums)
-        .map(|((name, _), watts)| format!("{name} {watts:.3}"))
-        .collect();
-    text.push_str(&format!("sums W: {}\n", words.join(", ")));
+    if let Some(sums) = sums(transmission, solution) {
+        let words: Vec<String> = SUMS
+            .iter()
+            .zip(sums)
+            .map(|((name, _), watts)| format!("{name} {}", fixed(watts, 3)))
+            .collect();
+        text.push_str(&format!("sums W: {}\n", words.join(", ")));
+    }
     text.push_str(&format!(
         "status {}, loss {} W, efficiency {} %, loss torque {} Nm, {} passes\n",
         solution.status().name(),
@@ -337,14 +348,18 @@ pub fn by_name(sums: [f64; 6]) -> Value {
         .collect()
 }
 
-fn sums(transmission: &Transmission, solution: &Solution<'_>) -> [f64; 6] {
+/// The usual sums; absent where no flow was found.
+fn sums(transmission: &Transmission, solution: &Solution<'_>) -> Option<[f64; 6]> {
+    if !solution.has_flow() {
+        return None;
+    }
     let mut sums = [0.0; 6];
     for (part, loss) in solution.parts() {
         for term in transmission.instances()[part.notes.instance()].entry.terms {
             sums[sum_of(part.mechanism, term.load_dependent)] += loss.term_watts(term.index);
         }
     }
-    sums
+    Some(sums)
 }
 
 /// What was outside of its stated range, one line for all components that left the same range.
@@ -386,13 +401,17 @@ pub fn outside(notes: &[Note]) -> String {
 }
 
 fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared) -> Value {
+    // Without a flow loads and losses are null.
+    let flow = solution.has_flow();
+    let known = |value: f64| flow.then_some(value);
     let ports: Vec<Value> = transmission
         .ports()
         .iter()
         .enumerate()
         .map(|(i, port)| {
-            let (speed, torque) = (solution.speed(port.member), solution.torque(i));
-            json!({ "port": port.name, "speed_rpm": tidy(speed * RPM), "torque_nm": torque, "power_w": speed * torque })
+            let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
+            let power = torque.map(|torque| speed * torque);
+            json!({ "port": port.name, "speed_rpm": tidy(speed * RPM), "torque_nm": torque, "power_w": power })
         })
         .collect();
     let members: Vec<Value> = transmission
@@ -409,9 +428,10 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
             let load = solution.load(i);
             let most = solution
                 .most_loaded(i)
+                .filter(|_| flow)
                 .map(|load| json!({ "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting }));
             json!({
-                "support": path, "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting,
+                "support": path, "radial_n": known(load.radial), "axial_n": known(load.axial), "tilting_nm": known(load.tilting),
                 "most_loaded_planet": most,
             })
         })
@@ -423,7 +443,7 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
             let terms: Vec<Value> = entry
                 .terms
                 .iter()
-                .map(|t| json!({ "term": t.name, "load_dependent": t.load_dependent, "loss_w": loss.term_watts(t.index) }))
+                .map(|t| json!({ "term": t.name, "load_dependent": t.load_dependent, "loss_w": known(loss.term_watts(t.index)) }))
                 .collect();
             json!({
                 "part": part.path,
@@ -431,9 +451,9 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
                 "model": entry.name,
                 "count": part.count,
                 "relative_speed_rpm": tidy(loss.speed * RPM),
-                "moment_of_one_nm": loss.moment(),
-                "loss_w": loss.result.is_ok().then(|| loss.watts()),
-                "undefined": loss.result.err().map(|e| e.to_string()),
+                "moment_of_one_nm": loss.moment().filter(|_| flow),
+                "loss_w": loss.result.is_ok().then(|| loss.watts()).filter(|_| flow),
+                "undefined": loss.result.err().filter(|_| flow).map(|e| e.to_string()),
                 "terms": terms,
             })
         })
@@ -452,10 +472,10 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
             "output_w": solution.output_power(),
             "loss_w": solution.loss(),
             "residual_w": solution.residual(),
-            "largest_internal_power_w": solution.largest_power(),
+            "largest_internal_power_w": known(solution.largest_power()),
             "largest_internal_over_input": multiplied(solution),
         },
-        "sums_w": by_name(sums(transmission, solution)),
+        "sums_w": sums(transmission, solution).map(by_name),
         "ports": ports,
         "members": members,
         "supports": loads,

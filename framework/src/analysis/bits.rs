@@ -10,7 +10,7 @@ use crate::loss::{Extent, MOST_TERMS, Undefined};
 use crate::thermal::Outcome;
 
 /// Every status, in the order of its code.
-const STATUSES: [Status; 8] = [
+const STATUSES: [Status; 9] = [
     Status::Drive,
     Status::Coast,
     Status::Split,
@@ -19,6 +19,7 @@ const STATUSES: [Status; 8] = [
     Status::SelfLocking,
     Status::NoConvergence,
     Status::Undefined,
+    Status::LossAboveInput,
 ];
 
 /// Every outcome of a balance, in the order of its code.
@@ -288,7 +289,7 @@ mod tests {
             surface: None,
             balance: OUTCOMES.get(i).copied(),
             nodes: vec![20.0; i],
-            status: STATUSES[i % 8],
+            status: STATUSES[i % STATUSES.len()],
             efficiency: (i != 2).then_some(0.98),
             loss: Some(12.5),
             loss_torque: None,

@@ -109,10 +109,23 @@ impl Solution<'_> {
 
     /// True where losses have values: the flow was found and no loss is undefined.
     pub fn is_complete(&self) -> bool {
-        !matches!(
-            self.status(),
-            Status::SelfLocking | Status::NoConvergence | Status::Undefined
-        )
+        self.has_flow() && self.status() != Status::Undefined
+    }
+
+    /// False where no torques were found; then no torque, load or loss of the solution means anything.
+    pub fn has_flow(&self) -> bool {
+        self.status().has_flow()
+    }
+
+    /// Paths of the meshes whose driver turned on the way to the solution; where it locks itself those that lock.
+    pub fn turned_meshes(&self) -> impl Iterator<Item = &str> {
+        let paths = |mesh| {
+            let parts = &mut self.transmission.parts.iter();
+            parts
+                .find(|part| part.kind == PartKind::Mesh(mesh))
+                .map(|part| part.path.as_str())
+        };
+        self.scratch.work.doubtful().filter_map(paths)
     }
 
     /// Why a loss has no value: its part and the reason.
@@ -137,9 +150,12 @@ impl Solution<'_> {
         self.is_complete().then_some(self.scratch.balance.input)
     }
 
-    /// Power that comes out; with ideal flow the input less the losses. \[W\]
+    /// Power that comes out; with ideal flow the input less the losses, absent where they exceed it. \[W\]
     pub fn output_power(&self) -> Option<f64> {
         let loss = self.loss()?;
+        if self.status() == Status::LossAboveInput {
+            return None;
+        }
         Some(if self.ideal {
             (self.scratch.balance.input - loss).max(0.0)
         } else {
@@ -193,6 +209,14 @@ impl Solution<'_> {
     /// Torque that a port applies to the transmission. \[Nm\]
     pub fn torque(&self, port: usize) -> f64 {
         self.scratch.work.ports[self.transmission.ports[port].member]
+    }
+
+    /// The same, absent where no flow was found, and where power would leave an ideal flow whose losses exceed its input. \[Nm\]
+    pub fn known_torque(&self, port: usize) -> Option<f64> {
+        let torque = self.torque(port);
+        let leaves = self.speed(self.transmission.ports[port].member) * torque < 0.0;
+        let nothing_left = self.status() == Status::LossAboveInput && leaves;
+        (self.has_flow() && !nothing_left).then_some(torque)
     }
 
     /// Load of a support by number on the most loaded planet of its set; absent where planets share equally.

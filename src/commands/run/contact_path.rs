@@ -183,6 +183,13 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
     let mut scratch = t.scratch(&case);
     let warm = given.oil.find(t, &case, &point, &mut scratch);
     let solution = t.evaluate(&case, &point, warm.temperatures(), &mut scratch);
+    if !solution.has_flow() {
+        let message = format!(
+            "{} at this point, so no torque of the mesh is known",
+            solution.status().name()
+        );
+        return Err(runner.wrong(path, message, "give the torque at another port, or with the other sign"));
+    }
     let at = solution.mesh_at(index);
     let part = Arc::new(at.part.clone());
     let model = &built.resolved.value["meshes"][&entry.mesh]["model"];

@@ -385,13 +385,15 @@ fn some(count: usize, most: usize) -> Vec<usize> {
     (0..most).map(|i| i * (count - 1) / (most - 1)).collect()
 }
 
-/// The usual sums of a point; absent without a temperature. \[W\]
+/// The usual sums of a point; absent without a temperature or a flow. \[W\]
 fn sums(point: &PointResult) -> Option<[f64; 6]> {
-    point.oil.map(|_| point.sums)
+    point.oil.filter(|_| point.status.has_flow()).map(|_| point.sums)
 }
 
-/// Loss of a part at a point; absent without a temperature, and where its model has no value. \[W\]
+/// Loss of a part at a point; absent without a temperature or a flow, and where its model has no value. \[W\]
 fn loss_of(point: &PointResult, part: usize) -> Option<f64> {
-    let known = point.oil.is_some() && point.undefined.is_none_or(|(undefined, _)| undefined != part);
+    let known = point.oil.is_some()
+        && point.status.has_flow()
+        && point.undefined.is_none_or(|(undefined, _)| undefined != part);
     known.then(|| point.parts[part])
 }

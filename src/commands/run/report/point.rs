@@ -11,7 +11,7 @@ use gearloss_framework::transmission::Transmission;
 use super::super::super::solve::RPM;
 use super::super::{Built, Runner, gear_of, speeds, torques};
 use super::table;
-use crate::output::number;
+use crate::output::{fixed, number};
 use crate::report::PageTable;
 
 /// Where the report looks: as the study says, or the greatest torque and speed of its first grid.
@@ -74,12 +74,18 @@ pub fn page(runner: &Runner<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -
                 if warm.outcome().is_some() { " by balance" } else { "" },
                 b.name
             );
-            tables.push(bearings(b, &solution));
-            tables.push(dips(t, &solution));
-            tables.push(ports(t, &solution));
-            tables.push(members(t, &solution));
+            if solution.has_flow() {
+                tables.push(bearings(b, &solution));
+                tables.push(dips(t, &solution));
+                tables.push(ports(t, &solution));
+                tables.push(members(t, &solution));
+            } else {
+                words.push_str(&format!("; {}: no torques, loads or losses", solution.status().name()));
+            }
         }
-        rests.push(rest_on(b, &solution, assumed));
+        if solution.has_flow() {
+            rests.push(rest_on(b, &solution, assumed));
+        }
     }
     tables.push(table(
         "Share of the loss in % that rests on assumed inputs, recalled formulas, and models outside of their stated range",
@@ -178,12 +184,12 @@ fn ports(t: &Transmission, solution: &Solution<'_>) -> PageTable {
         .iter()
         .enumerate()
         .map(|(i, port)| {
-            let (speed, torque) = (solution.speed(port.member), solution.torque(i));
+            let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
             vec![
                 port.name.clone(),
-                format!("{:.2}", speed * RPM),
-                format!("{torque:.4}"),
-                format!("{:.3}", speed * torque),
+                fixed(speed * RPM, 2),
+                number(torque, 4),
+                number(torque.map(|torque| speed * torque), 3),
             ]
         })
         .collect();

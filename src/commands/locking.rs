@@ -1,0 +1,127 @@
+//! Self-locking at a point in words: which way power cannot pass, and what holds the equilibrium instead.
+
+use gearloss_framework::evaluate::{Point, PowerFlow, Solution};
+use gearloss_framework::flow::Status;
+use gearloss_framework::transmission::Transmission;
+use serde_json::{Value, json};
+
+use super::point::Prepared;
+use crate::output::significant;
+
+/// A torque this much larger shows whether pushing harder helps.
+const HARDER: f64 = 1.5;
+
+/// Which way a transmission locks.
+pub struct Locking {
+    /// Ports that would put power in without losses.
+    from: Vec<String>,
+    /// Ports that it would leave at.
+    to: Vec<String>,
+    /// Meshes that lock; none where a torque at another port holds the equilibrium.
+    meshes: Vec<String>,
+    /// Efficiency in the other sense; absent where it is none.
+    back: Option<f64>,
+    /// Torques that ports have to apply where power should leave; none where no torque holds the equilibrium. \[Nm\]
+    helping: Vec<(String, f64)>,
+}
+
+/// Finds whether a solved point locks itself; with ideal flow nothing does.
+pub fn find(t: &Transmission, prepared: &Prepared, solution: &Solution<'_>, temperatures: &[f64]) -> Option<Locking> {
+    let status = solution.status();
+    if prepared.flow == PowerFlow::Ideal || !matches!(status, Status::SelfLocking | Status::Dragged) {
+        return None;
+    }
+    let mut scratch = t.scratch(&prepared.case);
+    let mut powers = |flow, factor: f64| {
+        let torques: Vec<f64> = prepared.torques.iter().map(|torque| factor * torque).collect();
+        let point = Point {
+            torques: &torques,
+            flow,
+            ..prepared.point()
+        };
+        let solved = t.evaluate(&prepared.case, &point, temperatures, &mut scratch);
+        (solved.status(), solved.efficiency(), port_powers(t, &solved))
+    };
+    let (_, _, ideal) = powers(PowerFlow::Ideal, 1.0);
+    let largest = ideal.iter().fold(0.0, |largest: f64, power| largest.max(power.abs()));
+    let named = |sense: f64| -> Vec<usize> {
+        let passes = |port: &usize| sense * ideal[*port] > 1e-12 * largest;
+        (0..ideal.len()).filter(passes).collect()
+    };
+    let (from, to) = (named(1.0), named(-1.0));
+    if from.is_empty() || to.is_empty() {
+        return None;
+    }
+    let (mut meshes, mut helping) = (Vec::new(), Vec::new());
+    if status == Status::Dragged {
+        let pushed = |powers: &[f64]| to.iter().map(|port| powers[*port]).sum::<f64>();
+        let before = pushed(&port_powers(t, solution));
+        let (harder, _, after) = powers(PowerFlow::Real, HARDER);
+        // Where drag alone holds it back, pushing harder at the one side spares the other.
+        if before <= 0.0 || harder != Status::Dragged || pushed(&after) <= before {
+            return None;
+        }
+        helping = to
+            .iter()
+            .map(|port| (t.ports()[*port].name.clone(), solution.torque(*port)))
+            .collect();
+    } else {
+        meshes.extend(solution.turned_meshes().map(str::to_owned));
+    }
+    let (_, back, _) = powers(PowerFlow::Real, -1.0);
+    let names = |ports: Vec<usize>| ports.into_iter().map(|port| t.ports()[port].name.clone()).collect();
+    Some(Locking {
+        from: names(from),
+        to: names(to),
+        meshes,
+        back,
+        helping,
+    })
+}
+
+/// Powers that the ports put in. \[W\]
+fn port_powers(t: &Transmission, solution: &Solution<'_>) -> Vec<f64> {
+    let ports = t.ports().iter().enumerate();
+    ports
+        .map(|(i, port)| solution.speed(port.member) * solution.torque(i))
+        .collect()
+}
+
+impl Locking {
+    /// In a sentence.
+    pub fn words(&self) -> String {
+        let quoted = |names: &[String]| -> String {
+            let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+            quoted.join(" and ")
+        };
+        let (from, to) = (quoted(&self.from), quoted(&self.to));
+        let mut text = if self.helping.is_empty() {
+            format!("self-locking: no power passes from {from} to {to}, whatever the torque at {from}")
+        } else {
+            let torques: Vec<String> = self
+                .helping
+                .iter()
+                .map(|(port, torque)| format!("`{port}` ({} Nm)", significant(*torque)))
+                .collect();
+            let pushes = if torques.len() == 1 { "pushes" } else { "push" };
+            format!(
+                "self-locking: driven from {from} it does not turn by itself; the speeds hold only because {} {pushes} as well, and \
+                 no power comes out",
+                torques.join(" and ")
+            )
+        };
+        if !self.meshes.is_empty() {
+            text.push_str(&format!("; locked by {}", self.meshes.join(", ")));
+        }
+        if let Some(back) = self.back {
+            text.push_str(&format!("; driven from {to} its efficiency is {:.2} %", 100.0 * back));
+        }
+        text.push('\n');
+        text
+    }
+
+    /// As a record.
+    pub fn json(&self) -> Value {
+        json!({ "from": self.from, "to": self.to, "meshes": self.meshes })
+    }
+}
