@@ -136,16 +136,8 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
     let flow = solution.has_flow();
     if flow && !transmission.supports().is_empty() {
         let mut loads = Table::new(&["support", "radial N", "axial N", "tilting Nm"]);
-        // A load beyond all numbers, of a torque that is near there, is no number to show.
-        let cell = |load: f64, digits: usize| {
-            if load.is_finite() {
-                fixed(load, digits)
-            } else {
-                number(None, digits)
-            }
-        };
         let row = |path: String, load: SupportLoad| {
-            vec![path, cell(load.radial, 1), cell(load.axial, 1), cell(load.tilting, 3)]
+            vec![path, fixed(load.radial, 1), fixed(load.axial, 1), fixed(load.tilting, 3)]
         };
         for (i, path) in transmission.supports().iter().enumerate() {
             loads.row(row(path.clone(), solution.load(i)));
