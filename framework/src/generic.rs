@@ -61,6 +61,11 @@ impl<M: Mechanism> Scalar<M> {
         Ok(self.unit.to_si(value))
     }
 
+    /// True where the law answers the same at every context.
+    pub fn is_constant(&self) -> bool {
+        matches!(self.law, Law::None | Law::Constant(_))
+    }
+
     /// The number as a moment.
     ///
     /// # Errors

@@ -4,7 +4,13 @@ use gearloss_framework::geometry::{LoadSharing, Pair, PathPoint};
 use gearloss_framework::lanes::Lane;
 use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::{PathAt, PathExtent, PathNode};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, PathAt, PathExtent, PathNode, SMOOTH};
+
+#[cfg(test)]
+mod accuracy;
+
+/// Points of most paths: four pieces for a smooth law.
+const FEW: usize = 4 * SMOOTH;
 
 /// The path of one mesh, prepared.
 pub struct Path {
@@ -17,15 +23,15 @@ pub struct Path {
 }
 
 impl Path {
-    /// The most points on a path.
-    const MOST: usize = 96;
+    /// The most points on a path: 32 pieces for a law that is cut off.
+    const MOST: usize = 32 * CUT_OFF;
 
     /// The path of a pair with its load shared, with as many points on each smooth piece as the law of friction asks for.
     ///
     /// # Errors
     /// Where the contact ratio is too high, as a sentence.
     pub fn new(pair: &Pair, sharing: LoadSharing, order: usize) -> Result<Self, String> {
-        let points = pair.path(sharing, order);
+        let points = pair.graded_path(sharing, order);
         if points.len() > Self::MOST {
             return Err(format!(
                 "the contact ratio {:.2} is too high for a path integral",
@@ -103,17 +109,16 @@ impl Path {
 
     /// Runs with space for friction at each point; most paths need little, and zeroing more costs time.
     pub fn with_space<R>(&self, run: impl FnOnce(&mut [f64]) -> R) -> R {
-        const FEW: usize = 24;
-        if self.len() <= FEW {
-            run(&mut [0.0; FEW][..self.len()])
-        } else {
-            run(&mut [0.0; Self::MOST][..self.len()])
+        const SOME: usize = 4 * FEW;
+        match self.len() {
+            0..=FEW => run(&mut [0.0; FEW][..self.len()]),
+            0..=SOME => run(&mut [0.0; SOME][..self.len()]),
+            _ => run(&mut [0.0; Self::MOST][..self.len()]),
         }
     }
 
     /// As [`Path::with_space`] for all lanes; absent for a path of many points, which are walked one by one.
     pub fn with_lanes<R>(&self, run: impl FnOnce(&mut [Lane]) -> Option<R>) -> Option<R> {
-        const FEW: usize = 24;
         if self.len() > FEW {
             return None;
         }

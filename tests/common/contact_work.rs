@@ -5,6 +5,7 @@ use gearloss_framework::evaluate::Solution;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
+use gearloss_framework::mechanism::tooth_friction::ToothFrictionModel as _;
 use gearloss_framework::registry::{Build, Files};
 use gearloss_framework::resolve::{Resolved, lookup};
 use gearloss_framework::transmission::Transmission;
@@ -23,7 +24,8 @@ pub fn laws(language: &Language, resolved: &Resolved, t: &Transmission) -> Vec<(
         let factor = params.inlet_heating.factor();
         let law = EhlMixed::of_part(&params, factor, part.clone(), &build).unwrap();
         let sharing = serde_json::from_value(model["load_sharing"].clone()).unwrap();
-        (law, Path::new(&part.pair, sharing, 5).unwrap())
+        let path = Path::new(&part.pair, sharing, law.order()).unwrap();
+        (law, path)
     };
     t.meshes().map(law).collect()
 }

@@ -64,6 +64,28 @@ impl Pair {
         breaks
     }
 
+    /// Breaks pieces that come close to a base circle, so that over none of them a radius of curvature grows more than fourfold: friction
+    /// goes with broken powers of it, which no one polynomial follows. Up to a thousandth of the pitch from the circle.
+    fn break_beside_bases(&self, breaks: &mut Vec<f64>) {
+        let least = 1e-3 * self.base_pitch;
+        let ends: [(f64, f64); 2] = [(0.0, 1.0), (self.tangent_length, -1.0)];
+        // Rings have no base circle beside the path.
+        for (foot, sense) in &ends[..if self.internal { 1 } else { 2 }] {
+            let mut more = Vec::new();
+            for piece in breaks.array_windows::<2>() {
+                let [near, far] = [0, 1].map(|i| (piece[i] - foot) * sense);
+                let [near, far] = [near.min(far).max(0.0), near.max(far)];
+                let mut radius = (4.0 * near).max(least);
+                while radius < 0.999 * far {
+                    more.push(foot + sense * radius);
+                    radius *= 4.0;
+                }
+            }
+            breaks.extend(more);
+            breaks.sort_by(f64::total_cmp);
+        }
+    }
+
     /// Number of pairs in contact when one is at a distance from T1.
     pub fn pairs_at(&self, x: f64) -> usize {
         let [start, .., end] = self.points;
@@ -97,9 +119,18 @@ impl Pair {
         }
     }
 
-    /// Quadrature points, `order` on each smooth piece.
+    /// Quadrature points, `order` on each smooth piece; for whole powers of the place.
     pub fn path(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
-        let rule = gauss::rule(order);
+        self.points_of(sharing, &gauss::rule(order))
+    }
+
+    /// Quadrature points, `order` on each smooth piece and closer at its ends; for friction, which sets in there like broken powers of
+    /// sliding and load.
+    pub fn graded_path(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
+        self.points_of(sharing, &gauss::graded_rule(order))
+    }
+
+    fn points_of(&self, sharing: LoadSharing, rule: &[(f64, f64)]) -> Vec<PathPoint> {
         let law = Law::new(self, sharing);
         let mut points = Vec::new();
         let mut breaks = self.breaks();
@@ -120,9 +151,10 @@ impl Pair {
             }
             Law::Plain(_) => {}
         }
+        self.break_beside_bases(&mut breaks);
         for piece in breaks.windows(2) {
             let (middle, half) = (0.5 * (piece[0] + piece[1]), 0.5 * (piece[1] - piece[0]));
-            for (t, w) in &rule {
+            for (t, w) in rule {
                 points.push(self.place(middle + half * t, half * w, &law));
             }
         }

@@ -25,9 +25,11 @@ pub trait ToothFrictionModel: Send + Sync {
     /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined>;
 
-    /// Gauss points on each smooth piece of a path with which the loss is within 1e-4 of its limit.
+    /// Points on each smooth piece of a path with which the loss is within 1e-4 of its limit, or the mean friction within 1e-6. Seven are
+    /// enough for a law that is smooth between the ends of the pieces, whatever power of sliding and load it sets in with there;
+    /// [`CUT_OFF`] for one that is cut off anywhere, as by `min` or `max`.
     fn order(&self) -> usize {
-        3
+        SMOOTH
     }
 
     /// Coefficients of friction at all nodes of a path, into a slice as long as the path. Pure; must not allocate.
@@ -56,6 +58,12 @@ pub trait ToothFrictionModel: Send + Sync {
     /// Notes what [`along`](Self::along) notes, from the coefficients of [`along_lanes`](Self::along_lanes).
     fn note_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &[Lane], _notes: LaneNotes<'_>) {}
 }
+
+/// Points on each piece of a path for a smooth law.
+pub const SMOOTH: usize = 7;
+
+/// Points on each piece of a path for a law that is cut off at a place which hangs on load, speed and oil.
+pub const CUT_OFF: usize = 64;
 
 /// A sum of coefficients of friction over the nodes of a path with given weights, prepared by a law.
 pub trait WeightedFriction: Send + Sync {
@@ -370,6 +378,10 @@ impl Mechanism for ToothFriction {
 impl ToothFrictionModel for Scalar<ToothFriction> {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         self.value(at)
+    }
+
+    fn order(&self) -> usize {
+        if self.is_constant() { SMOOTH } else { CUT_OFF }
     }
 }
 

@@ -7,7 +7,7 @@
 
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
@@ -60,6 +60,11 @@ impl ToothFrictionModel for BenedictKelley {
         };
         let mu = smooth(at.line_load, at.eta, at.sliding, at.sum_speed) * factor;
         Ok(at.observe(&MU, mu.max(0.0).min(self.greatest)))
+    }
+
+    /// Friction is cut off where it reaches its limits.
+    fn order(&self) -> usize {
+        CUT_OFF
     }
 }
 

@@ -373,9 +373,10 @@ impl ToothFrictionModel for EhlMixed {
         super::finite(note(at.notes, &place, &settled))
     }
 
-    /// Friction rises steeply where load sets in; five points leave 4e-5 of the loss, three 1.3e-3.
+    /// Friction is cut off by the limiting stress, but a place takes as long as a whole path of other laws. Eight points leave 1e-4 of the
+    /// loss at nine of ten points over 10 to 20000 rpm and -20 to 140 degC, and 5e-3 at the worst, where cold oil reaches that stress.
     fn order(&self) -> usize {
-        5
+        8
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {

@@ -9,7 +9,7 @@
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::lubricant::pressure::roelands;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
@@ -68,6 +68,11 @@ impl ToothFrictionModel for Eyring {
         // Far above the pressures of gears the viscosity overflows; the stress is at its limit long before.
         let eta_p = at.show("eta_p", "Pa s", eta_p.min(1e300));
         Ok(at.observe(&MU, mu(self.limiting_slope, at.alpha, p_mean, eta_p, at.sliding, h)))
+    }
+
+    /// Friction is cut off where it reaches its limits.
+    fn order(&self) -> usize {
+        CUT_OFF
     }
 }
 

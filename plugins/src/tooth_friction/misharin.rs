@@ -5,7 +5,7 @@
 
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
@@ -32,6 +32,11 @@ impl ToothFrictionModel for Misharin {
         let mu = 0.325 * (at.sliding * at.sum_speed * at.nu.mm2_s()).powf(-0.25);
         let mu = if self.held { mu.clamp(0.02, 0.08) } else { mu };
         Ok(at.observe(&MU, super::finite(mu)?))
+    }
+
+    /// Friction is cut off where it reaches its limits.
+    fn order(&self) -> usize {
+        CUT_OFF
     }
 }
 

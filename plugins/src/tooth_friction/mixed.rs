@@ -13,7 +13,9 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{
+    Along, CUT_OFF, ContactAt, PathAt, SMOOTH, ToothFriction, ToothFrictionModel,
+};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use schemars::JsonSchema;
@@ -147,8 +149,14 @@ impl ToothFrictionModel for Mixed {
         Ok(at.observe(&MU, boundary + fluid))
     }
 
+    /// The share of boundary friction ends at a film ratio of two, by a kink after Matsumoto.
     fn order(&self) -> usize {
-        self.boundary.order().max(self.fluid.order())
+        let own = match self.params.weight {
+            Weight::Doleschel => 2 * SMOOTH,
+            Weight::Matsumoto => CUT_OFF,
+            Weight::Diab | Weight::OlverSpikes => SMOOTH,
+        };
+        own.max(self.boundary.order()).max(self.fluid.order())
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {

@@ -7,7 +7,7 @@
 
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
 use schemars::JsonSchema;
@@ -30,6 +30,11 @@ impl ToothFrictionModel for ODonoghueCameron {
         let speeds = (at.sliding / INCH).cbrt() * (at.sum_speed / INCH).powf(1.0 / 6.0);
         let mu = 0.6 * (s + 22.0) / 35.0 / (at.eta.mpa_s().powf(0.125) * speeds * (at.radius / INCH).sqrt());
         Ok(at.observe(&MU, finite(mu)?))
+    }
+
+    /// Friction is cut off where it reaches its limits.
+    fn order(&self) -> usize {
+        CUT_OFF
     }
 }
 
