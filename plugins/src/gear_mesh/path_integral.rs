@@ -7,10 +7,15 @@
 //! cycle average of an FZG C gear, because double contact counts twice.
 //! Assumes rigid teeth with a stated sharing of the load. The line load is that of the pair over the face width, with
 //! `contact_lines` over the inclined lines.
-//! Rolling friction is optional: Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, isothermal; or 9e7 N/m2 times film
+//! Rolling friction is optional: Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, times the factor by which heating at the
+//! inlet thins the film (after Gupta et al. in the form of Arana et al. 2019; a twentieth at least, beyond which the fit ends), for the
+//! isothermal law runs away with viscosity and speed; or 9e7 N/m2 times film
 //! and width after Crook 1963 as Anderson and Loewenthal use it, with the least film of Dowson and Higginson, times the sum
 //! of the surface speeds (some authors take half of it, which is an option). Without torque nothing is lost; rolling hardly
 //! depends on load, so with it the loss jumps there by a watt or so.
+//! The integral is within 1e-4 of its limit, for whatever law of friction: each smooth piece of the path between A, B, C, D and E, and
+//! between the kinks of the load sharing, has as many points as the law asks for, closer at its ends. Rolling after Crook, whose film
+//! grows without bound where load sets in as a ramp, is within 2e-3.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
@@ -24,7 +29,7 @@ use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::dowson_higginson;
+use crate::contact::{dowson_higginson, thermal_factor};
 use crate::path::Path;
 
 const SLIDING: Term = Term::load(0, "sliding");
@@ -55,7 +60,7 @@ pub enum Rolling {
     /// It does not count.
     #[default]
     None,
-    /// Goksem and Hargreaves, isothermal.
+    /// Goksem and Hargreaves.
     GoksemHargreaves,
     /// Crook, as Anderson and Loewenthal use him.
     Crook,
@@ -86,9 +91,16 @@ pub struct PathIntegral {
     /// Whether rolling friction counts.
     #[serde(default)]
     pub rolling_friction: Rolling,
+    /// Heating at the inlet lowers the rolling force of Goksem and Hargreaves; without it their law is isothermal.
+    #[serde(default = "yes")]
+    pub rolling_thermal: bool,
     /// Which speed the rolling force of Crook works against.
     #[serde(default)]
     pub rolling_speed: RollingSpeed,
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// The path of one mesh, prepared.
@@ -105,6 +117,7 @@ struct Integral {
     /// The sum of friction by `weights`, where the law knows a short way.
     short: Option<Box<dyn WeightedFriction>>,
     rolling: Rolling,
+    rolling_thermal: bool,
     rolling_speed: f64,
 }
 
@@ -137,6 +150,7 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
         path,
         friction,
         rolling: params.rolling_friction,
+        rolling_thermal: params.rolling_thermal,
         rolling_speed: if params.rolling_speed == RollingSpeed::Sum {
             1.0
         } else {
@@ -154,6 +168,12 @@ fn goksem_hargreaves(line_load: f64, radius: f64, eta: f64, rolling: f64, alpha:
         line_load / (modulus * radius),
     );
     4.318 * (g * u).powf(0.658) * w.powf(0.0126) * radius / alpha
+}
+
+/// Factor on the rolling force for a Hertz pressure in Pa, a slide-roll ratio and a mean rolling speed in m/s.
+fn inlet_heating(at: &GearMeshAt<'_>, pressure: f64, slide_roll: f64, rolling: f64) -> f64 {
+    let load = at.eta * at.beta * rolling * rolling / at.conductivity;
+    thermal_factor(pressure / at.part.modulus, slide_roll, load)
 }
 
 /// Rolling force per face width from the film. \[N/m\]
@@ -194,11 +214,9 @@ impl GearMeshModel for Integral {
         if self.rolling == Rolling::None {
             return Ok(loss);
         }
-        let rolling: f64 = self
-            .path
-            .nodes()
-            .iter()
-            .zip(&self.rolling_weights)
+        let places = self.path.nodes().iter().zip(&self.rolling_weights);
+        let rolling: f64 = places
+            .filter(|(node, _)| node.share > 0.0)
             .map(|(node, weight)| {
                 let sum_speed = node.sum_speed * speed;
                 let (w, modulus) = (node.share * line_load, at.part.modulus);
@@ -208,7 +226,15 @@ impl GearMeshModel for Integral {
                         let h = node.radius * dowson_higginson(u, at.alpha * modulus, w / (modulus * node.radius));
                         crook(h) * sum_speed * self.rolling_speed
                     }
-                    _ => goksem_hargreaves(w, node.radius, at.eta, 0.5 * sum_speed, at.alpha, modulus) * sum_speed,
+                    _ => {
+                        let force = goksem_hargreaves(w, node.radius, at.eta, 0.5 * sum_speed, at.alpha, modulus);
+                        let heated = if self.rolling_thermal {
+                            inlet_heating(at, path.contact(node).pressure, node.slide_roll, 0.5 * sum_speed)
+                        } else {
+                            1.0
+                        };
+                        heated * force * sum_speed
+                    }
                 };
                 weight * power * pair.facewidth
             })
@@ -313,6 +339,7 @@ register!(GearMesh, "path_integral", PathIntegral,
         default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
         default_of("average", Evidence::Derived, "the mean over time"),
         default_of("rolling_friction", Evidence::OneSource, "usually neglected beside sliding"),
+        default_of("rolling_thermal", Evidence::OneSource, "factor from one open source and memory; the law was published with one"),
         default_of("rolling_speed", Evidence::Recalled, "Crook's coefficient as Anderson and Loewenthal use it"),
     ],
     terms: [SLIDING, ROLLING], observed: [MU_MEAN, LOSS_FACTOR], prepare: prepare);
@@ -421,7 +448,7 @@ pub(crate) mod tests {
     }
 
     fn model(friction: Value, average: &str) -> Value {
-        json!({ "type": "path_integral", "load_sharing": "rigid", "average": average, "tooth_friction": friction, "rolling_friction": "none", "rolling_speed": "sum" })
+        json!({ "type": "path_integral", "load_sharing": "rigid", "average": average, "tooth_friction": friction, "rolling_friction": "none", "rolling_thermal": true, "rolling_speed": "sum" })
     }
 
     #[test]
@@ -437,11 +464,11 @@ pub(crate) mod tests {
     #[test]
     fn b5_local_friction_on_fzg_c14() {
         let friction = json!({ "type": "xu", "roughness": "composite_rms" });
-        // The check was integrated to its limit; three points on each piece leave 1e-4.
+        // The check was integrated to its limit and has six digits.
         let cycle = watts(&model(friction.clone(), "base_pitch"));
-        assert!((cycle / 183.716 - 1.0).abs() < 2e-4, "{cycle}");
+        assert!((cycle / 183.716 - 1.0).abs() < 1e-5, "{cycle}");
         let travel = watts(&model(friction, "tooth_travel"));
-        assert!((travel / 221.384 - 1.0).abs() < 2e-4, "{travel}");
+        assert!((travel / 221.384 - 1.0).abs() < 1e-5, "{travel}");
     }
 
     #[test]
@@ -483,9 +510,55 @@ pub(crate) mod tests {
             watts(&model)
         };
         let (crook, goksem) = (rolling("crook", "sum"), rolling("goksem_hargreaves", "sum"));
-        // Two laws of one effect: 1.2 and 3.0 W of some 300 W sliding.
+        // Two laws of one effect: some watts beside 300 W sliding.
         assert!((0.25..4.0).contains(&(crook / goksem)), "{crook} {goksem}");
         assert!((rolling("crook", "mean") / crook - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn heating_at_the_inlet_bounds_rolling_in_thick_oil() {
+        let registry = Registry::linked().unwrap();
+        let files = Files::default();
+        let part = Arc::new(fzg_c14(0.4e-6, 0.5e-6));
+        // Rolling alone at 2000 rpm and a kinematic viscosity in mm2/s.
+        let watts = |thermal: bool, nu: f64| {
+            let mut model = model(json!({ "type": "constant", "value": 0.0 }), "base_pitch");
+            (model["rolling_friction"], model["rolling_thermal"]) = ("goksem_hargreaves".into(), thermal.into());
+            let slot = Build::new(&registry, &files)
+                .slot_at::<GearMesh>("model", &part, &model)
+                .unwrap();
+            let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+                (to.torque, to.speed) = (50.0, 2000.0 * std::f64::consts::PI / 30.0);
+                (to.nu, to.eta, to.beta) = (nu * 1e-6, nu * 850e-6, 0.08);
+            });
+            slot.loss(&at).unwrap().total_watts(at.speed)
+        };
+        let [thin, thick] = [10.0, 1e4].map(|nu| (watts(true, nu), watts(false, nu)));
+        // Hot oil is hardly heated further; isothermal, rolling grows with the power 0.658 of the viscosity.
+        assert!((0.85..1.0).contains(&(thin.0 / thin.1)), "{thin:?}");
+        assert!((thick.1 / thin.1 / 1000.0_f64.powf(0.658) - 1.0).abs() < 1e-9);
+        assert!((0.05..0.5).contains(&(thick.0 / thick.1)), "{thick:?}");
+    }
+
+    #[test]
+    fn places_without_load_do_not_roll() {
+        let mut model = model(json!({ "type": "constant", "value": 0.05 }), "base_pitch");
+        model["load_sharing"] = "symmetric_ramp".into();
+        for law in ["crook", "goksem_hargreaves"] {
+            model["rolling_friction"] = law.into();
+            for kind in [Kind::Spur, Kind::Helical, Kind::Internal] {
+                let registry = Registry::linked().unwrap();
+                let files = Files::default();
+                let part = Arc::new(pair_of(kind));
+                let slot = Build::new(&registry, &files)
+                    .slot_at::<GearMesh>("model", &part, &model)
+                    .unwrap();
+                assert!(
+                    slot.loss(&GearMeshAt::usual(&part, Notes::MUTED)).is_ok(),
+                    "{law} {kind:?}"
+                );
+            }
+        }
     }
 
     #[test]
@@ -508,6 +581,7 @@ pub(crate) mod tests {
     fn b14_rolling_force() {
         let first = goksem_hargreaves(3e5, 0.010, 20e-3, 5.0, 20e-9, 226.374e9) * 0.020;
         assert!((first / 1.50835 - 1.0).abs() < 1e-5, "{first}");
+        // The check takes the thermal factor as given.
         let second = 0.9 * goksem_hargreaves(1.5e5, 0.006, 8e-3, 12.0, 15e-9, 226.374e9) * 0.030;
         assert!((second / 1.83244 - 1.0).abs() < 1e-5, "{second}");
     }

@@ -5,7 +5,7 @@
 use super::*;
 use gearloss_framework::geometry::PairSpec;
 use gearloss_framework::mechanism::Mechanism as _;
-use gearloss_framework::mechanism::gear_mesh::{GearMeshAt, MeshPart};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::mechanism::tooth_friction::ToothFriction;
 use gearloss_framework::registry::{Build, Files, Registry};
 use gearloss_framework::sampling::Sobol;
@@ -212,6 +212,29 @@ fn every_linked_law_is_asked() {
             "{}",
             model.name
         );
+    }
+}
+
+/// Rolling has the places of the law of friction; many of them are its limit.
+#[test]
+fn rolling_is_as_close_to_its_limit_as_stated() {
+    let registry = Registry::linked().unwrap();
+    let files = Files::default();
+    for (rolling, stated) in [("goksem_hargreaves", LOSS), ("crook", 2e-3)] {
+        for case in Case::list(48) {
+            for sharing in ["rigid", "ramp", "symmetric_ramp", "third", "uniform", "contact_lines"] {
+                let watts = |friction: Value| {
+                    let model = json!({ "type": "path_integral", "load_sharing": sharing, "tooth_friction": friction,
+                        "rolling_friction": rolling });
+                    let mut build = Build::new(&registry, &files);
+                    let slot = build.slot_at::<GearMesh>("model", &case.part, &model).unwrap();
+                    slot.loss(&case.at()).unwrap().sum()
+                };
+                let few = watts(json!({ "type": "constant", "value": 0.0 }));
+                let many = watts(json!({ "type": "formula", "formula": "0" }));
+                assert!((few / many - 1.0).abs() < stated, "{rolling} {sharing}: {few} {many}");
+            }
+        }
     }
 }
 
