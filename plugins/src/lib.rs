@@ -4,6 +4,7 @@
 
 pub mod auxiliary;
 pub mod bearing;
+pub mod boundary;
 pub mod catalogues;
 pub mod clutch;
 pub mod contact;

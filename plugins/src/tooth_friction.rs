@@ -14,6 +14,18 @@ pub mod xu;
 
 use gearloss_framework::loss::Undefined;
 
+/// The sum of the surface speeds (m/s) of a contact that entrains oil; laws that divide by it have no value without.
+fn entraining(sum_speed: f64) -> Result<f64, Undefined> {
+    if sum_speed > 0.0 {
+        Ok(sum_speed)
+    } else {
+        Err(Undefined {
+            what: "sum of the surface speeds, which must be above zero [m/s]",
+            value: sum_speed,
+        })
+    }
+}
+
 /// A coefficient that is a number, or the reason why not.
 fn finite(mu: f64) -> Result<f64, Undefined> {
     if mu.is_finite() && mu >= 0.0 {

@@ -11,7 +11,7 @@ use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -23,7 +23,17 @@ const M: Observed = Observed::new(1, "M", "-", "Mesh mechanical advantage.");
 
 /// Mesh loss after ISO/TR 14179-1, of AGMA origin.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct Iso14179 {}
+pub struct Iso14179 {
+    /// Greatest coefficient of friction, which bounds the growth of the formula at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 10.0))]
+    pub greatest: f64,
+}
+
+/// Not boundary friction, which the formula already exceeds under light loads at usual speeds.
+fn greatest() -> f64 {
+    1.0
+}
 
 /// Sliding ratios at the start and end of approach and recess, H_s and H_t.
 fn sliding_ratios(pair: &Pair) -> [f64; 2] {
@@ -65,7 +75,7 @@ impl GearMeshModel for Iso14179 {
         let k = 1000.0 * torque * teeth / (2.0 * pair.facewidth.mm() * r_w * r_w * z_2);
         let k = at.check(&K_FACTOR, k);
         let v = at.check(&SPEED, at.speed.abs() * pair.working_radius[0]);
-        let f_m = at.observe(&F_M, friction(at.nu.mm2_s(), k, v));
+        let f_m = at.observe(&F_M, friction(at.nu.mm2_s(), k, v).min(self.greatest));
         let m = at.observe(&M, advantage(pair));
         let input = at.show("P_in", "W", at.torque * at.speed.abs());
         Ok(Loss::POWERS.with(&SLIDING, f_m * input * pair.working_helix.cos().powi(2) / m))
@@ -75,7 +85,10 @@ impl GearMeshModel for Iso14179 {
 register!(GearMesh, "iso14179_1", Iso14179,
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
-    evidence: [formula(Evidence::Recalled, "coefficients of f_m recalled; the geometry factor is derived")],
+    evidence: [
+        formula(Evidence::Recalled, "coefficients of f_m recalled; the geometry factor is derived"),
+        default_of("greatest", Evidence::Assumed, "above what the formula answers under light loads at 0.1 m/s, far outside of its range"),
+    ],
     limits: [SPEED, K_FACTOR], terms: [SLIDING], observed: [F_M, M]);
 
 #[cfg(test)]
@@ -103,7 +116,7 @@ mod tests {
             to.nu = 50e-6;
         });
         // The printed 9549 stands for 30000/pi = 9549.297.
-        let watts = Iso14179 {}.loss(&at).unwrap().sum();
+        let watts = Iso14179 { greatest: greatest() }.loss(&at).unwrap().sum();
         assert!((watts / 119.019 - 1.0).abs() < 4e-5, "{watts}");
         close(1.0 / advantage(&part.pair), part.pair.loss_factor_uniform());
     }
@@ -127,7 +140,7 @@ mod tests {
                 to.speed = speed;
                 to.nu = 50e-6;
             });
-            Iso14179 {}.loss(&at).unwrap().sum()
+            Iso14179 { greatest: greatest() }.loss(&at).unwrap().sum()
         };
         close(watts(&swapped, 300.0, 100.0), watts(&part, 200.0, 150.0));
     }

@@ -17,6 +17,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::boundary::greatest;
 use crate::mean_friction::schlenk::{LINE_LOAD, MU, Mesh, OilType, PITCH_SPEED, Schlenk, SpeedClamp, VISCOSITY};
 
 const SLIDING: Term = Term::load(0, "sliding");
@@ -49,6 +50,10 @@ pub struct Iso14179 {
     /// Which speed the upper clamp holds.
     #[serde(default)]
     pub clamp_speed: SpeedClamp,
+    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
     /// Which loss factor counts.
     #[serde(default)]
     pub loss_factor: LossFactor,
@@ -79,6 +84,7 @@ impl Mean {
                 oil: params.oil,
                 clamp_line_load: params.clamp_line_load,
                 clamp_speed: params.clamp_speed,
+                greatest: params.greatest,
             },
             loss_factor,
             ohlendorf: params.loss_factor == LossFactor::Ohlendorf,
@@ -131,6 +137,7 @@ register!(GearMesh, "iso14179_2", Iso14179,
         default_of("loss_factor", Evidence::SeveralSources, "as the method"),
         default_of("clamp_line_load", Evidence::Recalled, "the clamp stands in the method but not in open programs"),
         default_of("clamp_speed", Evidence::Disputed, "two readings of the clamp"),
+        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
     ],
     limits: [LINE_LOAD, PITCH_SPEED, VISCOSITY, CONTACT_RATIO, ADDENDUM], terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
 
@@ -147,6 +154,7 @@ mod tests {
         clamp_line_load: true,
         clamp_speed: SpeedClamp::SumSpeed,
         loss_factor: LossFactor::Ohlendorf,
+        greatest: 0.2,
     };
 
     #[test]

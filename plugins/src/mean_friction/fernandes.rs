@@ -6,13 +6,16 @@
 //! An older script has Ra^2/(eps_alpha l rho) with half the exponent: eps_alpha^-0.125 more.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::boundary::greatest;
+
+const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.5, 20.0, "FZG tests behind X_L, recalled");
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
 /// Mean friction of a mesh after Fernandes, from a dimensionless load and roughness.
@@ -24,11 +27,16 @@ pub struct Params {
     /// Least length of all lines of contact; absent, that of one pair: face width over the cosine of the base helix. [mm]
     #[schemars(range(min = 0.1, max = 5000.0))]
     pub contact_length: Option<f64>,
+    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
 }
 
 struct Fernandes {
     x_l: Option<f64>,
     length: f64,
+    greatest: f64,
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> {
@@ -38,6 +46,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> 
         length: params
             .contact_length
             .unwrap_or(part.pair.facewidth / part.pair.base_helix.cos()),
+        greatest: params.greatest,
     })
 }
 
@@ -58,19 +67,18 @@ impl MeanFrictionModel for Fernandes {
         }
         let x_l = at.show("X_L", "-", self.x_l.unwrap_or(at.x_l));
         let force = at.show("F_bn", "N", at.normal_force);
-        Ok(at.observe(
-            &MU,
-            mu(
-                at.sum_speed,
-                at.eta,
-                at.alpha,
-                force,
-                at.ra,
-                self.length,
-                at.radius,
-                x_l,
-            ),
-        ))
+        at.check(&PITCH_SPEED, at.pitch_speed);
+        let value = mu(
+            at.sum_speed,
+            at.eta,
+            at.alpha,
+            force,
+            at.ra,
+            self.length,
+            at.radius,
+            x_l,
+        );
+        Ok(at.observe(&MU, value.min(self.greatest)))
     }
 }
 
@@ -81,8 +89,9 @@ register!(MeanFriction, "fernandes", Params,
         formula(Evidence::OneSource, "public programs of the author; an older script differs by eps_alpha^-0.125"),
         default_of("x_l", Evidence::Disputed, "the formula was fitted with factors of its own, 0.585 to 0.846"),
         default_of("contact_length", Evidence::Assumed, "one pair; of spur gears the least length"),
+        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
     ],
-    observed: [MU], prepare: prepare);
+    limits: [PITCH_SPEED], observed: [MU], prepare: prepare);
 
 #[cfg(test)]
 mod tests {

@@ -4,7 +4,7 @@
 //! X_R = ((Ra1 + Ra2)/2)^0.25 and X_L = X_L0 eta^-0.05; w_Bt in N/mm, v_SC in m/s, rho_relC in mm, eta in mPa s, Ra in um.
 //! It is the formula of Schlenk a quarter higher: conservative for scuffing, too much for efficiency.
 
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
 use gearloss_framework::register;
@@ -12,6 +12,16 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::boundary::greatest;
+
+const PITCH_SPEED: Limit = Limit::new(
+    0,
+    "v_t",
+    "m/s",
+    0.5,
+    60.0,
+    "no source states it: assumed, as for Schlenk's formula, which has its form",
+);
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
 /// Oil type for X_L0.
@@ -53,6 +63,10 @@ pub struct Iso13989 {
     pub x_l: Option<f64>,
     /// Oil type whose lubricant factor counts.
     pub oil: Option<OilType>,
+    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
 }
 
 /// Friction from shop units: N/mm, m/s, mm, mPa s, um.
@@ -71,10 +85,9 @@ impl MeanFrictionModel for Iso13989 {
         let x_l = self.x_l.unwrap_or_else(|| self.oil.map_or(at.x_l, OilType::x_l));
         let x_l = at.show("X_L0", "-", x_l);
         let w = at.show("w_Bt", "N/mm", at.line_load.n_mm());
-        Ok(at.observe(
-            &MU,
-            mu(w, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l),
-        ))
+        at.check(&PITCH_SPEED, at.pitch_speed);
+        let value = mu(w, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
+        Ok(at.observe(&MU, value.min(self.greatest)))
     }
 }
 
@@ -85,8 +98,9 @@ register!(MeanFriction, "iso_13989", Iso13989,
         formula(Evidence::Recalled, "from memory of the standard"),
         default_of("x_l", Evidence::Disputed, "tables of X_L differ between standards"),
         default_of("oil", Evidence::Disputed, "tables of X_L differ between standards"),
+        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
     ],
-    observed: [MU]);
+    limits: [PITCH_SPEED], observed: [MU]);
 
 #[cfg(test)]
 mod tests {

@@ -12,7 +12,17 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::boundary::greatest;
+
 const LINE_LOAD: Limit = Limit::new(0, "w_Bt", "N/mm", 150.0, 3000.0, "lower clamp of the method");
+const PITCH_SPEED: Limit = Limit::new(
+    1,
+    "v_t",
+    "m/s",
+    0.5,
+    60.0,
+    "no source states it: assumed, as for Schlenk's formula, which has its form",
+);
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
 /// Mean friction of a mesh after Michaelis, as in DIN 3990-4.
@@ -24,6 +34,10 @@ pub struct Michaelis {
     /// Below 150 N/mm the friction stays that of 150 N/mm.
     #[serde(default = "yes")]
     pub clamp_line_load: bool,
+    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
 }
 
 fn yes() -> bool {
@@ -52,7 +66,8 @@ impl MeanFrictionModel for Michaelis {
         };
         let x_l = at.show("X_L", "-", self.x_l.unwrap_or(at.x_l));
         let value = mu(held, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
-        Ok(at.observe(&MU, value))
+        at.check(&PITCH_SPEED, at.pitch_speed);
+        Ok(at.observe(&MU, value.min(self.greatest)))
     }
 }
 
@@ -63,8 +78,9 @@ register!(MeanFriction, "michaelis", Michaelis,
         formula(Evidence::Recalled, "from memory of the standard"),
         default_of("x_l", Evidence::Disputed, "tables of X_L differ between standards and tests"),
         default_of("clamp_line_load", Evidence::Recalled, "from memory of the standard"),
+        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
     ],
-    limits: [LINE_LOAD], observed: [MU]);
+    limits: [LINE_LOAD, PITCH_SPEED], observed: [MU]);
 
 #[cfg(test)]
 mod tests {

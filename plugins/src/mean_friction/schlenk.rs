@@ -16,8 +16,17 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::boundary::greatest;
+
 pub(crate) const LINE_LOAD: Limit = Limit::new(0, "F_bt/b", "N/mm", 150.0, 3000.0, "lower clamp of the method");
-pub(crate) const PITCH_SPEED: Limit = Limit::new(1, "v_t", "m/s", 0.0, 60.0, "tests behind the method");
+pub(crate) const PITCH_SPEED: Limit = Limit::new(
+    1,
+    "v_t",
+    "m/s",
+    0.5,
+    60.0,
+    "tests behind the method; the lower end as in FZG efficiency tests, recalled",
+);
 pub(crate) const VISCOSITY: Limit = Limit::new(2, "eta", "mPa s", 5.0, 500.0, "tests behind the method, recalled");
 pub(crate) const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
@@ -93,6 +102,10 @@ pub struct Schlenk {
     /// Which speed the upper clamp holds.
     #[serde(default)]
     pub clamp_speed: SpeedClamp,
+    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
 }
 
 fn yes() -> bool {
@@ -153,7 +166,7 @@ impl Schlenk {
             .unwrap_or_else(|| self.oil.map_or(mesh.x_l, |oil| oil.x_l(sum)));
         let x_l = notes.show("X_L", "-", x_l);
         let ra = notes.show("Ra", "um", mesh.ra);
-        notes.observe(&MU, mu(line_load, sum, radius, eta, ra, x_l))
+        notes.observe(&MU, mu(line_load, sum, radius, eta, ra, x_l).min(self.greatest))
     }
 }
 
@@ -187,6 +200,7 @@ register!(MeanFriction, "schlenk", Schlenk,
         default_of("oil", Evidence::Disputed, "tables of X_L differ between standards and tests"),
         default_of("clamp_line_load", Evidence::Recalled, "the clamp stands in the method but not in open programs"),
         default_of("clamp_speed", Evidence::Disputed, "two readings of the clamp"),
+        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
     ],
     limits: [LINE_LOAD, PITCH_SPEED, VISCOSITY], observed: [MU]);
 
@@ -215,6 +229,7 @@ mod tests {
             oil: None,
             clamp_line_load,
             clamp_speed,
+            greatest: greatest(),
         };
         let at = MeanFrictionAt::usual(&part, Notes::MUTED).with(|to| {
             to.line_load = 80e3;
@@ -233,6 +248,34 @@ mod tests {
                 .mu(&at.with(|to| to.sum_speed = 0.0))
                 .is_err()
         );
+    }
+
+    #[test]
+    fn a_creeping_mesh_has_boundary_friction_and_is_noted() {
+        let part = fzg_c14(0.4e-6, 0.5e-6);
+        let law = Schlenk {
+            x_l: None,
+            oil: None,
+            clamp_line_load: true,
+            clamp_speed: SpeedClamp::SumSpeed,
+            greatest: greatest(),
+        };
+        let mu = |speed: f64| {
+            let at = MeanFrictionAt::usual(&part, Notes::MUTED).with(|to| {
+                (to.pitch_speed, to.sum_speed) = (speed, 0.76 * speed);
+            });
+            law.mu(&at).unwrap()
+        };
+        assert_eq!(mu(5e-6), 0.2);
+        // It goes over continuously, and a gear that turns has the friction of the formula.
+        let border = (1..4000).map(|i| mu(1e-5 * f64::from(i))).collect::<Vec<_>>();
+        assert!(
+            border
+                .array_windows()
+                .all(|[slow, fast]| slow >= fast && slow - fast < 1e-2),
+            "{border:?}"
+        );
+        assert!(mu(0.1) < 0.2 && PITCH_SPEED.least > 0.1);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! form converts to this one. Roughness, recalled, multiplies by 1.13/(1.13 - S), S in um rms of both flanks, below 1.13 um.
 //! Diverges at the pitch point, where the loss vanishes all the same: held at `greatest`. Zero where the logarithm is negative.
 
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
@@ -13,6 +13,16 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::boundary::greatest;
+
+const SUM_SPEED: Limit = Limit::new(
+    0,
+    "v_S",
+    "m/s",
+    0.4,
+    100.0,
+    "no source states it: assumed, gears that run on films",
+);
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
 /// Friction between flanks after Benedict and Kelley.
@@ -25,10 +35,6 @@ pub struct BenedictKelley {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
-}
-
-fn greatest() -> f64 {
-    0.2
 }
 
 /// Friction of smooth flanks from N/m, Pa s and m/s; may be negative or infinite.
@@ -58,6 +64,7 @@ impl ToothFrictionModel for BenedictKelley {
         } else {
             1.0
         };
+        at.check(&SUM_SPEED, at.sum_speed);
         let mu = smooth(at.line_load, at.eta, at.sliding, at.sum_speed) * factor;
         Ok(at.observe(&MU, mu.max(0.0).min(self.greatest)))
     }
@@ -76,7 +83,7 @@ register!(ToothFriction, "benedict_kelley", BenedictKelley,
         default_of("roughness", Evidence::Recalled, "the roughness factor is recalled"),
         default_of("greatest", Evidence::Assumed, "the formula diverges at the pitch point"),
     ],
-    observed: [MU]);
+    limits: [SUM_SPEED], observed: [MU]);
 
 #[cfg(test)]
 mod tests {

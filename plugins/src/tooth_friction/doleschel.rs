@@ -4,7 +4,7 @@
 //! 0.2 m/s for boundary friction, where viscosity does not count. Coefficient and exponents belong to the oil and come from
 //! its FVA 345 test; no values of standard oils are public, so there are no defaults. Meant for the two slots of `mixed`.
 
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
@@ -12,8 +12,16 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::finite;
+use super::{entraining, finite};
 
+const SUM_SPEED: Limit = Limit::new(
+    0,
+    "v_S",
+    "m/s",
+    0.2,
+    15.3,
+    "FVA 345 tests FZG C gears up to 20 m/s, and boundary friction at 0.2 m/s; recalled",
+);
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
 /// Power law of boundary or fluid friction after Doleschel, with constants of an oil's test.
@@ -36,19 +44,34 @@ pub struct Doleschel {
     #[serde(default = "fluid")]
     #[schemars(range(min = 0.001, max = 100.0))]
     pub reference_speed: f64,
+    /// Greatest coefficient of friction, to which a falling power of the speed grows at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
 }
 
 fn fluid() -> f64 {
     8.3
 }
 
+/// The greatest reference: what is measured at it is never cut off.
+fn greatest() -> f64 {
+    0.5
+}
+
 impl ToothFrictionModel for Doleschel {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        if at.pressure == 0.0 {
+            at.branch("no load: no friction");
+            return Ok(at.observe(&MU, 0.0));
+        }
+        let sum_speed = entraining(at.sum_speed)?;
         let mu = self.mu
             * at.pressure.gpa().powf(self.pressure)
-            * (at.sum_speed / self.reference_speed).powf(self.speed)
+            * (sum_speed / self.reference_speed).powf(self.speed)
             * (at.eta.mpa_s() / 20.0).powf(self.viscosity);
-        Ok(at.observe(&MU, finite(mu)?))
+        at.check(&SUM_SPEED, sum_speed);
+        Ok(at.observe(&MU, finite(mu.min(self.greatest))?))
     }
 }
 
@@ -59,5 +82,39 @@ register!(ToothFriction, "doleschel", Doleschel,
         formula(Evidence::Recalled, "form recalled"),
         default_of("viscosity", Evidence::Recalled, "boundary friction has no viscosity"),
         default_of("reference_speed", Evidence::Recalled, "reference of fluid friction"),
+        default_of("greatest", Evidence::Assumed, "the greatest coefficient that the law may have at its reference"),
     ],
-    observed: [MU]);
+    limits: [SUM_SPEED], observed: [MU]);
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::NoPart;
+
+    #[test]
+    fn a_contact_at_rest_is_named_as_such() {
+        let law = Doleschel {
+            mu: 0.02,
+            pressure: 0.5,
+            speed: -0.1,
+            viscosity: -0.05,
+            reference_speed: 8.3,
+            greatest: greatest(),
+        };
+        let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| to.sum_speed = 0.0);
+        let fault = law.mu(&at).unwrap_err();
+        assert!(fault.what.starts_with("sum of the surface speeds"), "{fault}");
+        // Nor is an unloaded one a power of zero.
+        let creeping = at.with(|to| to.sum_speed = 1e-300);
+        assert_eq!(law.mu(&creeping).unwrap(), 0.5);
+        let rising = Doleschel { pressure: -0.5, ..law };
+        assert_eq!(
+            rising
+                .mu(&at.with(|to| (to.pressure, to.sum_speed) = (0.0, 5.0)))
+                .unwrap(),
+            0.0
+        );
+    }
+}

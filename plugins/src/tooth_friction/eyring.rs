@@ -6,7 +6,7 @@
 //! slope L of the limiting stress over pressure: 0.047 to 0.053 mineral, 0.035 polyalphaolefin, 0.044 polyglycol.
 //! Friction of the film alone: in mixed friction it is the fluid part.
 
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::lubricant::pressure::roelands;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
@@ -17,6 +17,14 @@ use serde::Deserialize;
 
 use crate::contact::{self, Film};
 
+const SUM_SPEED: Limit = Limit::new(
+    0,
+    "v_S",
+    "m/s",
+    0.1,
+    100.0,
+    "no source states it: assumed, speeds at which there is a film",
+);
 const MU: Observed = Observed::new(0, "mu_f", "-", "Coefficient of friction.");
 const THICKNESS: Observed = Observed::new(1, "h", "um", "Film thickness.");
 
@@ -57,6 +65,7 @@ impl ToothFrictionModel for Eyring {
             at.branch("no sliding or no load: no friction");
             return Ok(at.observe(&MU, 0.0));
         }
+        at.check(&SUM_SPEED, at.sum_speed);
         let h = contact::film(at, self.film, self.thermal);
         at.observe(&THICKNESS, h.um());
         if h == 0.0 {
@@ -85,7 +94,7 @@ register!(ToothFriction, "eyring", Eyring,
         default_of("film", Evidence::OneSource, "the same article"),
         default_of("thermal", Evidence::OneSource, "the same article"),
     ],
-    observed: [MU, THICKNESS]);
+    limits: [SUM_SPEED], observed: [MU, THICKNESS]);
 
 #[cfg(test)]
 mod tests {

@@ -3,34 +3,58 @@
 //! Source: ISO/TC 60 draft as quoted in reviews: mu = 0.12 (w S/(R v_e eta))^0.25; w in N/mm, S rms roughness of both flanks in um,
 //! R in mm, v_e mean rolling speed in m/s, eta in mPa s. A public SI form with 0.0254 and the sum speed is the same.
 
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::finite;
+use super::entraining;
+use crate::boundary::greatest;
 
+const ROLLING: Limit = Limit::new(
+    0,
+    "v_e",
+    "m/s",
+    0.2,
+    50.0,
+    "no source states it: assumed, gears that run on films",
+);
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
 /// Friction between flanks after a working draft of ISO TC 60.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct IsoTc60 {}
+pub struct IsoTc60 {
+    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
+}
 
 impl ToothFrictionModel for IsoTc60 {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        let ratio = at.line_load.n_mm() * at.rq.um() / (at.radius.mm() * 0.5 * at.sum_speed * at.eta.mpa_s());
-        Ok(at.observe(&MU, finite(0.12 * ratio.powf(0.25))?))
+        let ratio =
+            at.line_load.n_mm() * at.rq.um() / (at.radius.mm() * 0.5 * entraining(at.sum_speed)? * at.eta.mpa_s());
+        at.check(&ROLLING, 0.5 * at.sum_speed);
+        Ok(at.observe(&MU, (0.12 * ratio.powf(0.25)).min(self.greatest)))
+    }
+
+    /// Friction is cut off where it reaches its limit.
+    fn order(&self) -> usize {
+        CUT_OFF
     }
 }
 
 register!(ToothFriction, "iso_tc60", IsoTc60,
     source: "ISO/TC 60 working draft, as quoted in reviews",
     example: "{ type: iso_tc60 }",
-    evidence: [formula(Evidence::OneSource, "one open source and memory agree")],
-    observed: [MU]);
+    evidence: [
+        formula(Evidence::OneSource, "one open source and memory agree"),
+        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+    ],
+    limits: [ROLLING], observed: [MU]);
 
 #[cfg(test)]
 mod tests {
@@ -38,6 +62,8 @@ mod tests {
     use super::*;
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::NoPart;
+
+    const LAW: IsoTc60 = IsoTc60 { greatest: 0.2 };
 
     #[test]
     fn b8_iso_tc60() {
@@ -48,7 +74,9 @@ mod tests {
             to.sum_speed = 10.0;
             to.eta = 20e-3;
         });
-        assert!((IsoTc60 {}.mu(&at).unwrap() / 0.0706279 - 1.0).abs() < 1e-5);
-        assert!(IsoTc60 {}.mu(&at.with(|to| to.sum_speed = 0.0)).is_err());
+        assert!((LAW.mu(&at).unwrap() / 0.0706279 - 1.0).abs() < 1e-5);
+        assert_eq!(LAW.mu(&at.with(|to| to.sum_speed = 1e-6)).unwrap(), 0.2);
+        let fault = LAW.mu(&at.with(|to| to.sum_speed = 0.0)).unwrap_err();
+        assert!(fault.what.starts_with("sum of the surface speeds"), "{fault}");
     }
 }

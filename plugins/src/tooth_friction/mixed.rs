@@ -11,7 +11,7 @@
 //! their own: constants (0.08 to 0.135 and 0.02 to 0.04 are usual), `doleschel`, `eyring`.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
     Along, CUT_OFF, ContactAt, PathAt, SMOOTH, ToothFriction, ToothFrictionModel,
@@ -23,6 +23,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::{self, Film};
 
+const SUM_SPEED: Limit = Limit::new(
+    0,
+    "v_S",
+    "m/s",
+    0.0,
+    100.0,
+    "no source states it: assumed; without speed there is no film, and friction is that of the boundary",
+);
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 const LAMBDA: Observed = Observed::new(1, "lambda", "-", "Film over roughness, as the weight defines it.");
 const XI: Observed = Observed::new(2, "xi", "-", "Share of boundary friction.");
@@ -120,6 +128,7 @@ fn erf(x: f64) -> f64 {
 impl Mixed {
     /// Share of boundary friction in a contact.
     fn share(&self, at: &ContactAt<'_>) -> f64 {
+        at.check(&SUM_SPEED, at.sum_speed);
         let h = contact::film(at, self.film, self.params.thermal);
         at.observe(&THICKNESS, h.um());
         let roughness = match self.params.weight {
@@ -188,7 +197,7 @@ register!(ToothFriction, "mixed", Params,
         default_of("exponent", Evidence::OneSource, "Olver and Spikes"),
         default_of("rz_over_ra", Evidence::Assumed, "usual for ground flanks"),
     ],
-    observed: [MU, LAMBDA, XI, THICKNESS], prepare: prepare);
+    limits: [SUM_SPEED], observed: [MU, LAMBDA, XI, THICKNESS], prepare: prepare);
 
 #[cfg(test)]
 mod tests {

@@ -3,18 +3,27 @@
 //! Source: O'Donoghue, Cameron: Friction and temperature in rolling sliding contacts, ASLE Trans. 9 (1966) 186-194, recalled:
 //! mu = 0.6 (S + 22)/35/(eta^(1/8) v_g^(1/3) v_S^(1/6) R^(1/2)), in inches: S centre line average in uin, eta in cP, speeds in in/s,
 //! R in inches. With metres the result is absurd. S was that of the discs before running; the mean Ra of the flanks stands
-//! for it. Not at the pitch point, where the formula diverges and the loss vanishes.
+//! for it. At the pitch point, where the formula diverges and the loss vanishes, it is held at `greatest`.
 
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::finite;
+use super::entraining;
+use crate::boundary::greatest;
 
+const SUM_SPEED: Limit = Limit::new(
+    0,
+    "v_S",
+    "m/s",
+    0.4,
+    100.0,
+    "no source states it: assumed, gears that run on films",
+);
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
 /// One inch. \[m\]
@@ -22,14 +31,21 @@ const INCH: f64 = 25.4e-3;
 
 /// Friction between flanks after O'Donoghue and Cameron.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct ODonoghueCameron {}
+pub struct ODonoghueCameron {
+    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula near the pitch point and at creeping speeds. [-]
+    #[serde(default = "greatest")]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub greatest: f64,
+}
 
 impl ToothFrictionModel for ODonoghueCameron {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         let s = at.show("S", "uin", at.ra / INCH * 1e6);
-        let speeds = (at.sliding / INCH).cbrt() * (at.sum_speed / INCH).powf(1.0 / 6.0);
+        let sum_speed = entraining(at.sum_speed)?;
+        at.check(&SUM_SPEED, sum_speed);
+        let speeds = (at.sliding / INCH).cbrt() * (sum_speed / INCH).powf(1.0 / 6.0);
         let mu = 0.6 * (s + 22.0) / 35.0 / (at.eta.mpa_s().powf(0.125) * speeds * (at.radius / INCH).sqrt());
-        Ok(at.observe(&MU, finite(mu)?))
+        Ok(at.observe(&MU, mu.min(self.greatest)))
     }
 
     /// Friction is cut off where it reaches its limits.
@@ -41,8 +57,11 @@ impl ToothFrictionModel for ODonoghueCameron {
 register!(ToothFriction, "odonoghue_cameron", ODonoghueCameron,
     source: "O'Donoghue, Cameron, ASLE Trans. 9 (1966) 186-194",
     example: "{ type: odonoghue_cameron }",
-    evidence: [formula(Evidence::Recalled, "from memory; the magnitude is plausible")],
-    observed: [MU]);
+    evidence: [
+        formula(Evidence::Recalled, "from memory; the magnitude is plausible"),
+        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+    ],
+    limits: [SUM_SPEED], observed: [MU]);
 
 #[cfg(test)]
 mod tests {
@@ -50,6 +69,8 @@ mod tests {
     use super::*;
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::NoPart;
+
+    const LAW: ODonoghueCameron = ODonoghueCameron { greatest: 0.2 };
 
     #[test]
     fn b8_odonoghue_cameron() {
@@ -60,7 +81,9 @@ mod tests {
             to.ra = 13e-6 * INCH;
             to.radius = 0.4 * INCH;
         });
-        assert!((ODonoghueCameron {}.mu(&at).unwrap() / 0.0562212 - 1.0).abs() < 1e-5);
-        assert!(ODonoghueCameron {}.mu(&at.with(|to| to.sliding = 0.0)).is_err());
+        assert!((LAW.mu(&at).unwrap() / 0.0562212 - 1.0).abs() < 1e-5);
+        assert_eq!(LAW.mu(&at.with(|to| to.sliding = 0.0)).unwrap(), 0.2);
+        let fault = LAW.mu(&at.with(|to| to.sum_speed = 0.0)).unwrap_err();
+        assert!(fault.what.starts_with("sum of the surface speeds"), "{fault}");
     }
 }
