@@ -499,4 +499,34 @@ mod tests {
         }
         assert_eq!(alpha(PressureViscosityLaw::Gold, Some(2e-8)), 2e-8);
     }
+
+    #[test]
+    fn every_usual_property_is_that_of_its_source() {
+        // Typed a second time from the sources, without a look at `usual`.
+        let table = include_str!("../tests/tables/oil_kinds.csv");
+        let lines: Vec<Vec<&str>> = table
+            .lines()
+            .filter(|line| !line.starts_with('#'))
+            .skip(1)
+            .map(|line| line.split(',').collect())
+            .collect();
+        assert_eq!(lines.len(), 5);
+        for line in lines {
+            let kind: LubricantKind = serde_json::from_value(line[0].into()).unwrap();
+            let own = usual(kind);
+            let cell = |i: usize| line[i].parse::<f64>().unwrap();
+            assert_eq!(
+                [own.gold.0, own.gold.1, own.mu_ehl],
+                [cell(1), cell(2), cell(3)],
+                "{}",
+                line[0]
+            );
+            let (least, greatest) = (cell(4) * 1e-4, cell(5) * 1e-4);
+            assert!(
+                own.expansion >= 0.999_999 * least && own.expansion <= 1.000_001 * greatest,
+                "{}",
+                line[0]
+            );
+        }
+    }
 }

@@ -20,3 +20,45 @@ inventory::submit! {
         origin: origin!(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::printed::Printed;
+
+    #[test]
+    fn every_oil_follows_from_the_constants_of_its_source() {
+        let source = Printed::read(include_str!("../tests/tables/oils.csv"));
+        let catalogue = Printed::read(include_str!("../catalogues/lubricants.csv"));
+        for line in source.rows() {
+            let name = line.text("oil");
+            let (base, grade) = name.split_once(' ').unwrap_or((name, ""));
+            let designation = match base {
+                "fva" => format!("FVA {grade}"),
+                "pao" | "pag" => format!("ISO VG {grade} {}", base.to_uppercase()),
+                _ => format!("ISO VG {grade} {base}"),
+            };
+            let own = catalogue
+                .rows()
+                .find(|row| row.text("designation") == designation)
+                .unwrap_or_else(|| panic!("{designation}"));
+            for (column, printed, celsius) in [
+                ("viscosity.kv40 [mm2/s]", "nu40", 40.0_f64),
+                ("viscosity.kv100 [mm2/s]", "nu100", 100.0),
+            ] {
+                let lg = line.number("A") - line.number("B") * (celsius + 273.15).log10();
+                let nu = 10.0_f64.powf(10.0_f64.powf(lg)) - 0.7;
+                // The catalogue has five digits, the source three or four.
+                let cell = own.number(column);
+                assert!(
+                    (cell / nu - 1.0).abs() < 5e-5,
+                    "{designation}: {column} {cell}, not {nu}"
+                );
+                assert!(
+                    (cell / line.number(printed) - 1.0).abs() < 2e-3,
+                    "{designation}: {column} {cell}"
+                );
+            }
+        }
+        assert_eq!(source.rows().count(), 19);
+    }
+}

@@ -18,6 +18,8 @@ pub mod mean_friction;
 pub mod network;
 pub mod path;
 pub mod planetary_drag;
+#[cfg(test)]
+mod printed;
 pub mod rotating;
 pub mod seal;
 pub mod sets;

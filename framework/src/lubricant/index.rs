@@ -151,4 +151,26 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn every_coefficient_is_that_of_the_standard() {
+        // Typed a second time from the standard, without a look at `ROWS`.
+        let table = include_str!("../../tests/tables/viscosity_index.csv");
+        let lines: Vec<Vec<Option<f64>>> = table
+            .lines()
+            .filter(|line| !line.starts_with('#'))
+            .skip(1)
+            .map(|line| line.split(',').map(|cell| cell.parse().ok()).collect())
+            .collect();
+        assert_eq!(lines.len(), ROWS.len());
+        let mut from = 2.0;
+        for (line, (to, coefficients)) in lines.iter().zip(ROWS) {
+            let own = [from, to].into_iter().chain(coefficients);
+            for (i, (cell, own)) in line.iter().zip(own).enumerate() {
+                assert_eq!(cell.unwrap_or(f64::INFINITY), own, "column {i} from {from} mm2/s");
+            }
+            assert_eq!(line.len(), 8);
+            from = to;
+        }
+    }
 }

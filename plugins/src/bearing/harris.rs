@@ -150,6 +150,28 @@ mod tests {
             };
             moments(&params.model(&part).unwrap(), &part, 0.0)[0]
         };
-        assert!(load(12.0) > load(40.0));
+        // By hand: Fr 3000 N, Fa 1000 N, d_m 60 mm, C0 26000 N; Fs = 3000 N, so that f1 = 0.001 (3000/26000)^0.33 = 4.9035297e-4.
+        // F_b at 12 deg is 0.9 1000 cot 12 deg - 0.1 3000 = 3934.1671 N; at 40 deg that is 772.6 N, so that Fr counts.
+        assert!((load(12.0) / 115.747831 - 1.0).abs() < 1e-5, "{}", load(12.0));
+        assert!((load(40.0) / 88.2635344 - 1.0).abs() < 1e-5, "{}", load(40.0));
+    }
+
+    #[test]
+    fn every_factor_is_that_of_the_book() {
+        let table = crate::printed::Printed::read(include_str!("../../tests/tables/harris.csv"));
+        for line in table.rows() {
+            let (kind, light, heavy) = match line.text("type") {
+                "deep_groove" => (BearingKind::DeepGrooveBall, "60", "63"),
+                "angular_contact" => (BearingKind::AngularContactBall, "72 BE", "73 BE"),
+                "thrust_ball" => (BearingKind::ThrustBall, "60", "63"),
+                "self_aligning" => (BearingKind::SelfAligningBall, "10", "13"),
+                other => panic!("{other}"),
+            };
+            for (column, series) in [("z_light", light), ("z_heavy", heavy)] {
+                let own = PLAIN.model(&part(kind, series, 40.0, 80.0, Some(26000.0))).unwrap();
+                line.is(column, own.law.z);
+                line.is("y", own.law.exponent);
+            }
+        }
     }
 }

@@ -340,7 +340,11 @@ pub fn f2(part: &BearingPart) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::bearing::palmgren::AXIAL_RATIO;
+    use crate::printed::Printed;
+    use gearloss_framework::mechanism::bearing::BearingEntry;
 
     #[test]
     fn both_branches_of_spherical_rollers_meet() {
@@ -372,5 +376,118 @@ mod tests {
             assert!(!MIDDLE.contains(&name) && !HEAVY.contains(&name), "{name}");
         }
         assert!(MIDDLE.iter().all(|name| !HEAVY.contains(name)));
+    }
+
+    fn part(kind: BearingKind, series: &str, lubrication: Lubrication) -> BearingPart {
+        let entry = BearingEntry {
+            kind: Some(kind),
+            series: Some(series.to_owned()),
+            bore: Some(0.030),
+            outside: Some(0.062),
+            y: Some(1.6),
+            y0: Some(0.9),
+            lubrication,
+            ..BearingEntry::default()
+        };
+        BearingPart::try_from(entry).unwrap()
+    }
+
+    fn kind(name: &str) -> BearingKind {
+        use BearingKind as K;
+        match name {
+            "deep_groove" | "deep_groove single row" => K::DeepGrooveBall,
+            "deep_groove double row" => K::DeepGrooveBallDoubleRow,
+            "self_aligning" => K::SelfAligningBall,
+            "angular_contact single row" => K::AngularContactBall,
+            "angular_contact double row" => K::AngularContactBallDoubleRow,
+            "four_point_contact" => K::FourPointContactBall,
+            "thrust_ball" => K::ThrustBall,
+            "cylindrical_roller" => K::CylindricalRoller,
+            "cylindrical_roller full complement" => K::CylindricalRollerFullComplement,
+            "needle_roller" => K::NeedleCage,
+            "tapered_roller" => K::TaperedRoller,
+            "spherical_roller" => K::SphericalRoller,
+            "cylindrical_roller_thrust" => K::CylindricalRollerThrust,
+            "needle_roller_thrust" => K::NeedleRollerThrust,
+            "spherical_roller_thrust" => K::SphericalRollerThrust,
+            other => panic!("{other}"),
+        }
+    }
+
+    #[test]
+    fn every_f0_is_that_of_the_catalogue() {
+        let table = Printed::read(include_str!("../../tests/tables/palmgren_f0.csv"));
+        for line in table.rows() {
+            let kind = kind(line.text("type"));
+            for (least, greatest, lubrication) in [
+                ("grease", "grease_to", Lubrication::Grease),
+                ("mist", "mist_to", Lubrication::OilAir),
+                ("bath", "bath_to", Lubrication::Bath),
+                ("jet", "jet_to", Lubrication::Jet),
+            ] {
+                // A light and a heavy series.
+                let light = f0(&part(kind, "10", lubrication)).ok();
+                let heavy = f0(&part(kind, "3", lubrication)).ok();
+                assert_eq!(light.is_some(), line.cell(least).is_some(), "{kind:?} {lubrication:?}");
+                if let (Some(light), Some(heavy)) = (light, heavy) {
+                    line.is(least, light);
+                    line.is(greatest, heavy);
+                }
+            }
+        }
+        assert_eq!(table.rows().count(), 15);
+    }
+
+    #[test]
+    fn every_f1_is_that_of_the_catalogue() {
+        let table = Printed::read(include_str!("../../tests/tables/palmgren_f1.csv"));
+        for line in table.rows() {
+            let (name, series) = (line.text("type"), line.text("series"));
+            let (kind, series) = match (name, series) {
+                ("cylindrical_roller", "full complement") => {
+                    (BearingKind::CylindricalRollerFullComplement, String::new())
+                }
+                ("deep_groove", _) => (BearingKind::DeepGrooveBall, "3".to_owned()),
+                _ => (kind(name), series.replace(" E", "E")),
+            };
+            let law = load_law(&part(kind, &series, Lubrication::Bath), 0.55, 3.0, false).unwrap();
+            line.is("factor_to", law.z);
+            line.is("exponent", law.exponent);
+            line.is("a", law.a);
+            line.is("b", law.b);
+            if kind == BearingKind::DeepGrooveBall {
+                // Light series lie within the range of the catalogue.
+                let light = load_law(&part(kind, "60", Lubrication::Bath), 0.55, 3.0, false).unwrap();
+                assert!((line.number("factor")..line.number("factor_to")).contains(&light.z));
+            } else {
+                line.is("factor", law.z);
+            }
+        }
+        assert_eq!(
+            SPHERICAL.len(),
+            table
+                .rows()
+                .filter(|line| line.text("type") == "spherical_roller")
+                .count()
+        );
+    }
+
+    #[test]
+    fn every_f2_is_that_of_the_catalogue() {
+        let table = Printed::read(include_str!("../../tests/tables/flange_f2.csv"));
+        let mut met = 0;
+        for line in table.rows() {
+            // The other designs are the user's to state.
+            let kind = match line.text("type") {
+                "cage with EC flange" => BearingKind::CylindricalRoller,
+                "full complement single row" => BearingKind::CylindricalRollerFullComplement,
+                _ => continue,
+            };
+            line.is("oil", f2(&part(kind, "2", Lubrication::Bath)));
+            line.is("grease", f2(&part(kind, "2", Lubrication::Grease)));
+            line.is("Fa/Fr", AXIAL_RATIO.greatest);
+            met += 1;
+        }
+        assert_eq!(met, 2);
     }
 }

@@ -189,4 +189,38 @@ mod tests {
                 .contains("series")
         );
     }
+
+    #[test]
+    fn every_factor_is_that_of_the_catalogue() {
+        use BearingKind as K;
+        let table = crate::printed::Printed::read(include_str!("../../tests/tables/schaeffler.csv"));
+        for line in table.rows() {
+            let series = line.text("series");
+            let kind = match (line.text("type"), series) {
+                ("deep_groove", "42" | "43") => K::DeepGrooveBallDoubleRow,
+                ("deep_groove", _) => K::DeepGrooveBall,
+                ("angular_contact", "30 B" | "32 B" | "33 B") => K::AngularContactBallDoubleRow,
+                ("angular_contact", _) => K::AngularContactBall,
+                ("four_point_contact", _) => K::FourPointContactBall,
+                ("cylindrical_roller", _) => K::CylindricalRoller,
+                ("tapered_roller", _) => K::TaperedRoller,
+                ("needle_roller", _) => K::NeedleCage,
+                (other, _) => panic!("{other}"),
+            };
+            let entry = BearingEntry {
+                kind: Some(kind),
+                series: Some(series.to_owned()),
+                bore: Some(0.030),
+                outside: Some(0.062),
+                y: Some(1.6),
+                y0: Some(0.9),
+                ..BearingEntry::default()
+            };
+            let own = row(&BearingPart::try_from(entry).unwrap()).unwrap();
+            line.is("f0_grease", own.f0[0]);
+            line.is("f0_bath", own.f0[1]);
+            line.is("factor", own.law.z);
+            line.is("exponent", own.law.exponent);
+        }
+    }
 }

@@ -101,4 +101,37 @@ mod tests {
         assert_eq!(rsl(1), rsl(2));
         assert!(SealRow::new(Code::RshDeepGroove, 62.0, 2).is_err());
     }
+
+    #[test]
+    fn every_seal_is_that_of_the_catalogue() {
+        let table = crate::printed::Printed::read(include_str!("../../tests/tables/skf_seals.csv"));
+        for line in table.rows() {
+            let code = match (line.text("seal"), line.text("bearing")) {
+                ("RSL", "deep_groove") => Code::RslDeepGroove,
+                ("RSH", "deep_groove") => Code::RshDeepGroove,
+                ("RS1", "deep_groove") => Code::Rs1DeepGroove,
+                ("RS1", "angular_contact") => Code::Rs1AngularContact,
+                ("RS1", "self_aligning") => Code::Rs1SelfAligning,
+                ("LS", "cylindrical_roller") => Code::LsCylindrical,
+                ("CS", "spherical_roller") => Code::CsSpherical,
+                ("CS", "toroidal_roller") => Code::CsCarb,
+                other => panic!("{other:?}"),
+            };
+            let (above, up_to) = (line.number("above"), line.cell("up_to").unwrap_or(1e4));
+            for outside in [above + 0.01, up_to] {
+                let own = SealRow::new(code, outside, 2).unwrap();
+                line.is("beta", own.beta);
+                line.is("K_S1", own.k_s1);
+                line.is("K_S2", own.k_s2);
+                assert_eq!(own.share, 1.0);
+            }
+            // No seal beyond the last row of its table, nor below the first.
+            if code != Code::Rs1DeepGroove && up_to > 25.0 {
+                assert!(SealRow::new(code, up_to + 0.01, 2).is_err());
+            }
+            if above >= 30.0 && code != Code::Rs1DeepGroove {
+                assert!(SealRow::new(code, above - 0.01, 2).is_err());
+            }
+        }
+    }
 }

@@ -110,6 +110,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::heat_dissipation::HousingPart;
+    use gearloss_framework::testing::eval;
 
     use super::*;
 
@@ -145,5 +146,31 @@ mod tests {
         ] {
             assert!((fan(v) - k).abs() < 1e-12, "{v}");
         }
+    }
+
+    #[test]
+    fn every_coefficient_is_that_of_the_report() {
+        let table = crate::printed::Printed::read(include_str!("../../tests/tables/heat_iso14179_1.csv"));
+        for line in table.rows() {
+            let place = match line.text("place") {
+                "small confined space" => "confined",
+                "large indoor hall" => "indoor",
+                "outdoors" => "outdoor",
+                _ => {
+                    line.is("least", fan(line.number("air")));
+                    continue;
+                }
+            };
+            for (column, within) in [("least", 0.0), ("greatest", 1.0)] {
+                let input = format!(
+                    "model: {{ type: iso14179_1, place: {place}, within: {within} }}\npart: {{ area: 10000 cm2, wall_thickness: 8 mm, wall_conductivity: 150 W/(m K), emissivity: 0.9, air_speed: 0 m/s }}"
+                );
+                line.is(column, eval("heat_dissipation/iso14179_1", &input).total);
+            }
+        }
+        assert_eq!(
+            FAN.len(),
+            table.rows().filter(|line| line.text("place") == "fan").count()
+        );
     }
 }

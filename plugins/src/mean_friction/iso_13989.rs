@@ -115,4 +115,24 @@ mod tests {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }
     }
+
+    #[test]
+    fn every_lubricant_factor_is_that_of_the_standard() {
+        let table = crate::printed::Printed::read(include_str!("../../tests/tables/lubricant_factor.csv"));
+        for line in table.rows() {
+            let oil = match line.text("oil") {
+                "mineral" => OilType::Mineral,
+                "polyalphaolefin" => OilType::Polyalphaolefin,
+                "polyglycol" => OilType::Polyglycol,
+                "water_soluble_polyglycol" => OilType::WaterSolublePolyglycol,
+                "traction_fluid" => OilType::TractionFluid,
+                "phosphate_ester" => OilType::PhosphateEster,
+                _ => {
+                    assert_eq!(line.cell("iso13989"), None);
+                    continue;
+                }
+            };
+            line.is("iso13989", oil.x_l());
+        }
+    }
 }

@@ -283,4 +283,26 @@ mod tests {
         close(mu(300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0447603);
         close(mu(200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.039369);
     }
+
+    #[test]
+    fn every_lubricant_factor_is_that_of_its_source() {
+        let table = crate::printed::Printed::read(include_str!("../../tests/tables/lubricant_factor.csv"));
+        for line in table.rows() {
+            let (iso, feup) = match line.text("oil") {
+                "mineral" => (OilType::Mineral, Some(OilType::MineralFeup)),
+                "polyalphaolefin" => (OilType::Polyalphaolefin, Some(OilType::SyntheticFeup)),
+                "ester" => (OilType::Ester, Some(OilType::SyntheticFeup)),
+                "polyglycol" => (OilType::Polyglycol, Some(OilType::PolyglycolFeup)),
+                "traction_fluid" => (OilType::TractionFluid, None),
+                "phosphate_ester" => (OilType::PhosphateEster, None),
+                _ => {
+                    assert_eq!(line.cell("iso14179_2"), None);
+                    continue;
+                }
+            };
+            // At 6 m/s that of polyglycol has its printed figure.
+            line.is("iso14179_2", iso.x_l(6.0));
+            assert_eq!(line.cell("feup"), feup.map(|oil| oil.x_l(6.0)));
+        }
+    }
 }

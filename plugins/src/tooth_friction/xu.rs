@@ -503,4 +503,13 @@ mod tests {
             assert!((LAW.mu(&path.contact(node)).unwrap() / mu - 1.0).abs() < 1e-12);
         }
     }
+
+    #[test]
+    fn every_constant_is_that_of_the_paper() {
+        let table = crate::printed::Printed::read(include_str!("../../tests/tables/xu.csv"));
+        for (line, own) in table.rows().zip(B) {
+            line.is("value", own);
+        }
+        assert_eq!(table.rows().count(), B.len());
+    }
 }

@@ -282,4 +282,20 @@ mod tests {
         assert_eq!(drag.moment(200.0, 3000.0, 15.0), drag.moment(78.0, 3000.0, 15.0));
         assert_eq!(drag.moment(0.0, 3000.0, 15.0), 0.0);
     }
+
+    #[test]
+    fn every_value_of_v_m_is_that_of_the_diagram() {
+        let table = crate::printed::Printed::read(include_str!("../../../tests/tables/skf_v_m.csv"));
+        let mut lines = table.rows();
+        for i in 0..V_M.len() - 1 {
+            let line = lines.next().unwrap();
+            for (column, own) in [("ball", V_M[i]), ("roller", V_M_ROLLERS[i])] {
+                line.is("H/d_m", own.0);
+                line.is(column, own.1);
+            }
+        }
+        assert!(lines.next().is_none());
+        // Flat from there on.
+        assert_eq!((v_m(&V_M, 5.0), v_m(&V_M_ROLLERS, 5.0)), (1.245e-3, 1.44e-3));
+    }
 }

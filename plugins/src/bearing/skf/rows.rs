@@ -596,6 +596,7 @@ impl Variables {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::printed::Printed;
     use gearloss_framework::mechanism::bearing::BearingEntry;
 
     /// Bore and outside diameter around a mean diameter, mm.
@@ -796,5 +797,188 @@ mod tests {
         let needle = part(BearingKind::NeedleCage, "", 30.0);
         assert!(row(&needle, false).unwrap_err().1.contains("model of its own"));
         assert!(row(&needle, true).is_ok());
+    }
+
+    /// Where d_m is 1 mm, its powers are one and the variables are the constants of the catalogue.
+    fn constants(kind: BearingKind, series: &str) -> Row {
+        let entry = BearingEntry {
+            kind: Some(kind),
+            series: Some(series.to_owned()),
+            bore: Some(0.5e-3),
+            outside: Some(1.5e-3),
+            y: Some(1.0),
+            c0: Some(24000.0),
+            ..BearingEntry::default()
+        };
+        row(&BearingPart::try_from(entry).unwrap(), false).unwrap()
+    }
+
+    /// Names of all rows of a table.
+    fn names<const N: usize>(rows: Rows<N>) -> impl Iterator<Item = &'static str> {
+        rows.iter().flat_map(|(names, _)| names.iter().copied())
+    }
+
+    #[test]
+    fn every_constant_of_ball_bearings_is_that_of_the_catalogue() {
+        use BearingKind as K;
+        let table = Printed::read(include_str!("../../../tests/tables/skf_ball.csv"));
+        let mut met = Vec::new();
+        for line in table.rows() {
+            let series = line.text("series");
+            met.push(series);
+            let (kind, series) = match (line.text("type"), series) {
+                ("deep_groove", "42" | "43") => (K::DeepGrooveBallDoubleRow, series),
+                ("deep_groove", _) => (K::DeepGrooveBall, series),
+                ("angular_contact", "32 A" | "33 A") => (K::AngularContactBallDoubleRow, series),
+                ("angular_contact", "other double row") => (K::AngularContactBallDoubleRow, "other"),
+                ("angular_contact", "other single row") => (K::AngularContactBall, "other"),
+                ("angular_contact", _) => (K::AngularContactBall, series),
+                ("four_point_contact", _) => (K::FourPointContactBall, ""),
+                ("self_aligning", _) => (K::SelfAligningBall, series),
+                ("thrust_ball", _) => (K::ThrustBall, ""),
+                (other, _) => panic!("{other}"),
+            };
+            let own = constants(kind, series);
+            line.is("K_Z", own.k_z);
+            match own.variables {
+                Variables::DeepGroove {
+                    rolling,
+                    r2,
+                    sliding,
+                    s2,
+                    ..
+                } => {
+                    line.is("R1", rolling);
+                    line.is("R2", r2);
+                    line.is("S1", sliding[0]);
+                    line.is("S1", sliding[1]);
+                    line.is("S2", s2);
+                }
+                Variables::Ball {
+                    rolling,
+                    r2,
+                    r3,
+                    sliding,
+                    s2,
+                    s3,
+                } => {
+                    line.is("R1", rolling);
+                    line.is("R2", r2);
+                    line.is("R3", r3);
+                    line.is("S1", sliding);
+                    line.is("S2", s2);
+                    line.is("S3", s3);
+                }
+                Variables::Thrust { rolling, sliding } => {
+                    line.is("R1", rolling.0);
+                    line.is("S1", sliding.0);
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+        let own = names(DEEP_GROOVE)
+            .chain(names(SELF_ALIGNING))
+            .chain(names(ANGULAR))
+            .chain(names(ANGULAR_DOUBLE));
+        for name in own.filter(|name| *name != "other") {
+            assert!(met.contains(&name), "{name} is not in the transcription");
+        }
+    }
+
+    #[test]
+    fn every_constant_of_roller_bearings_is_that_of_the_catalogue() {
+        use BearingKind as K;
+        let table = Printed::read(include_str!("../../../tests/tables/skf_roller.csv"));
+        let mut met = Vec::new();
+        for line in table.rows() {
+            let series = line.text("series");
+            let (kind, series) = match (line.text("type"), series) {
+                ("cylindrical_roller", "full complement") => (K::CylindricalRollerFullComplement, String::new()),
+                ("cylindrical_roller", _) => (K::CylindricalRoller, series.replace("high capacity", "HC")),
+                ("tapered_roller", "all others") => (K::TaperedRoller, "other".to_owned()),
+                ("tapered_roller", _) => (K::TaperedRoller, series.to_owned()),
+                ("spherical_roller", _) => (K::SphericalRoller, series.replace(" E", "E")),
+                ("toroidal_roller", _) => (K::ToroidalRoller, series.to_owned()),
+                ("cylindrical_roller_thrust", _) => (K::CylindricalRollerThrust, String::new()),
+                ("spherical_roller_thrust", _) => (K::SphericalRollerThrust, series.replace(" E", "E")),
+                (other, _) => panic!("{other}"),
+            };
+            let own = constants(kind, &series);
+            met.push(series);
+            line.is("K_Z", own.k_z);
+            line.is("K_L", own.k_l.unwrap());
+            match own.variables {
+                Variables::Cylindrical { rolling, axial, radial } => {
+                    line.is("R1", rolling);
+                    line.is("S1", axial);
+                    line.is("S2", radial);
+                }
+                Variables::Tapered {
+                    rolling,
+                    r2_y,
+                    sliding,
+                    s2_y,
+                } => {
+                    line.is("R1", rolling);
+                    line.is("R2", r2_y);
+                    line.is("S1", sliding);
+                    line.is("S2", s2_y);
+                }
+                Variables::Spherical { rolling, sliding } => {
+                    line.is("R1", rolling[0].0);
+                    line.is("R2", rolling[0].1);
+                    line.is("R3", rolling[1].0);
+                    line.is("R4", rolling[1].1);
+                    line.is("S1", sliding[0].0);
+                    line.is("S2", sliding[0].1);
+                    line.is("S3", sliding[1].0);
+                    line.is("S4", sliding[1].1);
+                }
+                Variables::Toroidal { rolling, sliding, .. } => {
+                    line.is("R1", rolling[0]);
+                    line.is("R2", rolling[1]);
+                    line.is("S1", sliding[0]);
+                    line.is("S2", sliding[1]);
+                }
+                Variables::Thrust { rolling, sliding } => {
+                    line.is("R1", rolling.0);
+                    line.is("S1", sliding.0);
+                }
+                Variables::SphericalThrust {
+                    rolling,
+                    light,
+                    heavy,
+                    guide,
+                    ..
+                } => {
+                    line.is("R1", rolling[0].0);
+                    line.is("R2", rolling[0].1);
+                    line.is("R3", rolling[1].0);
+                    line.is("R4", rolling[1].1);
+                    line.is("S1", light.0);
+                    line.is("S2", light.1);
+                    line.is("S3", heavy);
+                    line.is("S4", guide.0);
+                    line.is("S5", guide.1);
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+        let own = names(CYLINDRICAL)
+            .chain(names(TAPERED))
+            .chain(names(SPHERICAL))
+            .chain(names(TOROIDAL))
+            .chain(names(SPHERICAL_THRUST));
+        for name in own {
+            // Other spellings of two series.
+            let name = match name {
+                "320" => "320 X",
+                "313 (X)" => "313",
+                name => name,
+            };
+            assert!(met.iter().any(|met| met == name), "{name} is not in the transcription");
+        }
+        let full = constants(K::ToroidalRollerFullComplement, "C40");
+        assert_eq!((full.k_z, full.k_l), (6.0, Some(0.75)));
     }
 }

@@ -1,0 +1,74 @@
+//! Published tables, typed a second time from their sources, for tests that compare the constants of models cell by cell.
+//!
+//! They lie as CSV in `tests/tables`, each with its source at its head, and were typed without a look at the code.
+
+/// Rows of a table: cells by the names of the columns.
+pub struct Printed {
+    columns: Vec<&'static str>,
+    rows: Vec<Vec<&'static str>>,
+}
+
+/// One row.
+pub struct Row<'a> {
+    columns: &'a [&'static str],
+    cells: &'a [&'static str],
+}
+
+impl Printed {
+    /// Reads a table; lines that begin with `#` say where it comes from.
+    #[track_caller]
+    pub fn read(text: &'static str) -> Self {
+        assert!(text.starts_with("# "), "a table without its source");
+        let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
+        let cells = |line: &'static str| line.split(',').collect::<Vec<_>>();
+        let columns = lines.next().map(cells).unwrap_or_default();
+        let rows: Vec<_> = lines.map(cells).collect();
+        for row in &rows {
+            assert_eq!(row.len(), columns.len(), "{row:?}");
+        }
+        assert!(!rows.is_empty(), "an empty table");
+        Self { columns, rows }
+    }
+
+    /// The rows.
+    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.rows.iter().map(|cells| Row {
+            columns: &self.columns,
+            cells,
+        })
+    }
+}
+
+impl Row<'_> {
+    /// A cell as it stands.
+    #[track_caller]
+    pub fn text(&self, column: &str) -> &'static str {
+        let i = self.columns.iter().position(|c| *c == column);
+        self.cells[i.unwrap_or_else(|| panic!("no column `{column}` in {:?}", self.columns))]
+    }
+
+    /// A number.
+    #[track_caller]
+    pub fn number(&self, column: &str) -> f64 {
+        let text = self.text(column);
+        text.parse()
+            .unwrap_or_else(|_| panic!("`{text}` in column `{column}` of {:?}", self.cells))
+    }
+
+    /// A number, where the source has one.
+    #[track_caller]
+    pub fn cell(&self, column: &str) -> Option<f64> {
+        (!self.text(column).is_empty()).then(|| self.number(column))
+    }
+
+    /// Compares a constant of the code with a cell; rounding of binary numbers is all that they may differ by.
+    #[track_caller]
+    pub fn is(&self, column: &str, own: f64) {
+        let printed = self.number(column);
+        assert!(
+            (own - printed).abs() <= 1e-12 * printed.abs(),
+            "{column} of {:?} is {printed} in the source and {own} in the code",
+            self.cells
+        );
+    }
+}
