@@ -40,8 +40,15 @@ fn head_of(entry: &Entry) -> String {
         .take_while(|l| l.starts_with("//!"))
         .map(|l| l.trim_start_matches("//!").trim())
         .collect();
-    // The first line says what the table says already.
-    lines[1..].join("\n").trim().to_owned()
+    // The first line says what the table says already; a sentence that goes on behind it would lose its beginning.
+    let rest = lines[1..].join("\n").trim().to_owned();
+    assert!(
+        lines[0].ends_with('.') && rest.starts_with(|c: char| c.is_uppercase()),
+        "{}: the first line is no sentence of its own, so that the reference would begin with: {}",
+        path.display(),
+        rest.lines().next().unwrap_or_default()
+    );
+    rest
 }
 
 fn row(out: &mut String, cells: &[&str]) {
@@ -227,6 +234,16 @@ fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
         );
     }
     out.push('\n');
+    let laws = (mechanism.laws)();
+    if !laws.is_empty() {
+        let laws: Vec<String> = laws.iter().map(|law| format!("`{law}`")).collect();
+        writeln!(
+            out,
+            "Laws between them, by which `eval` lets follow what its input does not state and refuses what contradicts: {}.\n",
+            laws.join("; ")
+        )
+        .unwrap();
+    }
     for entry in language.registry().models(mechanism.key) {
         model(&mut out, language, mechanism, entry);
     }

@@ -10,7 +10,7 @@ use crate::document::{Diagnostic, Sources, did_you_mean, read_yaml};
 use crate::gearbox::Findings;
 use crate::language::Language;
 use crate::loss::{Extent, Limit, Notes, Observed, Step, Trace};
-use crate::mechanism::{Answer, Mechanism};
+use crate::mechanism::{Answer, Mechanism, settle};
 use crate::registry::{Build, Entry, Files, MechanismEntry, Registry, from_resolved};
 
 /// What a model answered.
@@ -27,6 +27,8 @@ pub struct Evaluated {
     pub observed: Vec<(String, Observed, Extent)>,
     /// Limits with the path of their model.
     pub limits: Vec<(String, Limit, Extent)>,
+    /// Quantities that followed from stated ones: name, value in the documented unit, unit and law.
+    pub followed: Vec<(&'static str, f64, &'static str, &'static str)>,
     /// Every step of the formula, with the path of the model that took it.
     pub steps: Vec<(String, Step)>,
 }
@@ -137,10 +139,11 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
     })
 }
 
-/// Evaluates a model of a mechanism on a part, at the usual context with the given quantities changed; all values SI.
+/// Evaluates a model of a mechanism on a part, at the usual context with the given quantities changed; all values SI. What is not
+/// given follows from what is, by the laws of the context.
 ///
 /// # Errors
-/// If part or model cannot be built, a quantity is unknown, or the formula has no value there.
+/// If part or model cannot be built, a quantity is unknown, given ones contradict each other, or the formula has no value there.
 pub fn eval<M: Mechanism>(
     registry: &Registry,
     files: &Files,
@@ -154,9 +157,10 @@ pub fn eval<M: Mechanism>(
     let (instances, cells) = build.finish();
     let mut extents = vec![Extent::EMPTY; cells];
     let trace = Trace::default();
-    let (answer, speed) = {
+    let (answer, speed, followed) = {
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
         let mut at = M::usual(&part, Notes::new(cells, slot.notes).traced(&trace));
+        let mut stated = Vec::new();
         for (name, value) in inputs {
             let Some(quantity) = M::QUANTITIES.iter().find(|q| q.name == name) else {
                 let error = Diagnostic::error(
@@ -169,8 +173,16 @@ pub fn eval<M: Mechanism>(
                 });
             };
             (quantity.set)(&mut at, value.as_f64().unwrap_or(f64::NAN));
+            stated.push(quantity.name);
         }
-        (M::answer(&slot, &at), M::speed(&at))
+        let mut followed = Vec::new();
+        for (name, law) in settle::<M>(&mut at, &stated)? {
+            if let Some(q) = M::QUANTITIES.iter().find(|q| q.name == name) {
+                let unit = q.unit();
+                followed.push((name, unit.from_si((q.get)(&at)), unit.symbol, law));
+            }
+        }
+        (M::answer(&slot, &at), M::speed(&at), followed)
     };
     let answer = answer.map_err(|undefined| Diagnostic::error("model", undefined.to_string()))?;
     let terms = instances.first().map_or(&[][..], |i| i.entry.terms);
@@ -180,6 +192,7 @@ pub fn eval<M: Mechanism>(
         moment: answer.moment(speed),
         observed: Vec::new(),
         limits: Vec::new(),
+        followed,
         steps: trace
             .into_steps()
             .into_iter()

@@ -11,11 +11,14 @@ pub mod gear_drag;
 pub mod gear_mesh;
 pub mod heat_dissipation;
 pub mod heat_link;
+mod law;
 pub mod mean_friction;
 pub mod planetary_drag;
 pub mod seal;
 pub mod synchronizer;
 pub mod tooth_friction;
+
+pub use law::{Follows, Law, ROUNDED, settle};
 
 use std::sync::Arc;
 
@@ -41,6 +44,8 @@ pub trait Mechanism: Sized + 'static {
     const EXAMPLE: &'static str;
     /// The quantities of the context, as listed by [`context!`](crate::context).
     const QUANTITIES: &'static [Quantity<Self>];
+    /// The laws between them, as listed by [`context!`](crate::context).
+    const LAWS: &'static [Law<Self>] = &[];
     /// The term that `constant`, `formula` and `table` fill.
     const TOTAL: Term = Term::no_load(0, "total");
     /// What the component is: the typed fields of its entry. [`NoPart`] where there is none. Derived values are
@@ -224,13 +229,18 @@ pub struct QuantityDoc {
 /// The same list feeds rustdoc, `models`, the schema and input of `eval`, the variables of `formula`, the axes of `table`
 /// and the grid of the conformance suite.
 ///
+/// Quantities that hang on each other stand below in `laws`: a [`Law`] as one writes it, and for each of its quantities what
+/// follows from the others; `usually` before the brace where it need not hold.
+///
 /// A context may gain quantities, so other crates do not write it out (`#[non_exhaustive]`): they take the usual one, or the
 /// one at hand, and change what they know (`with`, `nested`).
 #[macro_export]
 macro_rules! context {
     ($(#[doc = $head:literal])+ pub struct $At:ident of $M:ty {
         $($(#[doc = $doc:literal])+ $name:ident: $usual:literal in $least:literal ..= $greatest:literal from $from:literal,)+
-    }) => {
+    } $(laws {
+        $($law:literal $($usually:ident)? { $($of:ident: $follows:expr),+ $(,)? })+
+    })?) => {
         $(#[doc = $head])+
         #[derive(Clone, Copy)]
         #[non_exhaustive]
@@ -260,6 +270,11 @@ macro_rules! context {
                 name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest, from: $from,
                 get: |at| at.$name, set: |at, si| at.$name = si,
             }),+];
+
+            /// The laws between them.
+            pub const LAWS: &'static [$crate::mechanism::Law<$M>] = &[$($($crate::mechanism::Law {
+                text: $law, quantities: &[$((stringify!($of), $follows)),+], always: <[&str]>::is_empty(&[$(stringify!($usually))?]),
+            }),+)?];
 
             /// The context at its usual point.
             pub fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {

@@ -220,6 +220,8 @@ pub struct MechanismEntry {
     pub section: Option<Section>,
     /// The quantities of its context.
     pub quantities: fn() -> Vec<QuantityDoc>,
+    /// The laws between them, as one writes them.
+    pub laws: fn() -> Vec<&'static str>,
     /// `none`, `constant`, `formula` and `table` for this mechanism.
     pub generics: fn() -> Vec<Entry>,
     /// Schema of a part.
@@ -243,6 +245,7 @@ impl MechanismEntry {
             origin,
             section: None,
             quantities: quantities::<M>,
+            laws: || M::LAWS.iter().map(|law| law.text).collect(),
             generics: generic::entries::<M>,
             part: |generator| <M::Part as schemars::JsonSchema>::json_schema(generator),
             eval: eval::eval::<M>,

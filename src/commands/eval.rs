@@ -38,6 +38,9 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
             "answer": mechanism.answer,
             "values": evaluated.values.iter().map(|(n, v)| json!({ "name": n, "value": v })).collect::<Vec<_>>(),
             "total": evaluated.total,
+            "followed": evaluated.followed.iter().map(|(n, v, u, law)| json!({
+                "name": n, "unit": u, "value": finite(*v), "law": law,
+            })).collect::<Vec<_>>(),
             "moment_nm": evaluated.moment,
             "observed": evaluated.observed.iter().map(|(p, o, e)| json!({
                 "path": p, "name": o.name, "unit": o.unit, "least": finite(e.least), "greatest": finite(e.greatest),
@@ -52,6 +55,9 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     }
     out.line(format!("{}: {}", args.model, entry.meaning()))?;
     out.line(format!("source: {}", entry.source))?;
+    for (name, value, unit, law) in &evaluated.followed {
+        out.line(format!("follows: {name} = {} {unit} ({law})", significant(*value)))?;
+    }
     for (path, step) in &evaluated.steps {
         let place = if path == "model" {
             String::new()

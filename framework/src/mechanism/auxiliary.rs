@@ -6,7 +6,7 @@ use crate::attach::{MemberSite, OnMember};
 use crate::context;
 use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::{Component, Mechanism, NoPart, Quantity};
+use crate::mechanism::{Component, Law, Mechanism, NoPart, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -31,9 +31,11 @@ context! {
         /// Kinematic viscosity of the oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
+        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+    } laws {
+        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
 }
 
@@ -43,6 +45,7 @@ impl Mechanism for Auxiliary {
     const ANSWER: &'static str = "Moment taken from the shaft. [Nm]";
     const EXAMPLE: &'static str = "{}";
     const QUANTITIES: &'static [Quantity<Self>] = AuxiliaryAt::QUANTITIES;
+    const LAWS: &'static [Law<Self>] = AuxiliaryAt::LAWS;
     type Part = NoPart;
     type At<'a> = AuxiliaryAt<'a>;
     type Answer = Loss;

@@ -254,6 +254,14 @@ impl TryFrom<BearingEntry> for BearingPart {
             BearingKind::TaperedRoller | BearingKind::NeedleCage => 0.5 * outside,
             _ => 0.25 * (bore + outside) + 0.15 * (outside - bore),
         });
+        if !(0.5 * bore..=0.5 * outside).contains(&raceway) {
+            return Err(format!(
+                "raceway {} mm does not lie between the radii of bore and outside, {} and {} mm: correct one of them",
+                raceway * 1e3,
+                0.5e3 * bore,
+                0.5e3 * outside
+            ));
+        }
         Ok(Self {
             designation: entry.designation,
             kind,

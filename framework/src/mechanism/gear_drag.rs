@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::context;
 use crate::generic::Scalar;
+use crate::immersion;
 use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::{Mechanism, Quantity};
+use crate::mechanism::{Law, Mechanism, Quantity, ROUNDED};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -82,12 +84,64 @@ pub struct GearBody {
     pub contact_height: f64,
 }
 
+impl GearBody {
+    /// An external gear as somebody states it, whose figures do not contradict each other.
+    fn possible(self, name: &str) -> Result<Self, String> {
+        let mm = |x: f64| {
+            format!("{:.4}", x * 1e3)
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned()
+        };
+        let reference = f64::from(self.z) * self.normal_module / self.helix_angle.cos();
+        if self.tip_diameter <= self.root_diameter {
+            return Err(format!(
+                "{name}: tip_diameter {} mm is not greater than root_diameter {} mm: exchange them or correct one",
+                mm(self.tip_diameter),
+                mm(self.root_diameter)
+            ));
+        }
+        if (self.reference_diameter - reference).abs() > ROUNDED * reference {
+            return Err(format!(
+                "{name}: reference_diameter {} mm contradicts z, normal_module and helix_angle, from which {} mm follow: correct one of them",
+                mm(self.reference_diameter),
+                mm(reference)
+            ));
+        }
+        let highest = 0.5 * (self.tip_diameter + self.working_diameter);
+        if self.contact_height > (1.0 + ROUNDED) * highest {
+            return Err(format!(
+                "{name}: contact_height {} mm lies above the working pitch circle, at most {} mm by tip_diameter and working_diameter: correct one of them",
+                mm(self.contact_height),
+                mm(highest)
+            ));
+        }
+        Ok(self)
+    }
+
+    /// Depth of the reference circle in the oil from that of the tip circle, where the axis stands. \[m\]
+    pub fn dip_of(&self, tip_dip: f64) -> f64 {
+        immersion::dip(tip_dip - 0.5 * self.tip_diameter, 0.5 * self.reference_diameter)
+    }
+
+    /// Depth of the tip circle in the oil from that of the reference circle, where the axis stands; zero where that is dry. \[m\]
+    pub fn tip_dip_of(&self, dip: f64) -> f64 {
+        if dip > 0.0 {
+            immersion::dip(dip - 0.5 * self.reference_diameter, 0.5 * self.tip_diameter)
+        } else {
+            0.0
+        }
+    }
+}
+
 /// One gear or one pair in its housing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DragPart {
     /// The gear, or the first gear of the pair.
+    #[serde(deserialize_with = "gear")]
     pub gear: GearBody,
     /// The second gear of a pair.
+    #[serde(default, deserialize_with = "mate")]
     pub mate: Option<GearBody>,
     /// Volume of the oil in the housing. [l]
     #[schemars(range(min = 0.001, max = 10000.0))]
@@ -106,17 +160,36 @@ pub struct DragPart {
     pub axial_clearance: Option<f64>,
 }
 
+fn gear<'de, D: Deserializer<'de>>(from: D) -> Result<GearBody, D::Error> {
+    GearBody::deserialize(from)?.possible("gear").map_err(Error::custom)
+}
+
+fn mate<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GearBody>, D::Error> {
+    let mate = Option::<GearBody>::deserialize(from)?;
+    mate.map(|mate| mate.possible("mate"))
+        .transpose()
+        .map_err(Error::custom)
+}
+
+impl DragPart {
+    /// Teeth of the gear per tooth of its mate; not finite without one. \[-\]
+    pub fn ratio(&self) -> f64 {
+        self.mate
+            .map_or(f64::NAN, |mate| f64::from(self.gear.z) / f64::from(mate.z))
+    }
+}
+
 context! {
     /// All that a drag model may look at. Quantities that end in `_2` belong to the second gear of a pair.
     pub struct GearDragAt of GearDrag {
         /// Speed of the gear, or of the first gear, signed. [rpm]
         speed: 1500.0 in -30000.0..=30000.0 from "kinematics",
         /// Speed of the second gear, signed. [rpm]
-        speed_2: -500.0 in -30000.0..=30000.0 from "kinematics",
+        speed_2: -4645.0 in -30000.0..=30000.0 from "kinematics",
         /// Depth of the tip circle in the oil. [mm]
         tip_dip: 20.0 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the place of its shaft",
         /// Depth of the reference circle in the oil. [mm]
-        dip: 18.0 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the place of its shaft",
+        dip: 18.05 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the place of its shaft",
         /// Depth of the second gear's tip circle in the oil. [mm]
         tip_dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the place of its shaft",
         /// Depth of the second gear's reference circle in the oil. [mm]
@@ -130,9 +203,23 @@ context! {
         /// Kinematic viscosity of the oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
+        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+    } laws {
+        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
+        "dip = tip_dip less the addendum" {
+            dip: |at| at.part.gear.dip_of(at.tip_dip),
+            tip_dip: |at| at.part.gear.tip_dip_of(at.dip),
+        }
+        "dip_2 = tip_dip_2 less the addendum of the mate" {
+            dip_2: |at| at.part.mate.map_or(f64::NAN, |mate| mate.dip_of(at.tip_dip_2)),
+            tip_dip_2: |at| at.part.mate.map_or(f64::NAN, |mate| mate.tip_dip_of(at.dip_2)),
+        }
+        "speed_2 = -speed z/z_2 of external gears whose axes stand" usually {
+            speed_2: |at| -at.speed * at.part.ratio(),
+            speed: |at| -at.speed_2 / at.part.ratio(),
+        }
     }
 }
 
@@ -152,6 +239,7 @@ radial_clearance: 8 mm
 axial_clearance: 12 mm
 ";
     const QUANTITIES: &'static [Quantity<Self>] = GearDragAt::QUANTITIES;
+    const LAWS: &'static [Law<Self>] = GearDragAt::LAWS;
     type Part = DragPart;
     type At<'a> = GearDragAt<'a>;
     type Answer = Loss;

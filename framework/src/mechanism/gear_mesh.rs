@@ -11,7 +11,7 @@ use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::lubricant::Lubricant;
-use crate::mechanism::{Mechanism, Quantity};
+use crate::mechanism::{Law, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -251,7 +251,7 @@ context! {
         /// Kinematic viscosity of the oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
+        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
@@ -268,6 +268,8 @@ context! {
         temperature_1: 80.0 in -40.0..=200.0 from "the node of the first gear",
         /// Temperature of the body of the second gear, where it is known. [degC]
         temperature_2: 80.0 in -40.0..=200.0 from "the node of the second gear",
+    } laws {
+        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
 }
 
@@ -285,6 +287,7 @@ impl Mechanism for GearMesh {
     const EXAMPLE: &'static str = "{ z: [16, 24], normal_module: 4.5 mm, pressure_angle: 20 deg, centre_distance: 91.5 mm, \
 facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], rq: [0.5 um, 0.5 um] }";
     const QUANTITIES: &'static [Quantity<Self>] = GearMeshAt::QUANTITIES;
+    const LAWS: &'static [Law<Self>] = GearMeshAt::LAWS;
     const TOTAL: Term = Term::load(0, "total");
     type Part = MeshPart;
     type At<'a> = GearMeshAt<'a>;

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::context;
 use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::heat_dissipation::HousingPart;
-use crate::mechanism::{Mechanism, Quantity};
+use crate::mechanism::{Law, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -54,7 +55,20 @@ pub struct HeatLinkPart {
     /// The housing.
     pub housing: Option<HousingPart>,
     /// The gear that the link names.
+    #[serde(default, deserialize_with = "gear")]
     pub gear: Option<GearShape>,
+}
+
+fn gear<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GearShape>, D::Error> {
+    let gear = Option::<GearShape>::deserialize(from)?;
+    match gear {
+        Some(gear) if gear.tooth_height >= 0.5 * gear.tip_diameter => Err(Error::custom(format!(
+            "gear: tooth_height {} mm is not less than half of tip_diameter {} mm: correct one of them",
+            gear.tooth_height * 1e3,
+            gear.tip_diameter * 1e3
+        ))),
+        gear => Ok(gear),
+    }
 }
 
 context! {
@@ -71,7 +85,7 @@ context! {
         /// Kinematic viscosity of the oil at the mean of both temperatures. [mm2/s]
         nu: 12.0 in 0.5..=100000.0 from "`lubricant` of the link, else the oil of the housing",
         /// Dynamic viscosity of the oil at the mean of both temperatures. [mPa s]
-        eta: 10.0 in 0.3..=100000.0 from "`nu` times `rho`",
+        eta: 9.84 in 0.3..=100000.0 from "`nu` times `rho`",
         /// Density of the oil at the mean of both temperatures. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "`lubricant` of the link, else the oil of the housing",
         /// Specific heat of the oil at the mean of both temperatures. [J/(kg K)]
@@ -80,6 +94,8 @@ context! {
         conductivity: 0.14 in 0.05..=1.0 from "`lubricant` of the link, else the oil of the housing",
         /// Mass flow of the oil in its circuit; zero without one. [kg/s]
         oil_flow: 0.1 in 0.0..=100.0 from "`oil_flow` of the network, or the flow of the duty",
+    } laws {
+        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
 }
 
@@ -105,6 +121,7 @@ gear:
   facewidth: 30 mm
 ";
     const QUANTITIES: &'static [Quantity<Self>] = HeatLinkAt::QUANTITIES;
+    const LAWS: &'static [Law<Self>] = HeatLinkAt::LAWS;
     type Part = HeatLinkPart;
     type At<'a> = HeatLinkAt<'a>;
     type Answer = f64;

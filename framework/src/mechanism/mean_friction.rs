@@ -6,7 +6,7 @@ use crate::context;
 use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
-use crate::mechanism::{Mechanism, Quantity};
+use crate::mechanism::{Law, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -27,27 +27,29 @@ context! {
         /// Tangential force at the base circle over the face width. [N/mm]
         line_load: 200.0 in 0.0..=3000.0 from "torque of the mesh over its face width",
         /// Normal force of the mesh. [N]
-        normal_force: 3000.0 in 0.0..=1000000.0 from "torque of the mesh and base circle",
+        normal_force: 2800.0 in 0.0..=1000000.0 from "torque of the mesh and base circle",
         /// Hertz pressure at the pitch point under the whole normal force. [GPa]
-        pressure: 0.8 in 0.0..=4.0 from "`normal_force`, `radius` and the material",
+        pressure: 0.927 in 0.0..=4.0 from "`normal_force`, `radius` and the material",
         /// Speed of the first gear relative to the carrier, magnitude. [rpm]
         speed: 3000.0 in 0.0..=30000.0 from "kinematics",
         /// Pitch line speed. [m/s]
-        pitch_speed: 10.0 in 0.0..=200.0 from "`speed` and the working pitch circle",
+        pitch_speed: 11.5 in 0.0..=200.0 from "`speed` and the working pitch circle",
         /// Sum of the surface speeds at the pitch point. [m/s]
-        sum_speed: 7.0 in 0.0..=200.0 from "`speed` and the geometry of the pair",
+        sum_speed: 8.78 in 0.0..=200.0 from "`speed` and the geometry of the pair",
         /// Radius of relative curvature at the pitch point, normal plane. [mm]
-        radius: 8.0 in 0.1..=500.0 from "the geometry of the pair",
+        radius: 8.38 in 0.1..=500.0 from "the geometry of the pair",
         /// Arithmetic mean roughness, mean of both flanks. [um]
         ra: 0.4 in 0.01..=5.0 from "`surface.ra` of both gears",
         /// Root mean square roughness of both flanks together. [um]
-        rq: 0.5 in 0.01..=5.0 from "`surface.rq` of both gears",
+        rq: 0.707 in 0.01..=5.0 from "`surface.rq` of both gears",
         /// Temperature of the oil. [degC]
         temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
+        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
+        /// Density of the oil. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
         /// Relative fall of the oil's viscosity with temperature. [1/K]
@@ -56,6 +58,28 @@ context! {
         conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density after Cragoe",
         /// Lubricant factor that the oil states. [-]
         x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
+    } laws {
+        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
+        "normal_force = line_load facewidth/cos beta_b" {
+            normal_force: |at| at.line_load * at.part.pair.facewidth / at.part.pair.cos_base_helix,
+            line_load: |at| at.normal_force * at.part.pair.cos_base_helix / at.part.pair.facewidth,
+        }
+        "pressure = sqrt(normal_force modulus/(2 pi radius facewidth))" {
+            pressure: |at| hertz(at.normal_force / at.part.pair.facewidth, at.part.modulus, at.radius),
+            normal_force: |at| load_at(at.pressure, at.part.modulus, at.radius) * at.part.pair.facewidth,
+            radius: |at| radius_at(at.pressure, at.part.modulus, at.normal_force / at.part.pair.facewidth),
+        }
+        "pitch_speed = speed working_diameter/2" {
+            pitch_speed: |at| at.speed * at.part.pair.working_radius[0],
+            speed: |at| at.pitch_speed / at.part.pair.working_radius[0],
+        }
+        "sum_speed = 2 pitch_speed sin alpha_wt" {
+            sum_speed: |at| 2.0 * at.pitch_speed * at.part.pair.sin_working_angle,
+            pitch_speed: |at| at.sum_speed / (2.0 * at.part.pair.sin_working_angle),
+        }
+        "radius is that of the pair at its pitch point" usually { radius: |at| at.part.pair.pitch_radius }
+        "ra is that of the pair" usually { ra: |at| at.part.ra }
+        "rq is that of the pair" usually { rq: |at| at.part.rq }
     }
 }
 
@@ -81,6 +105,7 @@ impl<'a> MeanFrictionAt<'a> {
             temperature: at.temperature,
             nu: at.nu,
             eta: at.eta,
+            rho: at.rho,
             alpha: at.alpha,
             beta: at.beta,
             conductivity: at.conductivity,
@@ -95,12 +120,28 @@ pub fn hertz(line_load: f64, modulus: f64, radius: f64) -> f64 {
     (line_load * modulus / (2.0 * std::f64::consts::PI * radius)).sqrt()
 }
 
+/// Line load at which a line contact has a Hertz pressure. \[N/m\]
+pub fn load_at(pressure: f64, modulus: f64, radius: f64) -> f64 {
+    pressure * pressure * (2.0 * std::f64::consts::PI * radius) / modulus
+}
+
+/// Radius at which a line contact has a Hertz pressure. \[m\]
+pub fn radius_at(pressure: f64, modulus: f64, line_load: f64) -> f64 {
+    line_load * modulus / (2.0 * std::f64::consts::PI * pressure * pressure)
+}
+
+/// Reduced modulus at which a line contact has a Hertz pressure. \[Pa\]
+pub fn modulus_at(pressure: f64, line_load: f64, radius: f64) -> f64 {
+    pressure * pressure * (2.0 * std::f64::consts::PI * radius) / line_load
+}
+
 impl Mechanism for MeanFriction {
     const KEY: &'static str = "mean_friction";
     const MEANING: &'static str = "Mean coefficient of friction of a mesh.";
     const ANSWER: &'static str = "Coefficient of friction. [-]";
     const EXAMPLE: &'static str = crate::mechanism::gear_mesh::GearMesh::EXAMPLE;
     const QUANTITIES: &'static [Quantity<Self>] = MeanFrictionAt::QUANTITIES;
+    const LAWS: &'static [Law<Self>] = MeanFrictionAt::LAWS;
     type Part = MeshPart;
     type At<'a> = MeanFrictionAt<'a>;
     type Answer = f64;

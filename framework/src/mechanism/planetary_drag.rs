@@ -9,7 +9,7 @@ use crate::context;
 use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
 use crate::mechanism::gear_drag::{Covers, DragPart};
-use crate::mechanism::{Mechanism, Quantity, ShopUnits};
+use crate::mechanism::{Law, Mechanism, Quantity, ShopUnits};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -85,6 +85,8 @@ context! {
         size: 75.0 in 1.0..=10000.0 from "`size` of the planetary set",
         /// Ratio of the gearbox in its family. [-]
         ratio: 10.0 in 0.001..=10000.0 from "`ratio` of the planetary set",
+    } laws {
+        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
 }
 
@@ -109,6 +111,7 @@ oil_volume: 0.09 l
 has_level: true
 ";
     const QUANTITIES: &'static [Quantity<Self>] = PlanetaryDragAt::QUANTITIES;
+    const LAWS: &'static [Law<Self>] = PlanetaryDragAt::LAWS;
     /// Losses in oil are near to power laws of speed and viscosity.
     const LOGARITHMIC: &'static [&'static str] = &["speed", "carrier_speed", "nu", "eta", "answer"];
     type Part = PlanetaryPart;

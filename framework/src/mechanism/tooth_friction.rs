@@ -8,8 +8,8 @@ use crate::context;
 use crate::generic::Scalar;
 use crate::lanes::{Lane, LaneNotes, Powers};
 use crate::loss::{NoteBase, Notes, Undefined};
-use crate::mechanism::mean_friction::MeanFrictionAt;
-use crate::mechanism::{Mechanism, NoPart, Quantity};
+use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
+use crate::mechanism::{Law, Mechanism, NoPart, Quantity};
 use crate::registry::Slot;
 
 /// Marker of the mechanism; never constructed.
@@ -106,7 +106,7 @@ context! {
         /// Line load. [N/mm]
         line_load: 200.0 in 0.0..=3000.0 from "torque of the mesh and the share of this place",
         /// Hertz pressure. [GPa]
-        pressure: 0.8 in 0.0..=4.0 from "`line_load`, `radius` and `modulus`",
+        pressure: 0.948 in 0.0..=4.0 from "`line_load`, `radius` and `modulus`",
         /// Reduced modulus E/(1 - nu^2) of equal materials. [GPa]
         modulus: 226.0 in 1.0..=500.0 from "the material of the gears",
         /// Length of the line of contact. [mm]
@@ -120,7 +120,9 @@ context! {
         /// Kinematic viscosity of that oil. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Dynamic viscosity of that oil. [mPa s]
-        eta: 8.0 in 0.5..=10000.0 from "`nu` times `rho`",
+        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
+        /// Density of that oil. [kg/m3]
+        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Pressure-viscosity coefficient of that oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
         /// Relative fall of the oil's viscosity with temperature. [1/K]
@@ -129,6 +131,18 @@ context! {
         conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density after Cragoe",
         /// Lubricant factor of mean mesh friction. [-]
         x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
+    } laws {
+        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
+        "pressure = sqrt(line_load modulus/(2 pi radius))" {
+            pressure: |at| hertz(at.line_load, at.modulus, at.radius),
+            line_load: |at| load_at(at.pressure, at.modulus, at.radius),
+            radius: |at| radius_at(at.pressure, at.modulus, at.line_load),
+            modulus: |at| modulus_at(at.pressure, at.line_load, at.radius),
+        }
+        "sliding is at most sum_speed" {
+            sliding: |at| at.sliding.min(at.sum_speed),
+            sum_speed: |at| at.sum_speed.max(at.sliding),
+        }
     }
 }
 
@@ -258,6 +272,8 @@ pub struct PathAt<'a> {
     pub nu: f64,
     /// Dynamic viscosity. \[Pa s\]
     pub eta: f64,
+    /// Density. \[kg/m3\]
+    pub rho: f64,
     /// Pressure-viscosity coefficient. \[1/Pa\]
     pub alpha: f64,
     /// Relative fall of the viscosity with temperature. \[1/K\]
@@ -295,6 +311,7 @@ impl<'a> PathAt<'a> {
             temperature: mean.temperature,
             nu: mean.nu,
             eta: mean.eta,
+            rho: mean.rho,
             alpha: mean.alpha,
             beta: mean.beta,
             conductivity: mean.conductivity,
@@ -340,6 +357,7 @@ impl<'a> PathAt<'a> {
             temperature: self.temperature,
             nu: self.nu,
             eta: self.eta,
+            rho: self.rho,
             alpha: self.alpha,
             beta: self.beta,
             conductivity: self.conductivity,
@@ -356,6 +374,7 @@ impl Mechanism for ToothFriction {
     const ANSWER: &'static str = "Coefficient of friction. [-]";
     const EXAMPLE: &'static str = "{}";
     const QUANTITIES: &'static [Quantity<Self>] = ContactAt::QUANTITIES;
+    const LAWS: &'static [Law<Self>] = ContactAt::LAWS;
     type Part = NoPart;
     type At<'a> = ContactAt<'a>;
     type Answer = f64;

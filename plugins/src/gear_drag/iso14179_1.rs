@@ -1,5 +1,6 @@
-//! Churning of one gear after ISO/TR 14179-1, of AGMA origin. The report calls it windage and churning, but a gear that does not
-//! dip loses nothing.
+//! Churning of one gear after ISO/TR 14179-1, of AGMA origin.
+//!
+//! The report calls it windage and churning, but a gear that does not dip loses nothing.
 //!
 //! Source: ISO/TR 14179-1:2001, recalled: both sides 1.474 f_g nu n^3 D^5.7/(A_g 1e26) and tooth surface
 //! 7.37 f_g nu n^3 D^4.7 b (R_f/sqrt(tan beta))/(A_g 1e26) in kW, nu in mm2/s, n in 1/min, lengths in mm;

@@ -1,0 +1,119 @@
+//! Laws between the quantities of a context.
+
+use crate::document::Diagnostic;
+use crate::mechanism::{Mechanism, Quantity};
+
+/// A law between quantities of a context. In a gearbox the framework fills all of them so that it holds; where a user states some,
+/// as for `eval`, [`settle`] lets the others follow and refuses what contradicts.
+pub struct Law<M: Mechanism> {
+    /// The law as one writes it.
+    pub text: &'static str,
+    /// Its quantities by name, the one that is least often stated first, and what follows for each from the others.
+    pub quantities: &'static [(&'static str, Follows<M>)],
+    /// False where the law holds usually, but need not: what is stated may differ from it.
+    pub always: bool,
+}
+
+/// What follows for one quantity from the others, SI; not finite where nothing follows.
+pub type Follows<M> = for<'a, 'b> fn(&'b <M as Mechanism>::At<'a>) -> f64;
+
+/// How far a stated value may lie from what follows from others, over the greater of both: values that people write are rounded, data
+/// sheets to three digits, products of two of them to less.
+pub const ROUNDED: f64 = 0.01;
+
+/// Lets the quantities that are not stated follow from those that are, by the laws of the mechanism, and tells which did, with
+/// their laws. Where more than one of a law is not stated, all but the first keep their usual values.
+///
+/// # Errors
+/// If stated quantities contradict each other by more than rounding; the error names them.
+pub fn settle<M: Mechanism>(
+    at: &mut M::At<'_>,
+    stated: &[&'static str],
+) -> Result<Vec<(&'static str, &'static str)>, Diagnostic> {
+    let mut known = stated.to_vec();
+    // What is stated, and what follows from that and not from usual values alone.
+    let mut bound = stated.to_vec();
+    let mut followed = Vec::new();
+    let mut open: Vec<&Law<M>> = M::LAWS.iter().collect();
+    while !open.is_empty() {
+        let unknown = |law: &Law<M>| law.quantities.iter().filter(|(name, _)| !known.contains(name)).count();
+        // What is settled comes first, then what a law says alone, then what leans on usual values.
+        let ready = |law: &&Law<M>| law.always && unknown(law) <= 1;
+        let touched = |law: &&Law<M>| unknown(law) < law.quantities.len();
+        let next = open
+            .iter()
+            .position(ready)
+            .or_else(|| open.iter().position(|law| unknown(law) <= 1))
+            .or_else(|| open.iter().position(touched))
+            .unwrap_or(0);
+        let law = open.remove(next);
+        let Some((name, follows)) = law.quantities.iter().find(|(name, _)| !known.contains(name)) else {
+            if law.always {
+                agree::<M>(law, at, stated)?;
+            }
+            continue;
+        };
+        let value = follows(at);
+        if let Some(quantity) = named::<M>(name).filter(|_| value.is_finite()) {
+            (quantity.set)(at, value);
+            if law.quantities.iter().any(|(name, _)| bound.contains(name)) {
+                bound.push(name);
+                followed.push((*name, law.text));
+            }
+        }
+        known.extend(law.quantities.iter().map(|(name, _)| *name));
+    }
+    Ok(followed)
+}
+
+fn named<M: Mechanism>(name: &str) -> Option<&'static Quantity<M>> {
+    M::QUANTITIES.iter().find(|q| q.name == name)
+}
+
+/// Refuses a law whose quantities contradict each other.
+fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_>, stated: &[&'static str]) -> Result<(), Diagnostic> {
+    // Of two that contradict each other, what is stated is named.
+    let own = law
+        .quantities
+        .iter()
+        .find(|(name, _)| stated.contains(name))
+        .unwrap_or(&law.quantities[0]);
+    let (name, follows) = own;
+    let Some(quantity) = named::<M>(name) else {
+        return Ok(());
+    };
+    let (is, follows) = ((quantity.get)(at), follows(at));
+    if !follows.is_finite() || (is - follows).abs() <= ROUNDED * is.abs().max(follows.abs()) {
+        return Ok(());
+    }
+    let written = |quantity: &Quantity<M>, si: f64| {
+        let unit = quantity.unit();
+        format!("{} {}", significant(unit.from_si(si)), unit.symbol)
+    };
+    let others: Vec<String> = law
+        .quantities
+        .iter()
+        .filter(|(other, _)| other != name)
+        .filter_map(|(other, _)| named::<M>(other))
+        .map(|other| format!("`{}` of {}", other.name, written(other, (other.get)(at))))
+        .collect();
+    Err(Diagnostic::error(
+        format!("at.{name}"),
+        format!(
+            "{} contradicts {}, from which {} follows by more than 1 %",
+            written(quantity, is),
+            others.join(" and "),
+            written(quantity, follows)
+        ),
+    )
+    .mend(format!(
+        "leave one of them out, so that it follows from the others: {}",
+        law.text
+    )))
+}
+
+/// Six significant digits.
+fn significant(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    format!("{rounded}")
+}
