@@ -234,6 +234,9 @@ pub struct CheckArgs {
     /// Makes it a finding to rest on evidence of this grade or a weaker one, such as `recalled`.
     #[arg(long, value_name = "GRADE")]
     pub deny: Option<String>,
+    /// Text, or JSON with code, place and help of each finding.
+    #[arg(long, value_enum, default_value = "table")]
+    pub format: Format,
 }
 
 /// The operating point.
@@ -353,8 +356,11 @@ pub struct ModelsArgs {
     /// Model, such as `skf`.
     pub model: Option<String>,
     /// Says for each model which inputs it needs and whether this gearbox has them.
-    #[arg(long, value_name = "GEARBOX")]
+    #[arg(long, value_name = "GEARBOX", conflicts_with = "format")]
     pub needs: Option<PathBuf>,
+    /// Tables, or JSON with everything of the models listed.
+    #[arg(long, value_enum, default_value = "table")]
+    pub format: Format,
 }
 
 /// Arguments of `eval`.
@@ -391,6 +397,10 @@ pub enum KindArg {
     Result,
     /// What `solve --format json` prints.
     Point,
+    /// What `check --format json` prints.
+    Check,
+    /// What `models --format json` prints.
+    Models,
 }
 
 impl AxisArg {

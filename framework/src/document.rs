@@ -12,7 +12,7 @@ mod walk;
 mod yaml;
 
 pub use by_type::records_by_type;
-pub use diagnostic::{Diagnostic, Severity, Sources, did_you_mean};
+pub use diagnostic::{Code, Diagnostic, Severity, Sources, did_you_mean};
 pub use node::{Content, Key, Node, Span};
 pub use places::{Place, Places};
 pub use publish::publish;

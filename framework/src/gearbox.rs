@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::document::{Diagnostic, Node, Places, Severity, Sources, read_yaml};
+use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, read_yaml};
 use crate::files::{LONGEST_TEXT, read_text};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
@@ -112,7 +112,8 @@ impl Gearbox {
             Ok(text) => text,
             Err(e) => {
                 let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
-                    .mend("check the name of the file");
+                    .mend("check the name of the file")
+                    .code(Code::Unreadable);
                 return Err(Findings {
                     list: vec![error],
                     sources,
@@ -162,7 +163,8 @@ impl Gearbox {
     /// # Errors
     /// Everything that resolving finds, with places.
     pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
-        resolve(language, &self.files, &self.value, choice).map_err(|list| self.findings(list))
+        resolve(language, &self.files, &self.value, choice)
+            .map_err(|list| self.findings(list.into_iter().map(|d| d.code(Code::Choice)).collect()))
     }
 
     /// Builds the transmission of a resolved description.
@@ -173,11 +175,15 @@ impl Gearbox {
         let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
             self.findings(
                 list.into_iter()
-                    .map(|d| self.inherited(language, resolved, d))
+                    .map(|d| self.inherited(language, resolved, d).code(Code::Gearbox))
                     .collect(),
             )
         })?;
-        built.warnings = built.warnings.into_iter().map(|d| self.places.place(d)).collect();
+        built.warnings = built
+            .warnings
+            .into_iter()
+            .map(|d| self.places.place(d).code(Code::Gearbox))
+            .collect();
         Ok(built)
     }
 
@@ -252,7 +258,7 @@ fn chain(
     seen.push(file.clone());
     match read_text(&file, LONGEST_TEXT) {
         Err(e) => {
-            found.push(error(format!("cannot read {}: {e}", file.display())));
+            found.push(error(format!("cannot read {}: {e}", file.display())).code(Code::Unreadable));
             None
         }
         Ok(text) => {

@@ -1,5 +1,7 @@
 //! `check`: reads, resolves and builds, and says everything that is wrong.
 
+mod json;
+
 use gearloss_framework::analysis::evidence;
 use gearloss_framework::document::{Sources, read_yaml};
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
@@ -9,7 +11,7 @@ use gearloss_framework::registry::Evidence;
 use gearloss_framework::study::Study;
 
 use super::set;
-use crate::args::{CheckArgs, ChoiceArgs};
+use crate::args::{CheckArgs, ChoiceArgs, Format};
 use crate::output::{End, Failure, Out};
 
 pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
@@ -18,6 +20,9 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
         Some(name) => Some(grade(name)?),
         None => None,
     };
+    if args.format == Format::Json {
+        return json::run(language, args, deny, out);
+    }
     let mut wrong = String::new();
     let mut end = End::Fine;
     for file in &args.files {

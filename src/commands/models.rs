@@ -1,5 +1,7 @@
 //! `models`: what is linked into this program.
 
+mod json;
+
 use gearloss_framework::document::records_by_type;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
@@ -7,13 +9,26 @@ use gearloss_framework::registry::{Entry, MechanismEntry};
 use serde_json::Value;
 
 use super::needs;
-use crate::args::ModelsArgs;
+use crate::args::{Format, ModelsArgs};
 use crate::output::{End, Failure, Out, Table, significant};
 
 pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
     if let Some(file) = &args.needs {
         return needs::run(language, file, args.mechanism.as_deref(), out);
+    }
+    if args.format == Format::Json {
+        let registry = language.registry();
+        let mechanism = match &args.mechanism {
+            Some(name) => Some(registry.mechanism_named(name).map_err(Findings::from)?),
+            None => None,
+        };
+        let model = match (mechanism, &args.model) {
+            (Some(mechanism), Some(name)) => Some(registry.model_named(mechanism.key, name).map_err(Findings::from)?),
+            _ => None,
+        };
+        json::run(&language, mechanism, model, out)?;
+        return Ok(End::Fine);
     }
     match (&args.mechanism, &args.model) {
         (None, _) => all(language, out)?,
@@ -85,6 +100,9 @@ fn one_mechanism(language: &Language, mechanism: &MechanismEntry, out: &mut Out)
         ]);
     }
     out.text(&quantities.render())?;
+    for law in (mechanism.laws)() {
+        out.line(format!("law: {law}"))?;
+    }
     out.line("")?;
     let mut models = Table::new(&["model", "what it is", "source"]);
     for model in language.registry().models(mechanism.key) {

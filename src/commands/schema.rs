@@ -8,6 +8,8 @@ use crate::output::{End, Failure, Out};
 /// Documents that the program writes have no language to be published from; their schemas are kept by hand.
 const RESULT: &str = include_str!("../../schemas/result.schema.json");
 const POINT: &str = include_str!("../../schemas/point.schema.json");
+const CHECK: &str = include_str!("../../schemas/check.schema.json");
+const MODELS: &str = include_str!("../../schemas/models.schema.json");
 
 pub fn run(args: &SchemaArgs, out: &mut Out) -> Result<End, Failure> {
     let kind = match args.kind {
@@ -16,6 +18,8 @@ pub fn run(args: &SchemaArgs, out: &mut Out) -> Result<End, Failure> {
         KindArg::Eval => Kind::Eval,
         KindArg::Result => return written(RESULT, out),
         KindArg::Point => return written(POINT, out),
+        KindArg::Check => return written(CHECK, out),
+        KindArg::Models => return written(MODELS, out),
     };
     out.text(&published(super::language()?, kind)?)?;
     Ok(End::Fine)

@@ -17,11 +17,40 @@ pub enum Severity {
     Warning,
 }
 
+/// What kind of finding it is, for programs: the word stays where the message is put better. A stage of reading gives its word to
+/// all that it finds without one of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Code {
+    /// A file cannot be read.
+    Unreadable,
+    /// The text is no YAML as documents are written in it.
+    Syntax,
+    /// A key that has no meaning at its place.
+    UnknownKey,
+    /// A key that is needed.
+    MissingKey,
+    /// A `type`, or a word, that there is not.
+    UnknownName,
+    /// A value of another kind, unit or range.
+    Value,
+    /// A model, catalogue value, set or override that does not fit.
+    Choice,
+    /// What is described cannot be built, or deserves a look.
+    Gearbox,
+    /// A study, its data or what it points at does not fit.
+    Study,
+    /// Anything else.
+    Other,
+}
+
 /// One finding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
     /// How bad it is.
     pub severity: Severity,
+    /// What kind of finding it is, where its author or a stage has said so.
+    pub code: Option<Code>,
     /// Path in the document; empty where there is none.
     pub path: String,
     /// What is wrong.
@@ -39,6 +68,7 @@ impl Diagnostic {
     pub fn error(path: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
             severity: Severity::Error,
+            code: None,
             path: path.into(),
             message: message.into(),
             spans: Vec::new(),
@@ -53,6 +83,12 @@ impl Diagnostic {
             severity: Severity::Warning,
             ..Self::error(path, message)
         }
+    }
+
+    /// Says what kind of finding it is, unless it was said.
+    pub fn code(mut self, code: Code) -> Self {
+        self.code.get_or_insert(code);
+        self
     }
 
     /// Adds a place in the text.

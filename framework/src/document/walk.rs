@@ -3,7 +3,7 @@
 
 use serde_json::{Map, Value};
 
-use super::diagnostic::{Diagnostic, did_you_mean};
+use super::diagnostic::{Code, Diagnostic, did_you_mean};
 use super::node::{Content, Key, Node};
 use super::places::{Place, Places};
 use super::quantity::parse_quantity;
@@ -32,7 +32,7 @@ pub fn walk(node: &Node, schema: &Schema) -> Walked {
     let value = walker.value(node, &schema.root).unwrap_or(Value::Null);
     Walked {
         value,
-        findings: walker.findings,
+        findings: found(walker.findings),
         places: walker.places,
     }
 }
@@ -81,9 +81,14 @@ pub fn walk_at(node: &Node, schema: &Schema, path: &str) -> Walked {
     };
     Walked {
         value: value.unwrap_or(Value::Null),
-        findings: walker.findings,
+        findings: found(walker.findings),
         places: walker.places,
     }
+}
+
+/// What a walk has found: where nothing else is said, a value is wrong.
+fn found(list: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    list.into_iter().map(|finding| finding.code(Code::Value)).collect()
 }
 
 struct Walker<'a> {
@@ -269,7 +274,7 @@ impl<'a> Walker<'a> {
             .at(node.span)
             .note(format!("words: {}", words.join(", ")))
             .mend(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
-            self.findings.push(finding);
+            self.findings.push(finding.code(Code::UnknownName));
             return None;
         }
         Some(Value::from(text.as_str()))
@@ -388,7 +393,7 @@ impl<'a> Walker<'a> {
                         .at(node.span)
                         .note(format!("linked here: {}", names().collect::<Vec<_>>().join(", ")))
                         .mend("a `model:` replaces the default wholly: write its `type`, too");
-                    self.findings.push(finding);
+                    self.findings.push(finding.code(Code::MissingKey));
                     None
                 }
                 Some(tag) => match tag.text() {
@@ -421,7 +426,7 @@ impl<'a> Walker<'a> {
                 Some(close) => format!("write `{close}`"),
                 None => "choose one of them; `gearloss models` says what they are".to_owned(),
             });
-        self.findings.push(finding);
+        self.findings.push(finding.code(Code::UnknownName));
     }
 
     fn either(&mut self, node: &Node, shapes: &'a [Shape]) -> Option<Value> {
@@ -520,7 +525,7 @@ impl<'a> Walker<'a> {
                         let finding = Diagnostic::error(self.path.clone(), format!("`{name}` is missing"))
                             .at(node.span)
                             .mend(format!("add `{name}:` ({first_sentence})"));
-                        self.findings.push(finding);
+                        self.findings.push(finding.code(Code::MissingKey));
                         None
                     }
                     None => None,
@@ -571,7 +576,7 @@ impl<'a> Walker<'a> {
                     .mend("leave it out")
             }
         };
-        self.findings.push(finding.at(key.span));
+        self.findings.push(finding.at(key.span).code(Code::UnknownKey));
         meant
     }
 

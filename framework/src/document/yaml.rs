@@ -5,7 +5,7 @@
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
-use super::diagnostic::Diagnostic;
+use super::diagnostic::{Code, Diagnostic};
 use super::node::{Content, Key, Node, Span};
 use super::quantity::number_length;
 use crate::files::LONGEST_TEXT;
@@ -37,7 +37,7 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
                 content: Content::Null,
                 span,
             },
-            findings: vec![error.at(span).mend(mend)],
+            findings: vec![error.at(span).mend(mend).code(Code::Syntax)],
         };
     }
     let mut reader = Reader {
@@ -56,7 +56,11 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
     });
     Read {
         node,
-        findings: reader.findings,
+        findings: reader
+            .findings
+            .into_iter()
+            .map(|finding| finding.code(Code::Syntax))
+            .collect(),
     }
 }
 

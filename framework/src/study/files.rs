@@ -9,7 +9,7 @@ use super::{Data, Grid, StudyEntry, Uses};
 use crate::analysis::{Field, OilTemperature, Points, Rows};
 use crate::attach::dangling;
 use crate::description::Ordered;
-use crate::document::{Diagnostic, Places, Sources, read_yaml};
+use crate::document::{Code, Diagnostic, Places, Sources, read_yaml};
 use crate::files::{LONGEST_DATA, LONGEST_TEXT, read_bytes, read_text};
 use crate::gearbox::{Findings, Gearbox};
 use crate::language::Language;
@@ -41,7 +41,7 @@ impl Study {
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
         let text = read_text(file, LONGEST_TEXT).map_err(|e| {
             let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
-            Findings::from(vec![error.mend("check the name of the file")])
+            Findings::from(vec![error.mend("check the name of the file").code(Code::Unreadable)])
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));
         Self::of_text(language, text, &file.display().to_string(), folder)
@@ -107,7 +107,10 @@ impl Study {
     /// Findings about the study itself, with their places.
     pub fn findings(&self, list: Vec<Diagnostic>) -> Findings {
         Findings {
-            list: list.into_iter().map(|d| self.places.place(d)).collect(),
+            list: list
+                .into_iter()
+                .map(|d| self.places.place(d).code(Code::Study))
+                .collect(),
             sources: self.sources.clone(),
         }
     }

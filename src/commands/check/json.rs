@@ -1,0 +1,152 @@
+//! `check --format json`: what is found, file by file, for editors and scripts.
+
+use std::path::Path;
+
+use gearloss_framework::analysis::evidence;
+use gearloss_framework::document::{Code, Diagnostic, Severity, Sources, Span};
+use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::language::Language;
+use gearloss_framework::registry::Evidence;
+use gearloss_framework::study::Study;
+use serde_json::{Value, json};
+
+use crate::args::{CheckArgs, ChoiceArgs};
+use crate::commands::set;
+use crate::output::{End, Failure, Out};
+
+/// Prints one document for all files. Wrong files are told by what it says and by how the program ends, not by what is printed
+/// beside it.
+pub fn run(
+    language: &Language,
+    args: &CheckArgs,
+    deny: Option<Evidence>,
+    out: &mut Out,
+) -> Result<End, Failure> {
+    let mut end = End::Fine;
+    let mut wrong = false;
+    let mut files = Vec::new();
+    for file in &args.files {
+        let is_study = super::is_study(file);
+        let checked = if is_study {
+            Study::read(language, file)
+                .and_then(|study| study.check(language))
+                .map(|()| Checked::default())
+        } else {
+            gearbox(language, file, &args.choice, args.resolved)
+        };
+        let checked = checked.unwrap_or_else(|findings| Checked {
+            findings: found(&findings.list, &findings.sources),
+            wrong: findings.list.iter().any(|d| d.severity == Severity::Error),
+            ..Checked::default()
+        });
+        let denied = deny.is_some_and(|deny| checked.weakest.is_some_and(|weakest| weakest >= deny));
+        if denied {
+            end = End::Finding;
+        }
+        wrong |= checked.wrong;
+        let mut value = json!({
+            "file": file.display().to_string(),
+            "kind": if is_study { "study" } else { "gearbox" },
+            "fine": !checked.wrong,
+            "findings": checked.findings,
+        });
+        if let (Some(value), Some(built)) = (value.as_object_mut(), checked.built) {
+            value.extend(built);
+            value.insert("denied".to_owned(), denied.into());
+        }
+        files.push(value);
+    }
+    let value = json!({
+        "format": "gearloss-check/1",
+        "gearloss": env!("CARGO_PKG_VERSION"),
+        "packages": language.registry().packages(),
+        "files": files,
+    });
+    out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
+    if wrong {
+        Err(Failure::Input(String::new()))
+    } else {
+        Ok(end)
+    }
+}
+
+/// What is known of a file.
+#[derive(Default)]
+struct Checked {
+    findings: Vec<Value>,
+    /// It cannot be used.
+    wrong: bool,
+    /// What is said of a gearbox that was built.
+    built: Option<serde_json::Map<String, Value>>,
+    weakest: Option<Evidence>,
+}
+
+fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -> Result<Checked, Findings> {
+    let gearbox = Gearbox::read(language, file)?;
+    let resolved = set::resolve(language, &gearbox, choice)?;
+    let transmission = gearbox.build(language, &resolved)?;
+    let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
+    let states: Vec<&str> = transmission.states().iter().map(|s| s.name.as_str()).collect();
+    let notes: Vec<&String> = resolved.unreached.iter().chain(&resolved.without).collect();
+    let weakest = known.first();
+    let mut built = serde_json::Map::new();
+    built.insert("parts".to_owned(), transmission.parts().len().into());
+    built.insert("gear_states".to_owned(), json!(states));
+    built.insert("notes".to_owned(), json!(notes));
+    built.insert(
+        "weakest_evidence".to_owned(),
+        weakest.map_or(
+            Value::Null,
+            |weak| json!({ "grade": weak.grade.name(), "what": weak.what, "because": weak.because }),
+        ),
+    );
+    if print {
+        built.insert("resolved".to_owned(), resolved.value.clone());
+    }
+    Ok(Checked {
+        findings: found(&transmission.warnings, &gearbox.sources),
+        wrong: false,
+        weakest: weakest.map(|weak| weak.grade),
+        built: Some(built),
+    })
+}
+
+/// Findings with file, line and column in place of spans.
+fn found(list: &[Diagnostic], sources: &Sources) -> Vec<Value> {
+    let place = |span: Span| {
+        sources
+            .locate(span)
+            .map_or([Value::Null, Value::Null, Value::Null], |(file, line, column)| {
+                [file.into(), line.into(), column.into()]
+            })
+    };
+    list.iter()
+        .map(|finding| {
+            let [file, line, column] = finding
+                .spans
+                .first()
+                .map_or([Value::Null, Value::Null, Value::Null], |(span, _)| place(*span));
+            let related: Vec<Value> = finding
+                .spans
+                .iter()
+                .skip(1)
+                .map(|(span, label)| {
+                    let [file, line, column] = place(*span);
+                    json!({ "file": file, "line": line, "column": column, "message": label })
+                })
+                .collect();
+            json!({
+                "severity": finding.severity,
+                "code": finding.code.unwrap_or(Code::Other),
+                "path": finding.path,
+                "message": finding.message,
+                "help": finding.mend,
+                "notes": finding.notes,
+                "file": file,
+                "line": line,
+                "column": column,
+                "related": related,
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,150 @@
+//! What `check` and `models` tell programs: the published schemas hold, and every finding has its code, place and help.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn gearloss(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(args)
+        .output()
+        .unwrap()
+}
+
+/// What a command prints as JSON, held to its schema, with its exit code.
+fn told(kind: &str, args: &[&str]) -> (Value, i32) {
+    let output = gearloss(args);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let value: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{args:?}: {e}\n{text}"));
+    let schema: Value = serde_json::from_slice(&gearloss(&["schema", kind]).stdout).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let errors: Vec<String> = validator
+        .iter_errors(&value)
+        .map(|e| format!("{}: {e}", e.instance_path()))
+        .collect();
+    assert!(errors.is_empty(), "{args:?}: {errors:#?}");
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    (value, output.status.code().unwrap())
+}
+
+fn check(args: &[&str]) -> (Value, i32) {
+    let mut all = vec!["check", "--format", "json"];
+    all.extend(args);
+    told("check", &all)
+}
+
+#[test]
+fn check_tells_what_is_fine() {
+    let (value, code) = check(&["examples/two-speed-ev/gearbox.yaml", "examples/two-speed-ev/study.yaml"]);
+    assert_eq!(code, 0);
+    let files = value["files"].as_array().unwrap();
+    assert_eq!(
+        (&files[0]["kind"], &files[1]["kind"]),
+        (&"gearbox".into(), &"study".into())
+    );
+    assert!(files.iter().all(|file| file["fine"] == true));
+    assert_eq!(
+        files[0]["gear_states"],
+        serde_json::json!(["first", "second", "neutral"])
+    );
+    assert!(files[0]["resolved"].is_null());
+    let (value, code) = check(&["examples/two-speed-ev/gearbox.yaml", "--resolved", "--deny", "disputed"]);
+    assert_eq!((code, &value["files"][0]["denied"]), (1, &true.into()));
+    assert_eq!(value["files"][0]["resolved"]["gearloss"], "gearbox/1");
+}
+
+#[test]
+fn every_finding_has_its_code_place_and_help() {
+    let of = |case: &str| {
+        let (value, code) = check(&[&format!("tests/cases/{case}/input.yaml")]);
+        let file = value["files"][0].clone();
+        assert_eq!((code == 2, file["fine"] == false), (true, true), "{case}");
+        file["findings"][0].clone()
+    };
+    for (case, code, line) in [
+        ("not_yaml", "syntax", true),
+        ("duplicate_key", "syntax", true),
+        ("misspelt_key", "unknown-key", true),
+        ("missing_key", "missing-key", true),
+        ("model_without_type", "missing-key", true),
+        ("unknown_type", "unknown-name", true),
+        ("wrong_unit", "value", true),
+        ("out_of_range", "value", true),
+        ("extends_missing", "unreadable", true),
+        ("unknown_designation", "choice", true),
+        ("no_overlap", "gearbox", true),
+    ] {
+        let finding = of(case);
+        assert_eq!(finding["code"], code, "{case}: {finding:#}");
+        assert_eq!(finding["severity"], "error", "{case}");
+        assert_eq!(
+            finding["line"].is_u64() && finding["column"].is_u64(),
+            line,
+            "{case}: {finding:#}"
+        );
+        assert!(finding["help"].is_string(), "{case}: {finding:#}");
+    }
+    let wrong = of("wrong_unit");
+    assert!(wrong["file"].as_str().unwrap().ends_with("wrong_unit/input.yaml"));
+    assert_eq!(wrong["line"], 10);
+    // The place that says why stands beside.
+    assert!(!of("duplicate_key")["related"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn a_missing_file_is_told_beside_the_others() {
+    let (value, code) = check(&["nowhere.yaml", "examples/two-speed-ev/gearbox.yaml"]);
+    assert_eq!(code, 2);
+    let finding = &value["files"][0]["findings"][0];
+    assert_eq!(
+        (&finding["code"], &finding["line"]),
+        (&"unreadable".into(), &Value::Null)
+    );
+    assert_eq!(value["files"][1]["fine"], true);
+}
+
+#[test]
+fn models_lists_everything() {
+    let (all, code) = told("models", &["models", "--format", "json"]);
+    assert_eq!(code, 0);
+    let mechanisms = all["mechanisms"].as_array().unwrap();
+    let language = common::language();
+    assert_eq!(mechanisms.len(), language.registry().mechanisms().len());
+    for (own, listed) in language.registry().mechanisms().iter().zip(mechanisms) {
+        assert_eq!(
+            listed["models"].as_array().unwrap().len(),
+            language.registry().models(own.key).count(),
+            "{}",
+            own.key
+        );
+    }
+    let (one, _) = told("models", &["models", "bearing", "skf", "--format", "json"]);
+    let bearing = &one["mechanisms"][0];
+    assert_eq!(one["mechanisms"].as_array().unwrap().len(), 1);
+    assert_eq!(bearing["models"].as_array().unwrap().len(), 1);
+    let skf = &bearing["models"][0];
+    let edition = skf["parameters"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|p| p["name"] == "mu_bl")
+        .unwrap();
+    assert_eq!((&edition["unit"], &edition["least"]), (&"-".into(), &0.01.into()));
+    let speed = &bearing["quantities"][0];
+    assert_eq!(
+        (&speed["name"], &speed["unit"], &speed["usual"]),
+        (&"speed".into(), &"rpm".into(), &3000.0.into())
+    );
+    let (gears, _) = told("models", &["models", "gear_mesh", "--format", "json"]);
+    assert_eq!(gears["mechanisms"][0]["laws"], serde_json::json!(["eta = nu rho"]));
+    assert_eq!(
+        gearloss(&["models", "bearing", "nothing", "--format", "json"])
+            .status
+            .code(),
+        Some(2)
+    );
+}
