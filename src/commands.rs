@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod card;
 pub mod check;
 pub mod eval;
 pub mod explain;

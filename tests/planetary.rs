@@ -184,7 +184,9 @@ fn planets_dip_as_a_mean_over_their_orbit() {
 fn a_set_that_cannot_be_assembled_is_warned_of() {
     let language = language();
     let warnings = |set: &str, teeth| {
-        let t = built(&language, &simple(teeth, ["none", "none"], set, ""));
+        let text = simple(teeth, ["none", "none"], set, "");
+        let bare = text.replace("planet: { mass: 0.2 kg }", "planet: { mass: 0.2 kg, bearings: none }");
+        let t = built(&language, &bare);
         t.warnings
             .iter()
             .map(|w| w.message.clone())

@@ -19,8 +19,8 @@ const OIL: &str = "lubricants: { oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm
 const DIFFERENTIAL: &str = "
 ports: { input: drive, left: left_half, right: right_half }
 shafts:
-  drive: { axis: [0 mm, 0 mm] }
-  cage: { axis: [100 mm, 0 mm] }
+  drive: { axis: [0 mm, 0 mm], bearings: none }
+  cage: { axis: [100 mm, 0 mm], bearings: none }
   left_half: { axis: [100 mm, 0 mm] }
   right_half: { axis: [100 mm, 0 mm] }
 gears:
@@ -183,16 +183,16 @@ const TWIN_CLUTCH: &str = "
 ports: { input: engine, output: wheels }
 shafts:
   engine: { axis: [0 mm, 0 mm] }
-  solid: { axis: [0 mm, 0 mm] }
-  hollow: { axis: [0 mm, 0 mm] }
-  upper: { axis: [0 mm, 84 mm] }
-  lower: { axis: [60 mm, -60 mm] }
-  wheels: { axis: [121.777914 mm, 55.801778 mm] }
+  solid: { axis: [0 mm, 0 mm], bearings: none }
+  hollow: { axis: [0 mm, 0 mm], bearings: none }
+  upper: { axis: [0 mm, 84 mm], bearings: none }
+  lower: { axis: [60 mm, -60 mm], bearings: none }
+  wheels: { axis: [121.777914 mm, 55.801778 mm], bearings: none }
 gears:
   i1: { shaft: solid, at: 150 mm, z: 20, facewidth: 15 mm }
   i2: { shaft: hollow, at: 60 mm, z: 30, facewidth: 15 mm }
-  u1: { shaft: upper, at: 150 mm, z: 64, facewidth: 15 mm, mounted: loose }
-  l2: { shaft: lower, at: 60 mm, z: 55, facewidth: 15 mm, mounted: loose }
+  u1: { shaft: upper, at: 150 mm, z: 64, facewidth: 15 mm, mounted: loose, bearings: none }
+  l2: { shaft: lower, at: 60 mm, z: 55, facewidth: 15 mm, mounted: loose, bearings: none }
   u_out: { shaft: upper, at: 20 mm, z: 20, facewidth: 20 mm }
   l_out: { shaft: lower, at: 20 mm, z: 25, facewidth: 20 mm }
   final: { shaft: wheels, at: 20 mm, z: 80, facewidth: 20 mm }
@@ -226,9 +226,9 @@ seals: { s: { shaft: axle, diameter: 30 mm } }
 const FAR: &str = "
 ports: { input: a, output: c }
 shafts:
-  a: { axis: [0 mm, 0 mm] }
-  b: { axis: [60 mm, 0 mm] }
-  c: { axis: [100 mm, 0 mm] }
+  a: { axis: [0 mm, 0 mm], bearings: none }
+  b: { axis: [60 mm, 0 mm], bearings: none }
+  c: { axis: [100 mm, 0 mm], bearings: none }
   idle: { axis: [0 mm, 900 mm] }
 gears:
   p: { shaft: a, at: -90000 mm, z: 20, facewidth: 0.2 mm }

@@ -55,8 +55,8 @@ const DIFFERENTIAL: &str = "
 gearloss: gearbox/1
 ports: { input: drive, left: left_half, right: right_half }
 shafts:
-  drive: { axis: [0 mm, 0 mm] }
-  cage: { axis: [100 mm, 0 mm] }
+  drive: { axis: [0 mm, 0 mm], bearings: none }
+  cage: { axis: [100 mm, 0 mm], bearings: none }
   left_half: { axis: [100 mm, 0 mm] }
   right_half: { axis: [100 mm, 0 mm] }
 gears:

@@ -14,7 +14,7 @@ mod temperature;
 pub use bits::Bits;
 pub use cycle::{Driven, Ride, Stretch, drive};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
-pub use notes::{Note, Stated, WeakPoint, evidence, notes};
+pub use notes::{Note, STATIC_SAFETY, Stated, WeakPoint, evidence, notes};
 pub use pieces::{MOST_HELD, Make, Numbered, Piece, held, solve_pieces};
 pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
 pub use statistics::{Statistics, bands, correlation, histogram, levels, quantile};

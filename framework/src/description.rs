@@ -20,7 +20,7 @@ pub use housing::{HeatInto, HousingEntry, LevelOver, OilEntry, OutsideEntry, Run
 pub use lubricant::LubricantEntry;
 pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
 pub use ordered::Ordered;
-pub use shafts::{LoadEntry, SectionEntry, ShaftEntry};
+pub use shafts::{LoadEntry, SectionEntry, ShaftEntry, Unsupported};
 pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, TorqueShare};
 
 /// A gearbox.

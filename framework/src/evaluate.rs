@@ -15,7 +15,7 @@ use std::cell::Cell;
 
 use crate::attach::State;
 use crate::flow::{Balance, Drive, FlowState, Outcome, Status, Tolerance};
-use crate::loads::SupportLoad;
+use crate::loads::{LEAST_STATIC_SAFETY, SupportLoad};
 use crate::loss::{Extent, Loss, NoteBase, Notebook, Undefined};
 use crate::mechanism::gear_drag::GearDragAt;
 use crate::mechanism::gear_mesh::GearMeshAt;
@@ -315,6 +315,9 @@ impl Transmission {
             self.note(s);
         }
         self.rest(s, quiet);
+        if !quiet && matches!(outcome, Outcome::Converged { .. }) {
+            self.note_static_safety(s);
+        }
         self.finish(standing, point.flow, outcome, s);
         if noting_as == Noting::Counted && matches!(outcome, Outcome::Converged { .. }) {
             s.count_seen();
@@ -343,6 +346,21 @@ impl Transmission {
         }
         for i in (0..self.meshes.len()).filter(|i| !self.meshes[*i].model.off) {
             let _ = self.mesh(i, s.tangential[i], s.work.drives[i], &state, &book);
+        }
+    }
+
+    /// Notes the static safety of bearings; on a planet that of the most loaded one.
+    fn note_static_safety(&self, s: &mut Scratch) {
+        let first = self.rated_cells();
+        for (rated, cell) in self.rated.iter().zip(&mut s.cells[first..]) {
+            let load = if rated.uneven {
+                s.uneven_loads[0][rated.support]
+            } else {
+                s.loads[rated.support]
+            };
+            if let Some(safety) = rated.rating.safety(load.radial, load.axial) {
+                *cell = Extent::point(safety, safety, safety < LEAST_STATIC_SAFETY);
+            }
         }
     }
 

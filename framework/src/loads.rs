@@ -7,6 +7,7 @@ mod abreast;
 mod beam;
 mod layout;
 mod shaft_loads;
+mod static_rating;
 mod statics;
 mod thrust;
 
@@ -14,6 +15,7 @@ pub use abreast::LoadLanes;
 pub use beam::{Beam, BeamFault, BeamLoad, BeamSupport};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
 pub use shaft_loads::ShaftLoads;
+pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};
 pub use thrust::Taking;
 
 /// Load of one support at one point.

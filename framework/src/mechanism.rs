@@ -29,7 +29,7 @@ use crate::attach::Attach;
 use crate::document::Unit;
 use crate::generic::Scalar;
 use crate::lanes::{LaneNotes, LossLanes};
-use crate::loads::LoadLanes;
+use crate::loads::{LoadLanes, StaticRating};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 
 /// A physical cause of loss. Implemented by an empty marker type, once per mechanism.
@@ -106,6 +106,10 @@ pub trait Component: Mechanism<Answer = Loss> {
     /// False where nothing that a model notes hangs on the load.
     fn notes_hang_on_load(_model: &Self::Model) -> bool {
         true
+    }
+    /// Static load rating of a part that carries load, where it is known.
+    fn static_rating(_part: &Self::Part) -> Option<StaticRating> {
+        None
     }
     /// Notes what models note at these loads; false where [`losses`](Self::losses) has no way of its own.
     fn note(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {

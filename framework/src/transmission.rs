@@ -8,6 +8,8 @@ mod members;
 mod nodes;
 mod oils;
 mod planets;
+mod plausible;
+mod stage;
 mod states;
 mod statics;
 
@@ -18,6 +20,7 @@ pub use drags::DragSeat;
 pub use gearing::{GearSeat, MeshSeat};
 pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{Oils, Surface};
+pub use stage::Stage;
 pub use states::GearState;
 
 pub(crate) use nodes::NodeNames;
@@ -25,7 +28,7 @@ pub(crate) use planets::Sharing;
 
 use crate::description::{RatingEntry, ThermalMode};
 use crate::document::Diagnostic;
-use crate::loads::ShaftLoads;
+use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
 use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
@@ -134,6 +137,17 @@ impl Component {
     }
 }
 
+/// A support whose static load rating is known.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RatedSupport {
+    /// Its number.
+    pub support: usize,
+    /// Rating of one bearing.
+    pub rating: StaticRating,
+    /// True where it sits on a planet of a set whose planets carry different loads.
+    pub uneven: bool,
+}
+
 /// A transmission, ready to be evaluated at any number of points from any number of threads.
 pub struct Transmission {
     pub(crate) title: String,
@@ -146,7 +160,10 @@ pub struct Transmission {
     pub(crate) components: Vec<Component>,
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) instances: Vec<Instance>,
+    /// Cells of notes: those of the models, then the static safety of each rated support.
     pub(crate) cells: usize,
+    /// Supports whose static load rating is known.
+    pub(crate) rated: Vec<RatedSupport>,
     pub(crate) oils: Oils,
     pub(crate) loads: ShaftLoads,
     /// For each support; empty where all are one.
@@ -195,6 +212,10 @@ impl Transmission {
     /// Every model that was built, with its path.
     pub fn instances(&self) -> &[Instance] {
         &self.instances
+    }
+    /// Cell of notes of the first rated support; models have those before.
+    pub(crate) fn rated_cells(&self) -> usize {
+        self.cells - self.rated.len()
     }
     /// Paths of the supports, by number.
     pub fn supports(&self) -> &[String] {

@@ -2,15 +2,19 @@
 
 mod json;
 
-use gearloss_framework::analysis::evidence;
+use gearloss_framework::analysis::{Note, STATIC_SAFETY, evidence, merge, notes};
 use gearloss_framework::document::{Sources, read_yaml};
+use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::study::Study;
+use gearloss_framework::transmission::Transmission;
 
+use super::card::{card, figures};
 use super::set;
+use super::solve::outside;
 use crate::args::{CheckArgs, ChoiceArgs, Format};
 use crate::output::{End, Failure, Out};
 
@@ -61,6 +65,34 @@ pub fn grade(name: &str) -> Result<Evidence, Failure> {
     })
 }
 
+/// Bearings with too little static safety at the torque and speed that the gearbox is made for, in any gear, driven and driving.
+fn overloaded(t: &Transmission) -> Vec<Note> {
+    let Some(rating) = t.rating else { return Vec::new() };
+    let mut seen = Vec::new();
+    for i in 0..t.states().len() {
+        let Some(case) = t.case_at_reference(i) else { continue };
+        let mut scratch = t.scratch(&case);
+        let mut torques = vec![0.0; case.torque_ports.len()];
+        for sign in [1.0, -1.0] {
+            let Some(first) = torques.first_mut() else { continue };
+            *first = sign * rating.torque;
+            let point = Point {
+                speeds: &[rating.speed],
+                torques: &torques,
+                flow: PowerFlow::Ideal,
+                ..Point::default()
+            };
+            t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
+        }
+        merge(&mut seen, &scratch.totals);
+    }
+    if seen.is_empty() {
+        return Vec::new();
+    }
+    let safety = |note: &Note| note.name == STATIC_SAFETY;
+    notes(t, &seen).into_iter().filter(safety).collect()
+}
+
 fn is_study(file: &std::path::Path) -> bool {
     let text = read_text(file, LONGEST_TEXT).unwrap_or_default();
     let node = read_yaml(0, &text).node;
@@ -87,7 +119,17 @@ fn gearbox(
     }
     if print {
         match serde_saphyr::to_string(&resolved.value) {
-            Ok(yaml) => text.push_str(&yaml),
+            Ok(yaml) => {
+                text.push_str(&yaml);
+                // As comments, so that the text goes on to be a document.
+                text.push_str("# derived geometry\n");
+                for stage in transmission.stages() {
+                    text.push_str(&format!("# {}:\n", stage.mesh));
+                    for figure in figures(&stage) {
+                        text.push_str(&format!("#   {figure}\n"));
+                    }
+                }
+            }
             Err(e) => {
                 let error = gearloss_framework::document::Diagnostic::error("", format!("cannot write YAML: {e}"));
                 return Err(Findings {
@@ -105,6 +147,11 @@ fn gearbox(
         transmission.parts().len(),
         states.join(", ")
     ));
+    text.push_str(&card(&transmission));
+    for line in outside(&overloaded(&transmission)).lines() {
+        let line = line.trim_start_matches("outside: ");
+        text.push_str(&format!("  at the rated torque: {line}\n"));
+    }
     for line in resolved.unreached.iter().chain(&resolved.without) {
         text.push_str(&format!("  note: {line}\n"));
     }

@@ -7,6 +7,7 @@ use gearloss_framework::resolve::{Came, Resolved, lookup};
 use gearloss_framework::transmission::{PartInfo, Transmission};
 use serde_json::Value;
 
+use super::card::figures;
 use super::locking;
 use super::point::prepare;
 use super::solve::{RPM, heading, of_warmth};
@@ -87,6 +88,12 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
                 reading.unit.symbol
             };
             out.line(format!("    {} = {} {unit}", reading.name, significant(reading.value)).trim_end())?;
+        }
+        if let Some(stage) = transmission.stages().find(|stage| stage.mesh == info.path) {
+            out.line("  geometry:")?;
+            for figure in figures(&stage) {
+                out.line(format!("    {figure}"))?;
+            }
         }
         out.line("  inputs (SI, temperatures in degC):")?;
         let base = base_path(info);

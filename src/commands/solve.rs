@@ -378,14 +378,21 @@ pub fn outside(notes: &[Note]) -> String {
         let paths: Vec<&str> = group.iter().map(|n| n.path.as_str()).collect();
         let outside: u32 = group.iter().map(|n| n.outside).sum();
         let points: u32 = group.iter().map(|n| n.points).sum();
+        let range = if stated.greatest.is_finite() {
+            format!(
+                "outside of {} to {}",
+                significant(stated.least),
+                significant(stated.greatest)
+            )
+        } else {
+            format!("below {}", significant(stated.least))
+        };
         text.push_str(&format!(
-            "outside: {}: {} {} to {}{unit} is outside of {} to {} at {outside} of {points} points ({})\n",
+            "outside: {}: {} {} to {}{unit} is {range} at {outside} of {points} points ({})\n",
             paths.join(", "),
             note.name,
             significant(seen(f64::min, |n| n.least)),
             significant(seen(f64::max, |n| n.greatest)),
-            significant(stated.least),
-            significant(stated.greatest),
             stated.origin,
         ));
     }
@@ -424,7 +431,7 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
                 .map(|load| json!({ "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting }));
             json!({
                 "support": path, "radial_n": known(load.radial), "axial_n": known(load.axial), "tilting_nm": known(load.tilting),
-                "most_loaded_planet": most,
+                "most_loaded_planet": most, "static_safety": solution.static_safety(i),
             })
         })
         .collect();
@@ -470,6 +477,7 @@ fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prep
         "sums_w": sums(transmission, solution).map(by_name),
         "ports": ports,
         "members": members,
+        "stages": transmission.stages().collect::<Vec<_>>(),
         "supports": loads,
         "parts": parts,
     })

@@ -3,10 +3,14 @@
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::loads::LEAST_STATIC_SAFETY;
 use crate::loss::Extent;
 use crate::registry::{Evidence, Instance};
 use crate::resolve::{Came, Resolved, lookup};
 use crate::transmission::Transmission;
+
+/// Name of the note of a bearing's static safety.
+pub const STATIC_SAFETY: &str = "S0 = C0/P0";
 
 /// One limit or observed quantity over many points.
 #[derive(Debug, Clone, Serialize)]
@@ -40,7 +44,7 @@ pub struct Stated {
     pub origin: &'static str,
 }
 
-/// All limits and observed quantities that were seen.
+/// All limits and observed quantities that were seen, and the static safety of bearings that have too little of it.
 pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
     let mut notes = Vec::new();
     for instance in transmission.instances() {
@@ -63,6 +67,22 @@ pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
             ));
         }
     }
+    // A safety that suffices is no news.
+    let rated = transmission.rated.iter().zip(&seen[transmission.rated_cells()..]);
+    notes.extend(rated.filter(|(_, seen)| seen.outside > 0).map(|(rated, seen)| Note {
+        path: transmission.supports[rated.support].clone(),
+        name: STATIC_SAFETY,
+        unit: "-",
+        least: seen.least,
+        greatest: seen.greatest,
+        points: seen.seen,
+        outside: seen.outside,
+        range: Some(Stated {
+            least: LEAST_STATIC_SAFETY,
+            greatest: f64::INFINITY,
+            origin: "static safety, ISO 76",
+        }),
+    }));
     notes
 }
 

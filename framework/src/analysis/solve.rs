@@ -305,7 +305,7 @@ impl<'a> Solver<'a> {
             sums: totals,
             parts: solution.watts().to_vec(),
             terms,
-            outside: solution.extents().iter().any(|e| e.outside > 0),
+            outside: solution.leaves_a_range(),
             undefined: solution.undefined_part(),
             passes: solution.passes(),
             evaluations: 0,

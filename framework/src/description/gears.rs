@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::shafts::Unsupported;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
@@ -34,6 +35,8 @@ pub struct GearEntry {
     /// Fixed to the shaft, or loose until a coupling joins it.
     #[serde(default)]
     pub mounted: Mounting,
+    /// `none` where a loose gear has no bearings in this description: it has no bearing loads and no bearing losses.
+    pub bearings: Option<Unsupported>,
     /// Tip diameter; absent, it follows from the reference tooth. Required for rings. [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub tip_diameter: Option<f64>,

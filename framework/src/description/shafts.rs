@@ -30,6 +30,16 @@ pub struct ShaftEntry {
     /// Forces from outside.
     #[serde(default)]
     pub loads: Vec<LoadEntry>,
+    /// `none` where a loaded shaft has no bearings in this description: it has no bearing loads and no bearing losses.
+    pub bearings: Option<Unsupported>,
+}
+
+/// Says that a shaft or a loose gear has no bearings in a description, which otherwise is an error where something loads it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Unsupported {
+    /// No bearings: no bearing loads and no bearing losses.
+    None,
 }
 
 /// A piece of a shaft with constant diameters.

@@ -15,7 +15,7 @@ use super::{Point, PowerFlow, Scratch, Solution};
 use crate::attach::State;
 use crate::flow::{Drive, FlowLanes, TaskLanes, Trail, WorkLanes};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, Powers, count, each, is_even, over, weighted, wide};
-use crate::loads::{LoadLanes, SupportLoad};
+use crate::loads::{LEAST_STATIC_SAFETY, LoadLanes, SupportLoad};
 use crate::loss::{Extent, Measure, NoteBase, Notebook, Notes};
 use crate::transmission::{Case, Component, PartInfo, PartKind, Transmission};
 
@@ -610,6 +610,15 @@ impl Row<'_> {
                 notes.all().anew();
                 mesh.model.note(&at, own_torques, &meshes[i], notes);
                 gather(mesh.model.notes);
+            }
+            for (rated, total) in t.rated.iter().zip(&totals[t.rated_cells()..]) {
+                let loads = &loads[rated.support];
+                for lane in (0..LANES).filter(|lane| counted[*lane]) {
+                    if let Some(safety) = rated.rating.safety(loads.radial[lane], loads.axial[lane]) {
+                        let seen = Extent::point(safety, safety, safety < LEAST_STATIC_SAFETY);
+                        total.set(total.get().merge(seen));
+                    }
+                }
             }
         }
         wide(

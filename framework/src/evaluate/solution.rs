@@ -272,6 +272,21 @@ impl Solution<'_> {
         &self.scratch.cells
     }
 
+    /// True where a model was outside of a stated range.
+    pub fn leaves_a_range(&self) -> bool {
+        let models = &self.scratch.cells[..self.transmission.rated_cells()];
+        models.iter().any(|seen| seen.outside > 0)
+    }
+
+    /// Static safety of a bearing by the number of its support, on the most loaded planet where it sits on planets; absent
+    /// without load or where its rating is not known.
+    pub fn static_safety(&self, support: usize) -> Option<f64> {
+        let t = self.transmission;
+        let rated = t.rated.iter().position(|rated| rated.support == support)?;
+        let seen = self.scratch.cells[t.rated_cells() + rated];
+        (seen.seen > 0).then_some(seen.least)
+    }
+
     /// Evaluates one part again with every step written down. The numbers are those of the solution.
     pub fn explain(&self, part: usize) -> (PartLoss, Trace) {
         let t = self.transmission;

@@ -9,7 +9,7 @@ use crate::attach::{Support, SupportSite};
 use crate::context;
 use crate::generic::Scalar;
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
-use crate::loads::LoadLanes;
+use crate::loads::{LoadLanes, StaticFactors, StaticRating};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::mechanism::{Component, Mechanism, Quantity};
 
@@ -201,11 +201,13 @@ impl BearingPart {
         0.5 * (self.bore + self.outside)
     }
 
-    /// Equivalent static load P0 after ISO 76:2006: X0 Fr + Y0 Fa, and never less than Fr. Absent for kinds whose factors
-    /// hang on an inner geometry that is not stated. \[N\]
-    pub fn static_load(&self, radial: f64, axial: f64) -> Option<f64> {
+    /// Factors of the equivalent static load P0 after ISO 76:2006. Absent for kinds whose factors depend on an inner
+    /// geometry that is not stated.
+    pub fn static_factors(&self) -> Option<StaticFactors> {
         let (x0, y0) = match self.kind {
             BearingKind::DeepGrooveBall | BearingKind::DeepGrooveBallDoubleRow => (0.6, 0.5),
+            // Y0 0.26 for a contact angle of 40 degrees, 0.38 for 25.
+            BearingKind::AngularContactBall => (0.5, self.y0?),
             BearingKind::CylindricalRoller
             | BearingKind::CylindricalRollerFullComplement
             | BearingKind::NeedleCage
@@ -213,9 +215,25 @@ impl BearingPart {
             | BearingKind::ToroidalRollerFullComplement => (1.0, 0.0),
             BearingKind::TaperedRoller => (0.5, self.y0?),
             BearingKind::SphericalRoller | BearingKind::SelfAligningBall => (1.0, self.y0?),
+            // A contact angle of 90 degrees: thrust alone.
+            BearingKind::ThrustBall | BearingKind::CylindricalRollerThrust | BearingKind::NeedleRollerThrust => {
+                return Some(StaticFactors {
+                    radial: 0.0,
+                    axial: 1.0,
+                    least: 0.0,
+                });
+            }
             _ => return None,
         };
-        Some((x0 * radial + y0 * axial).max(radial))
+        Some(StaticFactors::radial(x0, y0))
+    }
+
+    /// Static load rating with the factors of P0; absent where one of them is not known.
+    pub fn static_rating(&self) -> Option<StaticRating> {
+        Some(StaticRating {
+            c0: self.c0?,
+            factors: self.static_factors()?,
+        })
     }
 }
 
@@ -431,6 +449,10 @@ impl Component for Bearing {
 
     fn notes_hang_on_load(model: &Self::Model) -> bool {
         model.notes_hang_on_load()
+    }
+
+    fn static_rating(part: &BearingPart) -> Option<StaticRating> {
+        part.static_rating()
     }
 
     fn note(model: &Self::Model, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {

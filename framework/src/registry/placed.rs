@@ -12,7 +12,7 @@ use crate::attach::{Attach, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::lanes::{LaneNotes, LossLanes};
-use crate::loads::LoadLanes;
+use crate::loads::{LoadLanes, StaticRating};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::Component;
 
@@ -77,6 +77,10 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     fn notes(&self) -> NoteBase;
     /// Number of the support, for components that carry load.
     fn support(&self) -> Option<u16>;
+    /// Static load rating, where it is known.
+    fn static_rating(&self) -> Option<StaticRating> {
+        None
+    }
 }
 
 struct PlacedAs<C: Component> {
@@ -123,6 +127,9 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
     fn support(&self) -> Option<u16> {
         C::Attachment::support(self.seat)
+    }
+    fn static_rating(&self) -> Option<StaticRating> {
+        C::static_rating(&self.part)
     }
 }
 

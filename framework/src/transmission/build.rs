@@ -8,9 +8,10 @@ use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oils::OilNumbers;
 use super::planets;
+use super::plausible;
 use super::states::states;
 use super::statics::{imported, load_factors, shaft_loads};
-use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, Sharing, Transmission};
+use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission};
 use crate::attach::{Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::Diagnostic;
@@ -36,7 +37,7 @@ impl Transmission {
         let mut warnings = Vec::new();
         let members = Members::new(&entry, &mut found);
         let ports = ports(&entry, &members, &mut found);
-        let (gears, meshes) = gearing(&entry, &members, &mut found);
+        let (gears, meshes) = gearing(&entry, &members, &mut found, &mut warnings);
         let sharing = planets::sharing(&entry, &members, &mut found);
         let nodes = NodeNames::new(&entry, &mut found);
         let mut oils = OilNumbers::new(&entry, &members, &meshes, &nodes);
@@ -83,8 +84,10 @@ impl Transmission {
             });
             components.push(Component::new(model.placed, model.loss_factor, None));
         }
+        let levels = levels(&entry, &gears, &oils);
+        warnings.extend(plausible::oil_level(&entry, &gears, &levels, &oils));
         let drags = drags(
-            language, &entry, &gears, &meshes, covered, &mut oils, &mut build, &mut parts, &mut found,
+            language, &entry, &gears, &meshes, &levels, covered, &mut oils, &mut build, &mut parts, &mut found,
         );
 
         planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
@@ -141,6 +144,7 @@ impl Transmission {
         found.splice(0..0, more);
         if let (true, Some(loads)) = (found.is_empty(), loads) {
             let (instances, cells) = build.finish();
+            let rated: Vec<RatedSupport> = components.iter().filter_map(rated).collect();
             let order = |path: &str| document_order(resolved, path);
             parts.sort_by_key(|p| order(&p.path));
             if let Some(network) = &mut network {
@@ -165,7 +169,8 @@ impl Transmission {
                 components,
                 parts,
                 instances,
-                cells,
+                cells: cells + rated.len(),
+                rated,
                 oils,
                 loads,
                 load_factors,
@@ -199,6 +204,15 @@ impl Transmission {
         }
         if found.is_empty() { Ok(()) } else { Err(found) }
     }
+}
+
+/// The support of a component, where its static load rating is known.
+fn rated(component: &Component) -> Option<RatedSupport> {
+    Some(RatedSupport {
+        support: usize::from(component.support?),
+        rating: component.placed.static_rating()?,
+        uneven: component.sharing.is_some(),
+    })
 }
 
 /// What a balance of the oil would use, and a network does not.
@@ -401,6 +415,7 @@ fn drags(
     entry: &GearboxEntry,
     gears: &[GearSeat],
     meshes: &[MeshSeat],
+    levels: &[Level],
     mut covered: Vec<Covered>,
     oils: &mut OilNumbers<'_>,
     build: &mut Build<'_>,
@@ -416,16 +431,6 @@ fn drags(
             count: 1,
         }
     };
-    let levels: Vec<Level> = gears
-        .iter()
-        .enumerate()
-        .map(|(i, g)| {
-            entry.gears.0[i]
-                .1
-                .level
-                .map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
-        })
-        .collect();
     let mut drags: Vec<DragModel> = Vec::new();
     let mut add = |slots: Option<&NamedSlots<GearDrag>>,
                    of: &str,
@@ -596,6 +601,17 @@ fn drags(
         }
     }
     drags
+}
+
+/// Height of the oil at each gear.
+fn levels(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>) -> Vec<Level> {
+    let seats = gears.iter().enumerate();
+    seats
+        .map(|(i, g)| {
+            let own = entry.gears.0[i].1.level;
+            own.map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
+        })
+        .collect()
 }
 
 fn is_planet(entry: &GearboxEntry, gear: &str) -> bool {

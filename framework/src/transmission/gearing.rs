@@ -1,6 +1,7 @@
 //! Gears and meshes: geometry of every pair, checked against axes, hands and places.
 
 use super::members::Members;
+use super::plausible;
 use crate::attach::dangling;
 use crate::description::{GearKind, GearboxEntry, gears::Hand};
 use crate::document::Diagnostic;
@@ -54,7 +55,12 @@ pub struct MeshSeat {
 const USUAL_RA: f64 = 0.4e-6;
 
 /// Solves the geometry of all pairs.
-pub fn gearing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -> (Vec<GearSeat>, Vec<MeshSeat>) {
+pub fn gearing(
+    entry: &GearboxEntry,
+    members: &Members,
+    found: &mut Vec<Diagnostic>,
+    warnings: &mut Vec<Diagnostic>,
+) -> (Vec<GearSeat>, Vec<MeshSeat>) {
     let mut gears: Vec<GearSeat> = entry
         .gears
         .iter()
@@ -182,6 +188,7 @@ pub fn gearing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnost
             );
             continue;
         }
+        warnings.extend(plausible::face_overlap(&path, [a, b], facewidth));
         let spec = PairSpec {
             z: [a.z, b.z],
             internal: sign < 0.0,
@@ -208,6 +215,9 @@ pub fn gearing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnost
                 continue;
             }
         };
+        let closes = spec.centre_distance.is_some();
+        let follows = spec.profile_shift.map(|shift| closes && shift.is_none());
+        warnings.extend(plausible::shifts(&path, &spec, &pair, follows));
         for (i, gear) in [first, second].into_iter().enumerate() {
             shifts[gear] = Some(pair.profile_shift[i]);
             tips[gear] = Some(pair.tip_diameter[i]);

@@ -94,6 +94,8 @@ pub struct OilNumbers<'a> {
     /// True where the housing's oil dangles, which is reported once.
     dangles: bool,
     surface: Surface,
+    /// Level of the sump at rest, where it is stated. \[m\]
+    at_rest: Option<f64>,
     /// Axis of each member, and the radius on which it turns about it.
     axes: Vec<Option<([f64; 2], f64)>>,
     up: [f64; 3],
@@ -127,6 +129,7 @@ impl<'a> OilNumbers<'a> {
         let shafts: Vec<&str> = members.names.iter().map(String::as_str).collect();
         let mut datum = [0.0; 2];
         let mut surface = Surface::Dry;
+        let mut at_rest = None;
         let mut default = None;
         if let Some(oil) = &entry.housing.oil {
             default = names.iter().position(|n| *n == oil.lubricant);
@@ -140,6 +143,7 @@ impl<'a> OilNumbers<'a> {
                 }
             }
             let offset = oil.level_offset;
+            at_rest = oil.level.map(|level| level + offset);
             surface = match (&oil.running_level, oil.level) {
                 (Some(Running::Height(height)), _) => Surface::Fixed(height + offset),
                 (Some(Running::Over(over)), _) => {
@@ -184,12 +188,23 @@ impl<'a> OilNumbers<'a> {
             default,
             dangles: default.is_none() && entry.housing.oil.is_some(),
             surface,
+            at_rest,
             axes,
             up,
             datum,
             nodes,
             findings,
         }
+    }
+
+    /// The highest level of the oil, at rest or turning, above the datum; absent where none is stated. \[m\]
+    pub fn highest(&self) -> Option<f64> {
+        let turning = match &self.surface {
+            Surface::Dry => return None,
+            Surface::Fixed(level) => *level,
+            Surface::Over { levels, .. } => levels.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        };
+        Some(self.at_rest.map_or(turning, |level| level.max(turning)))
     }
 
     /// The lubricant of an oil; absent where a lubricant has a fault that was reported.

@@ -6,7 +6,7 @@ use super::gearing::MeshSeat;
 use super::members::Members;
 use super::planets::orbit;
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
-use crate::description::GearboxEntry;
+use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
     Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
@@ -189,7 +189,7 @@ pub fn shaft_loads(
             0.5 * (left + right)
         };
     }
-    warn(members, &layout, warnings);
+    unsupported(entry, members, &layout, found, warnings);
     match ShaftLoads::new(&layout) {
         Ok(loads) => Some(loads),
         Err(faults) => {
@@ -200,8 +200,17 @@ pub fn shaft_loads(
     }
 }
 
-/// Warns of members that nothing carries and of thrust that nothing takes one way.
-fn warn(members: &Members, layout: &Layout, warnings: &mut Vec<Diagnostic>) {
+/// Members that nothing carries, and thrust that nothing takes one way.
+fn unsupported(
+    entry: &GearboxEntry,
+    members: &Members,
+    layout: &Layout,
+    found: &mut Vec<Diagnostic>,
+    warnings: &mut Vec<Diagnostic>,
+) {
+    // A bearing with a fault of its own carries nothing yet.
+    let faulty = found.iter().any(|finding| finding.path.starts_with("bearings."));
+    let mut planets = Vec::new();
     for (i, name) in members.names.iter().enumerate() {
         let section = if members.loose[i] { "gears" } else { "shafts" };
         let path = format!("{section}.{name}");
@@ -210,26 +219,41 @@ fn warn(members: &Members, layout: &Layout, warnings: &mut Vec<Diagnostic>) {
             .iter()
             .filter(|s| s.inner == i || s.outer == Some(i))
             .collect();
-        let loaded = layout
-            .meshes
-            .iter()
-            .enumerate()
-            .filter(|(_, m)| (0..2).any(|g| m.members[g] == i && !m.central[g]))
-            .count();
-        if own.is_empty() && loaded > 0 {
-            warnings.push(
-                Diagnostic::warning(
-                    path,
-                    "no support carries it, so its bearing loads and losses are not counted",
-                )
-                .mend("add its bearings; `model: none` switches their loss off"),
-            );
-            continue;
+        let meshes = layout.meshes.iter();
+        let member = &layout.members[i];
+        let loaded = meshes
+            .clone()
+            .any(|m| (0..2).any(|g| m.members[g] == i && !m.central[g]))
+            || !(member.forces.is_empty() && member.moments.is_empty());
+        let without = if members.loose[i] {
+            entry.gears.get(name).and_then(|gear| gear.bearings)
+        } else {
+            entry.shafts.get(name).and_then(|shaft| shaft.bearings)
+        };
+        match (own.is_empty(), without) {
+            (true, Some(Unsupported::None)) => continue,
+            (true, None) if loaded && members.planets[i].is_some() => {
+                planets.push(name.as_str());
+                continue;
+            }
+            (true, None) if loaded && !faulty => {
+                let what = if members.loose[i] { "gear" } else { "shaft" };
+                found.push(
+                    Diagnostic::error(path, format!("the {what} is loaded and has no bearings"))
+                        .note("without them its bearing loads and losses would be missing from every result")
+                        .mend(
+                            "add its bearings, with `model: none` where they lose nothing; or write `bearings: none` here",
+                        ),
+                );
+                continue;
+            }
+            (false, Some(Unsupported::None)) => found.push(
+                Diagnostic::error(format!("{path}.bearings"), "`none` is said of what has bearings")
+                    .mend("leave `bearings: none` out, or take out its bearings"),
+            ),
+            _ => {}
         }
-        let helical = layout
-            .meshes
-            .iter()
-            .any(|m| m.members.contains(&i) && m.hand_tan_beta != 0.0);
+        let helical = meshes.clone().any(|m| m.members.contains(&i) && m.hand_tan_beta != 0.0);
         if helical && !members.loose[i] && !own.is_empty() {
             for (side, words) in [(Axial::Right, "greater"), (Axial::Left, "smaller")] {
                 let taken = own.iter().any(|s| s.axial == side || s.axial == Axial::Both);
@@ -240,6 +264,25 @@ fn warn(members: &Members, layout: &Layout, warnings: &mut Vec<Diagnostic>) {
                     );
                 }
             }
+        }
+    }
+    for (id, set) in entry.planetary_sets.iter() {
+        let bare: Vec<String> = planets
+            .iter()
+            .filter(|name| set.planets.iter().any(|planet| planet == *name))
+            .map(|name| format!("`{name}`"))
+            .collect();
+        if !bare.is_empty() {
+            warnings.push(
+                Diagnostic::warning(
+                    format!("planetary_sets.{id}.planets"),
+                    format!(
+                        "no bearings on the planets {}: their loads and losses are not counted",
+                        bare.join(", ")
+                    ),
+                )
+                .mend("add bearings between the planets and the carrier, or write `bearings: none` at these shafts"),
+            );
         }
     }
 }

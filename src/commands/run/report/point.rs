@@ -121,7 +121,8 @@ fn bearings(b: &Built<'_>, solution: &Solution<'_>) -> PageTable {
         let (radial, axial) = (read("radial").unwrap_or(0.0), read("axial").unwrap_or(0.0));
         let safety = bearing
             .as_ref()
-            .and_then(|b| Some(b.c0? / b.static_load(radial, axial).filter(|p0| *p0 > 0.0)?));
+            .and_then(BearingPart::static_rating)
+            .and_then(|rating| rating.safety(radial, axial));
         let speed = read("speed").unwrap_or(0.0);
         let factor = bearing.as_ref().map(|b| speed.abs() * b.mean_diameter() * 1e3);
         let name = bearing.as_ref().and_then(|b| b.designation.clone());

@@ -1,0 +1,114 @@
+//! Stages as figures: the derived geometry of every mesh in shop units, and the ratio of every gear state.
+
+use serde::Serialize;
+
+use super::{Case, Transmission};
+
+/// Derived geometry of one mesh; values of two gears in the order of `gears`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stage {
+    /// Path of the mesh.
+    pub mesh: String,
+    /// Ids of both gears.
+    pub gears: [String; 2],
+    /// Numbers of teeth. [-]
+    pub z: [u32; 2],
+    /// True for a ring with internal teeth as the second gear.
+    pub internal: bool,
+    /// Number of teeth of the second gear over that of the first. [-]
+    pub ratio: f64,
+    /// Working centre distance. [mm]
+    pub centre_distance_mm: f64,
+    /// Reference centre distance, without profile shifts. [mm]
+    pub reference_centre_distance_mm: f64,
+    /// Profile shift coefficients. [-]
+    pub profile_shift: [f64; 2],
+    /// Transverse pressure angle alpha_t. [deg]
+    pub transverse_pressure_angle_deg: f64,
+    /// Working transverse pressure angle alpha_wt. [deg]
+    pub working_pressure_angle_deg: f64,
+    /// Base helix angle beta_b. [deg]
+    pub base_helix_angle_deg: f64,
+    /// Transverse contact ratio eps_alpha. [-]
+    pub transverse_contact_ratio: f64,
+    /// Overlap contact ratio eps_beta. [-]
+    pub overlap_contact_ratio: f64,
+    /// Face width that both gears share. [mm]
+    pub face_overlap_mm: f64,
+    /// Face widths. [mm]
+    pub facewidth_mm: [f64; 2],
+    /// Reference diameters d. [mm]
+    pub reference_diameter_mm: [f64; 2],
+    /// Base diameters d_b. [mm]
+    pub base_diameter_mm: [f64; 2],
+    /// Working pitch diameters d_w. [mm]
+    pub pitch_diameter_mm: [f64; 2],
+    /// Tip diameters d_a, written or of the reference tooth. [mm]
+    pub tip_diameter_mm: [f64; 2],
+    /// Root diameters d_f, written or of the reference tooth. [mm]
+    pub root_diameter_mm: [f64; 2],
+}
+
+impl Transmission {
+    /// Derived geometry of all meshes, in the order of the document.
+    pub fn stages(&self) -> impl Iterator<Item = Stage> {
+        self.meshes.iter().map(|mesh| {
+            let pair = &mesh.part.pair;
+            let gears = mesh.seat.gears.map(|g| &self.gears[g]);
+            let mm = |lengths: [f64; 2]| lengths.map(|length| length * 1e3);
+            Stage {
+                mesh: mesh.seat.path.clone(),
+                gears: gears.map(|g| g.id.clone()),
+                z: pair.z,
+                internal: pair.internal,
+                ratio: pair.ratio(),
+                centre_distance_mm: pair.centre_distance * 1e3,
+                reference_centre_distance_mm: pair.reference_distance * 1e3,
+                profile_shift: pair.profile_shift,
+                transverse_pressure_angle_deg: pair.transverse_angle.to_degrees(),
+                working_pressure_angle_deg: pair.working_angle.to_degrees(),
+                base_helix_angle_deg: pair.base_helix.to_degrees(),
+                transverse_contact_ratio: pair.contact_ratio,
+                overlap_contact_ratio: pair.overlap_ratio,
+                face_overlap_mm: pair.facewidth * 1e3,
+                facewidth_mm: mm(gears.map(|g| g.facewidth)),
+                reference_diameter_mm: mm(pair.reference_diameter),
+                base_diameter_mm: mm(pair.base_radius.map(|r| 2.0 * r)),
+                pitch_diameter_mm: mm(pair.working_radius.map(|r| 2.0 * r)),
+                tip_diameter_mm: mm(pair.tip_diameter),
+                root_diameter_mm: mm(pair.root_diameter),
+            }
+        })
+    }
+
+    /// The case of a gear state in which the reference port has the one given speed and the first given torque; absent where
+    /// its speed does not decide all others.
+    pub fn case_at_reference(&self, state: usize) -> Option<Case> {
+        let reference = &self.ports[self.reference_port()].name;
+        let mut order: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();
+        order.sort_by_key(|port| port != reference);
+        order.truncate(self.torques_needed(state));
+        let state = &self.states[state];
+        let alone = state.speed_ports.len() == 1;
+        alone
+            .then(|| self.case(&state.name, &[reference], &order).ok())
+            .flatten()
+    }
+
+    /// Speed of the reference port over that of each other port in a gear state, by port; absent where that port stands
+    /// still, and empty where the speed of the reference port does not decide all others.
+    pub fn ratios(&self, state: usize) -> Vec<(usize, Option<f64>)> {
+        let reference = self.reference_port();
+        let Some(case) = self.case_at_reference(state) else {
+            return Vec::new();
+        };
+        let speeds = self.speeds(&case, &[1.0]);
+        let others = (0..self.ports.len()).filter(|port| *port != reference);
+        others
+            .map(|port| {
+                let speed = speeds[self.ports[port].member];
+                (port, (speed != 0.0).then(|| 1.0 / speed))
+            })
+            .collect()
+    }
+}
