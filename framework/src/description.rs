@@ -56,6 +56,7 @@ pub struct GearboxEntry {
     pub differentials: Ordered<DifferentialEntry>,
     /// Which couplings are engaged in which gear.
     #[serde(default)]
+    #[schemars(extend("x-digits-first" = true))]
     pub gear_states: Ordered<GearStateEntry>,
     /// How parallel meshes on one shaft share its torque.
     #[serde(default)]

@@ -110,6 +110,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
         observed: &[],
         evidence: const { &[formula(Evidence::User, "the user states it")] as &[Graded] },
         scope: Scope::Gear,
+        geometry: false,
         origin: crate::origin!(),
         schema,
         build,

@@ -184,6 +184,8 @@ pub struct Entry {
     pub evidence: &'static [Graded],
     /// Whether a drag model is asked once for each gear or once for each mesh; without meaning for other mechanisms.
     pub scope: Scope,
+    /// False for a mesh model that serves any pair of gears and looks at no tooth; without meaning for other mechanisms.
+    pub geometry: bool,
     /// Where it is registered.
     pub origin: Origin,
     /// Schema of the parameters.
@@ -589,12 +591,13 @@ macro_rules! register {
         source: $source:expr, example: $example:expr, $(part: $part:expr,)? $(files: [$($file:expr),* $(,)?],)?
         evidence: [$($graded:expr),* $(,)?]
         $(, limits: [$($limit:expr),* $(,)?])? $(, terms: [$($term:expr),* $(,)?])? $(, observed: [$($observed:expr),* $(,)?])?
-        $(, scope: $scope:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
+        $(, scope: $scope:expr)? $(, geometry: $geometry:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
         $crate::registry::inventory::submit! {
             $crate::registry::Entry {
                 mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: $example, part: $crate::register!(@part $($part)?), files: &[$($($file),*)?], evidence: &[$($graded),*],
                 limits: &[$($($limit),*)?], terms: &[$($($term),*)?], observed: &[$($($observed),*)?],
                 scope: $crate::register!(@scope $($scope)?),
+                geometry: $crate::register!(@geometry $($geometry)?),
                 origin: $crate::origin!(),
                 schema: |generator| <$Params as $crate::schemars::JsonSchema>::json_schema(generator),
                 build: |value, cx| {
@@ -610,6 +613,8 @@ macro_rules! register {
     (@part $part:expr) => { Some($part) };
     (@scope) => { $crate::mechanism::gear_drag::Scope::Gear };
     (@scope $scope:expr) => { $scope };
+    (@geometry) => { true };
+    (@geometry $geometry:expr) => { $geometry };
     (@model $params:ident, $cx:ident) => { $params };
     (@model $params:ident, $cx:ident, $prepare:expr) => { $prepare($params, $cx)? };
 }

@@ -58,7 +58,7 @@ fn row(stage: &Stage) -> Vec<String> {
         number(Some(stage.centre_distance_mm), 3),
         x1,
         x2,
-        number(Some(stage.transverse_contact_ratio), 4),
+        number(stage.transverse_contact_ratio, 4),
         number(Some(stage.overlap_contact_ratio), 4),
         format!("{} of {}", significant(stage.face_overlap_mm), significant(narrow)),
     ]

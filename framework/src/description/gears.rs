@@ -29,15 +29,18 @@ pub struct GearEntry {
     /// External teeth or a ring with internal teeth.
     #[serde(default)]
     pub kind: GearKind,
-    /// Profile shift coefficient; absent, it closes the centre distance. [-]
+    /// Profile shift coefficient; absent, it closes the centre distance. For a ring see `profile_shift_sign`. [-]
     #[schemars(range(min = -3.0, max = 3.0))]
     pub profile_shift: Option<f64>,
+    /// Sign of a ring's `profile_shift`; absent, `outward`, with a warning. Of no effect for external teeth.
+    pub profile_shift_sign: Option<ShiftSign>,
     /// Fixed to the shaft, or loose until a coupling joins it.
     #[serde(default)]
     pub mounted: Mounting,
     /// `none` where a loose gear has no bearings in this description: it has no bearing loads and no bearing losses.
     pub bearings: Option<Unsupported>,
-    /// Tip diameter; absent, it follows from the reference tooth. Required for rings. [mm]
+    /// Tip diameter; absent, it follows from the reference tooth. Required for rings, unless no model looks
+    /// at the teeth. [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub tip_diameter: Option<f64>,
     /// Root diameter; absent, it follows from the reference tooth. [mm]
@@ -86,6 +89,25 @@ pub enum GearKind {
     External,
     /// Internal teeth.
     Ring,
+}
+
+/// Sign of the profile shift of internal teeth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ShiftSign {
+    /// ISO 21771 and DIN 3960: a positive shift thickens the teeth and moves their tips towards the axis of the ring. A larger
+    /// sum x1 + x2 makes the centre distance of the pair smaller.
+    Iso21771,
+    /// A positive shift moves the teeth away from the axis, the opposite of ISO 21771: the meaning of documents that do not
+    /// state a sign.
+    Outward,
+}
+
+impl ShiftSign {
+    /// A profile shift of internal teeth after ISO 21771.
+    pub fn standard(sign: Option<Self>, shift: f64) -> f64 {
+        if sign == Some(Self::Iso21771) { shift } else { -shift }
+    }
 }
 
 /// How a gear sits on its shaft.

@@ -86,8 +86,8 @@ pub struct ViscosityEntry {
     /// Kinematic viscosity at 100 degC. [mm2/s]
     #[schemars(range(min = 0.3, max = 1e4))]
     pub kv100: Option<f64>,
-    /// Viscosity index. [-]
-    #[schemars(range(min = 0.0, max = 400.0))]
+    /// Viscosity index; below zero for oils that thin faster than the reference oils, such as naphthenic ones. [-]
+    #[schemars(range(min = -200.0, max = 400.0))]
     pub vi: Option<f64>,
     /// Two points, or three for the law of Vogel, in place of the values above.
     #[serde(default)]

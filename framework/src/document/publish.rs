@@ -9,6 +9,15 @@ use super::unit::{Dimension, Unit};
 /// Pattern of ids. Words that many YAML readers turn into booleans are no ids.
 pub(super) const ID: &str = "^(?!([yY]|[nN]|[yY]es|YES|[nN]o|NO|[oO]n|ON|[oO]ff|OFF|[tT]rue|TRUE|[fF]alse|FALSE|[nN]ull|NULL)$)[A-Za-z][A-Za-z0-9_]*$";
 
+/// Names of gear states: ids that may begin with a digit, or be one.
+pub(super) const STATE_ID: &str = "^(?!([yY]|[nN]|[yY]es|YES|[nN]o|NO|[oO]n|ON|[oO]ff|OFF|[tT]rue|TRUE|[fF]alse|FALSE|[nN]ull|NULL)$)[A-Za-z0-9][A-Za-z0-9_]*$";
+
+/// Mark of a map in a generated schema whose ids may begin with a digit.
+const DIGITS_FIRST: &str = "x-digits-first";
+
+/// What editors say of a key that names no gear state.
+const NO_STATE_ID: &str = "The name of a gear has letters, digits and `_`; words such as `on`, `no` and `y` are booleans to many YAML readers.";
+
 /// What editors say of a key that is no id.
 const NO_ID: &str = "An id starts with a letter and goes on in letters, digits and `_`. Words such as `on`, `no` and `y` are booleans to \
                      many YAML readers.";
@@ -137,10 +146,12 @@ fn record(object: &mut Map<String, Value>) {
             visit(inner, None);
             let anything = matches!(inner, Value::Bool(true)) || inner.as_object().is_some_and(Map::is_empty);
             if !anything {
-                object.insert(
-                    "propertyNames".to_owned(),
-                    json!({ "pattern": ID, "title": "id", "patternErrorMessage": NO_ID }),
-                );
+                let names = if object.remove(DIGITS_FIRST).is_some() {
+                    json!({ "pattern": STATE_ID, "title": "gear", "patternErrorMessage": NO_STATE_ID })
+                } else {
+                    json!({ "pattern": ID, "title": "id", "patternErrorMessage": NO_ID })
+                };
+                object.insert("propertyNames".to_owned(), names);
             }
         }
     }

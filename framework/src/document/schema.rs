@@ -6,6 +6,7 @@ use std::fmt;
 use serde_json::{Map, Value};
 
 use super::by_type::records_by_type;
+use super::publish::STATE_ID;
 use super::unit::Unit;
 
 /// The shape of a value.
@@ -31,7 +32,12 @@ pub enum Shape {
     /// Known keys.
     Record(Vec<(String, Field)>),
     /// Any ids as keys.
-    Ids(Box<Shape>),
+    Ids {
+        /// Shape of each value.
+        item: Box<Shape>,
+        /// True where they may begin with a digit.
+        digits_first: bool,
+    },
     /// Any paths as keys, anything as values.
     Paths,
     /// A list.
@@ -142,7 +148,7 @@ impl Schema {
         for key in path.split('.') {
             shape = match shape {
                 Shape::Record(fields) => &fields.iter().find(|(name, _)| name == key)?.1.shape,
-                Shape::Ids(item) => item,
+                Shape::Ids { item, .. } => item,
                 Shape::List { item, .. } => {
                     key.parse::<usize>().ok()?;
                     item
@@ -274,7 +280,13 @@ impl Compiler {
             None | Some(Value::Bool(false)) => {}
             Some(Value::Bool(true)) => return Shape::Paths,
             Some(Value::Object(inner)) if inner.is_empty() => return Shape::Paths,
-            Some(inner) => return Shape::Ids(Box::new(self.shape(inner, &join(place, "*")))),
+            Some(inner) => {
+                let pattern = object.get("propertyNames").and_then(|names| names.get("pattern"));
+                return Shape::Ids {
+                    item: Box::new(self.shape(inner, &join(place, "*"))),
+                    digits_first: pattern.and_then(Value::as_str) == Some(STATE_ID),
+                };
+            }
         }
         // What only a document that extends no other must have.
         let otherwise = object.get("else").and_then(|schema| schema.get("required"));
@@ -347,7 +359,7 @@ impl Compiler {
                 self.refuse(name, "no such definition");
             }
             Shape::Record(fields) => fields.iter().for_each(|(_, f)| self.dangling(&f.shape, definitions)),
-            Shape::Ids(item) | Shape::List { item, .. } => self.dangling(item, definitions),
+            Shape::Ids { item, .. } | Shape::List { item, .. } => self.dangling(item, definitions),
             Shape::Tagged { variants, .. } => variants.iter().for_each(|(_, s)| self.dangling(s, definitions)),
             Shape::Either(shapes) => shapes.iter().for_each(|s| self.dangling(s, definitions)),
             _ => {}

@@ -103,9 +103,11 @@ fn is_boolean_trap(text: &str) -> bool {
     ["y", "n", "yes", "no", "on", "off", "true", "false"].contains(&text.to_ascii_lowercase().as_str())
 }
 
-fn is_id(text: &str) -> bool {
+fn is_id(text: &str, digits_first: bool) -> bool {
     let mut letters = text.chars();
-    letters.next().is_some_and(|c| c.is_ascii_alphabetic())
+    letters
+        .next()
+        .is_some_and(|c| c.is_ascii_alphabetic() || (digits_first && c.is_ascii_digit()))
         && letters.all(|c| c.is_ascii_alphanumeric() || c == '_')
         && !is_boolean_trap(text)
         && !["null"].contains(&text.to_ascii_lowercase().as_str())
@@ -140,7 +142,7 @@ impl<'a> Walker<'a> {
             Shape::Bool => self.boolean(node),
             Shape::Any => Some(node.to_json()),
             Shape::Record(fields) => self.record(node, fields, None),
-            Shape::Ids(item) => self.ids(node, item),
+            Shape::Ids { item, digits_first } => self.ids(node, item, *digits_first),
             Shape::Paths => match &node.content {
                 Content::Map(_) => Some(node.to_json()),
                 _ => self.wrong(node, "a map from paths to values"),
@@ -334,18 +336,23 @@ impl<'a> Walker<'a> {
         (self.findings.len() == before).then_some(Value::Array(values))
     }
 
-    fn ids(&mut self, node: &Node, item: &'a Shape) -> Option<Value> {
+    fn ids(&mut self, node: &Node, item: &'a Shape, digits_first: bool) -> Option<Value> {
         let Content::Map(entries) = &node.content else {
             return self.wrong(node, "a map");
         };
         let mut map = Map::new();
         for (key, node) in entries {
             self.within(&key.name, |w| {
-                if !is_id(&key.name) {
+                if !is_id(&key.name, digits_first) {
                     let (message, mend) = if is_boolean_trap(&key.name) {
                         (
                             format!("`{}` is a boolean to many YAML readers", key.name),
                             "choose another name",
+                        )
+                    } else if digits_first {
+                        (
+                            format!("`{}` is no name of a gear", key.name),
+                            "write letters, digits and _",
                         )
                     } else {
                         (
@@ -434,7 +441,7 @@ impl<'a> Walker<'a> {
         let fits = |shape: &&'a Shape| match (schema.follow(shape), &node.content) {
             (Shape::Number { .. }, Content::Number(_) | Content::Text { .. })
             | (Shape::List { .. }, Content::List(_))
-            | (Shape::Record(_) | Shape::Ids(_) | Shape::Paths | Shape::Tagged { .. }, Content::Map(_))
+            | (Shape::Record(_) | Shape::Ids { .. } | Shape::Paths | Shape::Tagged { .. }, Content::Map(_))
             | (Shape::Bool, Content::Bool(_))
             | (Shape::Any, _) => true,
             (Shape::Text(words), Content::Text { text, .. }) => words.is_empty() || words.contains(text),
@@ -597,7 +604,7 @@ impl<'a> Walker<'a> {
                                 .map(|(_, f)| schema.follow(&f.shape)),
                         );
                     }
-                    Shape::Ids(item) => next.push(schema.follow(item)),
+                    Shape::Ids { item, .. } => next.push(schema.follow(item)),
                     Shape::List { item, .. } if key.parse::<usize>().is_ok() => next.push(schema.follow(item)),
                     Shape::Tagged { variants, .. } => open.extend(variants.iter().map(|(_, s)| schema.follow(s))),
                     Shape::Either(several) => open.extend(several.iter().map(|s| schema.follow(s))),

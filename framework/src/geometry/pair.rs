@@ -20,7 +20,8 @@ pub struct PairSpec {
     pub helix_angle: f64,
     /// Working centre distance; absent, that of the profile shifts. \[m\]
     pub centre_distance: Option<f64>,
-    /// Profile shift coefficients; absent ones close the centre distance.
+    /// Profile shift coefficients after ISO 21771, also for a ring: positive ones thicken the teeth and move the tips away from
+    /// the reference circle, towards the axis for a ring. Absent ones close the centre distance.
     pub profile_shift: [Option<f64>; 2],
     /// Tip diameters; absent ones follow from the reference tooth; required for a ring. \[m\]
     pub tip_diameter: [Option<f64>; 2],
@@ -41,7 +42,7 @@ pub enum PairFault {
         centre_distance: f64,
         /// As it follows from the shifts.
         from_shifts: f64,
-        /// The sum of shifts that the centre distance needs.
+        /// The sum x1 + x2 after ISO 21771 that the centre distance needs.
         sum: f64,
     },
     /// The centre distance is below the sum (external) or difference (internal) of the base radii.
@@ -76,6 +77,13 @@ pub enum PairFault {
     },
 }
 
+impl PairFault {
+    /// True for what is wrong with the teeth alone, while the pitch circles roll on each other all the same.
+    pub fn is_of_teeth(&self) -> bool {
+        !matches!(self, Self::Shifts { .. } | Self::RingTeeth)
+    }
+}
+
 impl std::fmt::Display for PairFault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let name = |gear: usize| if gear == 0 { "first" } else { "second" };
@@ -86,7 +94,7 @@ impl std::fmt::Display for PairFault {
                 sum,
             } => write!(
                 f,
-                "the centre distance is {:.4} mm, but the profile shifts give {:.4} mm; it needs a sum of {sum:.4}",
+                "the centre distance is {:.4} mm, but the profile shifts give {:.4} mm; it needs a sum x1 + x2 of {sum:.4}",
                 centre_distance * 1e3,
                 from_shifts * 1e3
             ),
@@ -120,6 +128,8 @@ impl std::fmt::Display for PairFault {
 /// A pair with its geometry solved. SI; angles in rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
+    /// False for pitch circles alone, see [`Pair::schematic`].
+    pub involute: bool,
     /// Numbers of teeth.
     pub z: [u32; 2],
     /// The second gear is a ring.
@@ -146,7 +156,7 @@ pub struct Pair {
     pub reference_distance: f64,
     /// Working centre distance. \[m\]
     pub centre_distance: f64,
-    /// Profile shift coefficients.
+    /// Profile shift coefficients after ISO 21771.
     pub profile_shift: [f64; 2],
     /// Tip shortening coefficient, zero or negative.
     pub shortening: f64,
@@ -197,12 +207,26 @@ impl Pair {
     /// # Errors
     /// Every fault that makes the pair impossible.
     pub fn new(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
+        Self::solve(spec, true)
+    }
+
+    /// Pitch circles that roll on each other, where the teeth make no involute pair or the tip of a ring is not known: ratio,
+    /// pitch radii and the directions of forces, which are those at the reference circles where the centre distance leaves no line
+    /// of action. A missing tip is that of the reference tooth. The path of contact is a point, all contact ratios are zero.
+    ///
+    /// # Errors
+    /// What [`PairFault::is_of_teeth`] says is not of the teeth.
+    pub fn schematic(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
+        Self::solve(spec, false)
+    }
+
+    fn solve(spec: &PairSpec, involute_pair: bool) -> Result<Self, Vec<PairFault>> {
         let s = if spec.internal { -1.0 } else { 1.0 };
         let [z1, z2] = spec.z.map(f64::from);
         if spec.internal && z2 <= z1 {
             return Err(vec![PairFault::RingTeeth]);
         }
-        if spec.internal && spec.tip_diameter[1].is_none() {
+        if involute_pair && spec.internal && spec.tip_diameter[1].is_none() {
             return Err(vec![PairFault::RingTip]);
         }
         let (m, alpha_n, beta) = (spec.normal_module, spec.pressure_angle, spec.helix_angle);
@@ -211,14 +235,15 @@ impl Pair {
         let base_helix = (beta.sin() * alpha_n.cos()).asin();
         let teeth = z2 + s * z1;
         let a = 0.5 * module_t * teeth;
-        // The sum that counts is x1 + x2 for external pairs, x2 - x1 for internal ones.
+        // ISO 21771: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2), where z2 of a ring is negative; `teeth` is
+        // the magnitude of that sum.
         let distance_of = |sum: f64| {
-            let working = inverse_involute(involute(alpha_t) + 2.0 * alpha_n.tan() * sum / teeth);
+            let working = inverse_involute(involute(alpha_t) + 2.0 * alpha_n.tan() * (s * sum) / teeth);
             a * alpha_t.cos() / working.cos()
         };
-        let sum_of = |working: f64| (involute(working) - involute(alpha_t)) * teeth / (2.0 * alpha_n.tan());
+        let sum_of = |working: f64| s * ((involute(working) - involute(alpha_t)) * teeth / (2.0 * alpha_n.tan()));
         let both = match spec.profile_shift {
-            [Some(x1), Some(x2)] => Some(x2 + s * x1),
+            [Some(x1), Some(x2)] => Some(x2 + x1),
             _ => None,
         };
         let centre_distance = match (spec.centre_distance, both) {
@@ -236,20 +261,22 @@ impl Pair {
             }
             (Some(distance), None) => distance,
             (None, Some(sum)) => distance_of(sum),
-            (None, None) => {
-                distance_of(spec.profile_shift[1].unwrap_or(0.0) + s * spec.profile_shift[0].unwrap_or(0.0))
-            }
+            (None, None) => distance_of(spec.profile_shift[1].unwrap_or(0.0) + spec.profile_shift[0].unwrap_or(0.0)),
         };
         let least = a * alpha_t.cos();
-        if centre_distance <= least {
+        if centre_distance <= least && involute_pair {
             return Err(vec![PairFault::TooClose { centre_distance, least }]);
         }
-        let working_angle = (least / centre_distance).acos();
+        let working_angle = if centre_distance > least {
+            (least / centre_distance).acos()
+        } else {
+            alpha_t
+        };
         let sum = sum_of(working_angle);
         let profile_shift = match spec.profile_shift {
             [Some(x1), Some(x2)] => [x1, x2],
-            [Some(x1), None] => [x1, sum - s * x1],
-            [None, Some(x2)] => [s * (sum - x2), x2],
+            [Some(x1), None] => [x1, sum - x1],
+            [None, Some(x2)] => [sum - x2, x2],
             [None, None] if spec.internal => [0.0, sum],
             [None, None] => [0.5 * sum, 0.5 * sum],
         };
@@ -261,7 +288,9 @@ impl Pair {
         let reference_diameter = [module_t * z1, module_t * z2];
         let base_radius = reference_diameter.map(|d| 0.5 * d * alpha_t.cos());
         let tip = |i: usize| {
-            spec.tip_diameter[i].unwrap_or(reference_diameter[i] + 2.0 * m * (1.0 + profile_shift[i] + shortening))
+            let outwards = if spec.internal && i == 1 { -1.0 } else { 1.0 };
+            spec.tip_diameter[i]
+                .unwrap_or(reference_diameter[i] + outwards * 2.0 * m * (1.0 + profile_shift[i] + shortening))
         };
         let tip_diameter = [tip(0), tip(1)];
         let root = |i: usize| {
@@ -274,7 +303,7 @@ impl Pair {
         let root_diameter = [root(0), root(1)];
         let mut faults = Vec::new();
         for i in 0..2 {
-            if tip_diameter[i] <= 2.0 * base_radius[i] {
+            if involute_pair && tip_diameter[i] <= 2.0 * base_radius[i] {
                 faults.push(PairFault::Tip {
                     gear: i,
                     diameter: tip_diameter[i],
@@ -287,18 +316,21 @@ impl Pair {
         }
         let tangent_length = centre_distance * working_angle.sin();
         let reach = |i: usize| ((0.5 * tip_diameter[i]).powi(2) - base_radius[i].powi(2)).sqrt();
-        let start = s * (tangent_length - reach(1));
-        let end = reach(0);
         let pitch = base_radius[0] * working_angle.tan();
+        let (start, end) = if involute_pair {
+            (s * (tangent_length - reach(1)), reach(0))
+        } else {
+            (pitch, pitch)
+        };
         let base_pitch = std::f64::consts::PI * module_t * alpha_t.cos();
         let contact_ratio = (end - start) / base_pitch;
-        if start < 0.0 {
+        if involute_pair && start < 0.0 {
             faults.push(PairFault::BelowBase { gear: 0 });
         }
-        if !spec.internal && end > tangent_length {
+        if involute_pair && !spec.internal && end > tangent_length {
             faults.push(PairFault::BelowBase { gear: 1 });
         }
-        if contact_ratio < 1.0 {
+        if involute_pair && contact_ratio < 1.0 {
             faults.push(PairFault::ContactRatio { ratio: contact_ratio });
         }
         if !faults.is_empty() {
@@ -306,6 +338,7 @@ impl Pair {
         }
         let working_radius = [centre_distance * z1 / teeth, centre_distance * z2 / teeth];
         let mut pair = Self {
+            involute: involute_pair,
             z: spec.z,
             internal: spec.internal,
             normal_module: m,
@@ -328,7 +361,11 @@ impl Pair {
             root_diameter,
             base_pitch,
             tangent_length,
-            points: [start, end - base_pitch, pitch, start + base_pitch, end],
+            points: if involute_pair {
+                [start, end - base_pitch, pitch, start + base_pitch, end]
+            } else {
+                [pitch; 5]
+            },
             contact_ratio,
             addendum_ratio: [(end - pitch) / base_pitch, (pitch - start) / base_pitch],
             overlap_ratio: spec.facewidth * beta.sin() / (std::f64::consts::PI * m),

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::context;
+use crate::description::gears::ShiftSign;
 use crate::generic::Scalar;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
@@ -95,9 +96,11 @@ pub struct PairEntry {
     /// Working centre distance; absent, that of the profile shifts. [mm]
     #[schemars(range(min = 0.5, max = 1e5))]
     pub centre_distance: Option<f64>,
-    /// Profile shift coefficients of the first and of the second gear. [-]
+    /// Profile shift coefficients of the first and of the second gear; for a ring see `profile_shift_sign`. [-]
     #[schemars(inner(range(min = -3.0, max = 3.0)))]
     pub profile_shift: Option<[f64; 2]>,
+    /// Sign of the profile shift of a ring; required where it has one.
+    pub profile_shift_sign: Option<ShiftSign>,
     /// Tip diameters; required for an internal pair. [mm]
     #[schemars(inner(range(min = 1.0, max = 1e4)))]
     pub tip_diameter: Option<[f64; 2]>,
@@ -213,6 +216,17 @@ impl TryFrom<PairEntry> for MeshPart {
     type Error = String;
 
     fn try_from(entry: PairEntry) -> Result<Self, String> {
+        let mut profile_shift = entry.profile_shift.map_or([None, None], |x| x.map(Some));
+        if let (true, Some([_, x2])) = (entry.internal, entry.profile_shift) {
+            if entry.profile_shift_sign.is_none() && x2 != 0.0 {
+                return Err(
+                    "the profile shift of a ring needs its sign: write `profile_shift_sign: iso21771`, \
+                            or `outward` where positive is away from the axis"
+                        .to_owned(),
+                );
+            }
+            profile_shift[1] = Some(ShiftSign::standard(entry.profile_shift_sign, x2));
+        }
         let pair = Pair::new(&PairSpec {
             z: entry.z,
             internal: entry.internal,
@@ -220,7 +234,7 @@ impl TryFrom<PairEntry> for MeshPart {
             pressure_angle: entry.pressure_angle,
             helix_angle: entry.helix_angle,
             centre_distance: entry.centre_distance,
-            profile_shift: entry.profile_shift.map_or([None, None], |x| x.map(Some)),
+            profile_shift,
             tip_diameter: entry.tip_diameter.map_or([None, None], |d| d.map(Some)),
             root_diameter: [None, None],
             facewidth: entry.facewidth,

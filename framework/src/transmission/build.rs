@@ -37,7 +37,7 @@ impl Transmission {
         let mut warnings = Vec::new();
         let members = Members::new(&entry, &mut found);
         let ports = ports(&entry, &members, &mut found);
-        let (gears, meshes) = gearing(&entry, &members, &mut found, &mut warnings);
+        let (gears, meshes) = gearing(language.registry(), &entry, &members, &mut found, &mut warnings);
         let sharing = planets::sharing(&entry, &members, &mut found);
         let nodes = NodeNames::new(&entry, &mut found);
         let mut oils = OilNumbers::new(&entry, &members, &meshes, &nodes);

@@ -1,11 +1,19 @@
 //! Gears and meshes: geometry of every pair, checked against axes, hands and places.
 
+use serde_json::Value;
+
 use super::members::Members;
 use super::plausible;
 use crate::attach::dangling;
-use crate::description::{GearKind, GearboxEntry, gears::Hand};
+use crate::description::{
+    GearEntry, GearKind, GearboxEntry, MeshEntry, PlanetarySetEntry, gears::Hand, gears::ShiftSign,
+};
 use crate::document::Diagnostic;
-use crate::geometry::{Pair, PairSpec};
+use crate::geometry::{Pair, PairFault, PairSpec};
+use crate::mechanism::Mechanism;
+use crate::mechanism::gear_drag::GearDrag;
+use crate::mechanism::gear_mesh::GearMesh;
+use crate::registry::{NamedSlots, Registry};
 
 /// A gear with its geometry; SI.
 #[derive(Debug, Clone)]
@@ -56,6 +64,7 @@ const USUAL_RA: f64 = 0.4e-6;
 
 /// Solves the geometry of all pairs.
 pub fn gearing(
+    registry: &Registry,
     entry: &GearboxEntry,
     members: &Members,
     found: &mut Vec<Diagnostic>,
@@ -76,7 +85,16 @@ pub fn gearing(
         })
         .collect();
     let ids: Vec<&str> = entry.gears.ids().collect();
-    let mut shifts: Vec<Option<f64>> = entry.gears.iter().map(|(_, g)| g.profile_shift).collect();
+    // Signs of rings after ISO 21771 from here on.
+    let mut shifts: Vec<Option<f64>> = entry
+        .gears
+        .iter()
+        .map(|(_, g)| match g.kind {
+            GearKind::External => g.profile_shift,
+            GearKind::Ring => g.profile_shift.map(|x| ShiftSign::standard(g.profile_shift_sign, x)),
+        })
+        .collect();
+    warnings.extend(entry.gears.iter().filter_map(|(id, gear)| unsigned_shift(id, gear)));
     let mut hands: Vec<Option<f64>> = entry
         .gears
         .iter()
@@ -85,6 +103,7 @@ pub fn gearing(
     let mut tips: Vec<Option<f64>> = entry.gears.iter().map(|(_, g)| g.tip_diameter).collect();
     let mut pitches: Vec<Option<(f64, String)>> = vec![None; gears.len()];
     let mut meshes = Vec::new();
+    let mut orbits = Vec::new();
     for (id, mesh) in entry.meshes.iter() {
         let path = format!("meshes.{id}");
         let mut pair_of = [0; 2];
@@ -202,11 +221,31 @@ pub fn gearing(
             facewidth,
             tip_shortening: mesh.tip_shortening,
         };
+        let schematic = !looks_at_teeth(registry, entry, mesh);
         let pair = match Pair::new(&spec) {
             Ok(pair) => pair,
+            Err(faults) if schematic && faults.iter().all(PairFault::is_of_teeth) => {
+                warnings.extend(plausible::no_involute(&path, &faults));
+                match Pair::schematic(&spec) {
+                    Ok(pair) => pair,
+                    Err(faults) => {
+                        found.extend(
+                            faults
+                                .iter()
+                                .map(|fault| Diagnostic::error(path.clone(), fault.to_string())),
+                        );
+                        continue;
+                    }
+                }
+            }
             Err(faults) => {
+                let ring = &entry.gears.0[second].1;
                 let mend =
-                    "check teeth, module, angles, centre distance, profile shifts and tip diameters of this pair";
+                    if ring.profile_shift.is_some() && turned(&spec).is_some_and(|other| Pair::new(&other).is_ok()) {
+                        other_sign(ring.profile_shift_sign)
+                    } else {
+                        "check teeth, module, angles, centre distance, profile shifts and tip diameters of this pair"
+                    };
                 found.extend(
                     faults
                         .iter()
@@ -217,7 +256,9 @@ pub fn gearing(
         };
         let closes = spec.centre_distance.is_some();
         let follows = spec.profile_shift.map(|shift| closes && shift.is_none());
-        warnings.extend(plausible::shifts(&path, &spec, &pair, follows));
+        if pair.involute {
+            warnings.extend(plausible::shifts(&path, &spec, &pair, follows));
+        }
         for (i, gear) in [first, second].into_iter().enumerate() {
             shifts[gear] = Some(pair.profile_shift[i]);
             tips[gear] = Some(pair.tip_diameter[i]);
@@ -263,6 +304,14 @@ pub fn gearing(
         let surface = |gear: usize| entry.gears.0[gear].1.surface;
         let ra = [first, second].map(|g| surface(g).map_or(USUAL_RA, |s| s.ra));
         let rq = [first, second].map(|g| surface(g).map_or(1.25 * USUAL_RA, |s| s.rq.unwrap_or(1.25 * s.ra)));
+        let written = entry.gears.0[second].1.profile_shift.is_some() && spec.centre_distance.is_none();
+        let other = turned(&spec)
+            .filter(|_| written)
+            .and_then(|other| Pair::new(&other).ok());
+        orbits.push(Orbit {
+            turned: other.map(|pair| pair.centre_distance),
+            schematic,
+        });
         meshes.push(MeshSeat {
             path,
             gears: [first, second],
@@ -276,8 +325,50 @@ pub fn gearing(
             rq,
         });
     }
-    orbits(members, &meshes, found);
+    one_orbit(entry, members, meshes.iter().zip(&orbits), found, warnings);
     (gears, meshes)
+}
+
+/// A ring whose profile shift has no stated sign.
+fn unsigned_shift(id: &str, gear: &GearEntry) -> Option<Diagnostic> {
+    let shift = gear.profile_shift.filter(|x| *x != 0.0)?;
+    (gear.kind == GearKind::Ring && gear.profile_shift_sign.is_none()).then(|| {
+        Diagnostic::warning(
+            format!("gears.{id}.profile_shift"),
+            format!(
+                "the sign of a ring's profile shift is not stated: {shift} is read as away from the axis, which is {} in ISO 21771",
+                -shift
+            ),
+        )
+        .mend(
+            "add `profile_shift_sign: iso21771` if the value is meant after ISO 21771 or DIN 3960, or `outward` to keep the meaning",
+        )
+    })
+}
+
+/// The pair with the other sign of its ring's profile shift, where it has one.
+fn turned(spec: &PairSpec) -> Option<PairSpec> {
+    let [x1, x2] = spec.profile_shift;
+    let x2 = x2.filter(|x2| spec.internal && *x2 != 0.0)?;
+    Some(PairSpec {
+        profile_shift: [x1, Some(-x2)],
+        ..*spec
+    })
+}
+
+/// What to do where the geometry works out with the other sign.
+fn other_sign(sign: Option<ShiftSign>) -> &'static str {
+    match sign {
+        Some(ShiftSign::Iso21771) => {
+            "it works out with the other sign of the ring's profile shift: turn its sign, or write `profile_shift_sign: outward`"
+        }
+        Some(ShiftSign::Outward) => {
+            "it works out with the other sign of the ring's profile shift: turn its sign, or write `profile_shift_sign: iso21771`"
+        }
+        None => {
+            "it works out with the sign of ISO 21771 for the ring's profile shift: add `profile_shift_sign: iso21771` to the ring"
+        }
+    }
 }
 
 /// The hand of the first gear; both gears of a helical pair get theirs.
@@ -326,31 +417,90 @@ fn hand_of(
     }
 }
 
+/// What a mesh says of the orbit of a planet beside its centre distance.
+struct Orbit {
+    /// Centre distance with the other sign of the ring's profile shift, where it follows from the shifts.
+    turned: Option<f64>,
+    /// True where nothing looks at the teeth.
+    schematic: bool,
+}
+
 /// All meshes of a planet body with central gears share one radius of the orbit.
-fn orbits(members: &Members, meshes: &[MeshSeat], found: &mut Vec<Diagnostic>) {
+fn one_orbit<'a>(
+    entry: &GearboxEntry,
+    members: &Members,
+    meshes: impl Iterator<Item = (&'a MeshSeat, &'a Orbit)> + Clone,
+    found: &mut Vec<Diagnostic>,
+    warnings: &mut Vec<Diagnostic>,
+) {
+    let equal = |a: f64, b: f64| (a / b - 1.0).abs() <= 1e-4;
     for (body, planet) in members.planets.iter().enumerate() {
         if planet.is_none() {
             continue;
         }
         let mut own = meshes
-            .iter()
-            .filter(|m| m.members.contains(&body) && !m.members.iter().all(|b| members.planets[*b].is_some()))
-            .map(|m| (&m.path, m.pair.centre_distance));
-        let Some((path, distance)) = own.next() else { continue };
-        for (other, more) in own {
-            if (more / distance - 1.0).abs() > 1e-4 {
-                found.push(
-                    Diagnostic::error(
-                        format!("{other}.centre_distance"),
-                        format!(
-                            "the centre distance is {:.4} mm, that of `{path}` is {:.4} mm; a planet has one orbit",
-                            more * 1e3,
-                            distance * 1e3
-                        ),
-                    )
-                    .mend("give both meshes one centre distance; profile shifts close it"),
-                );
+            .clone()
+            .filter(|(m, _)| m.members.contains(&body) && !m.members.iter().all(|b| members.planets[*b].is_some()));
+        let Some((first, at_first)) = own.next() else { continue };
+        let distance = first.pair.centre_distance;
+        for (other, at_other) in own {
+            let more = other.pair.centre_distance;
+            if equal(more, distance) {
+                continue;
             }
+            let ring = if at_other.turned.is_some_and(|more| equal(more, distance)) {
+                Some(other)
+            } else {
+                at_first.turned.filter(|distance| equal(more, *distance)).map(|_| first)
+            };
+            let path = format!("{}.centre_distance", other.path);
+            let message = format!(
+                "the centre distance is {:.4} mm, that of `{}` is {:.4} mm; a planet has one orbit",
+                more * 1e3,
+                first.path,
+                distance * 1e3
+            );
+            if at_first.schematic && at_other.schematic {
+                warnings.push(
+                    Diagnostic::warning(path, message)
+                        .note("speeds and torques hold all the same, since no model looks at the teeth; loads of planet bearings do not")
+                        .mend("check the numbers of teeth, or give both meshes one centre distance"),
+                );
+                continue;
+            }
+            let mend = match ring {
+                Some(mesh) => other_sign(entry.gears.0[mesh.gears[1]].1.profile_shift_sign),
+                None => "give both meshes one centre distance; profile shifts close it",
+            };
+            found.push(Diagnostic::error(path, message).mend(mend));
         }
     }
+}
+
+/// Whether a model of a mesh, of its gears or of the planets among them looks at the teeth, or at diameters that follow from them.
+fn looks_at_teeth(registry: &Registry, entry: &GearboxEntry, mesh: &MeshEntry) -> bool {
+    let name = |choice: &'_ Value| {
+        choice
+            .as_str()
+            .or_else(|| choice["type"].as_str())
+            .unwrap_or("none")
+            .to_owned()
+    };
+    let drags = |slots: &Option<NamedSlots<GearDrag>>| {
+        let mut slots = slots.iter().flat_map(|slots| slots.0.iter());
+        slots.any(|(_, choice)| name(&choice.value) != "none")
+    };
+    let gears: Vec<&GearEntry> = mesh.gears.iter().filter_map(|gear| entry.gears.get(gear)).collect();
+    let of_set = |set: &PlanetarySetEntry| {
+        gears.iter().any(|gear| set.planets.contains(&gear.shaft))
+            && set.model.as_ref().is_some_and(|choice| name(&choice.value) != "none")
+    };
+    let model = mesh
+        .model
+        .as_ref()
+        .map_or_else(|| "none".to_owned(), |choice| name(&choice.value));
+    registry.model(GearMesh::KEY, &model).is_none_or(|entry| entry.geometry)
+        || drags(&mesh.drag)
+        || gears.iter().any(|gear| drags(&gear.drag))
+        || entry.planetary_sets.iter().any(|(_, set)| of_set(set))
 }

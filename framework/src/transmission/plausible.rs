@@ -6,7 +6,7 @@ use super::oils::OilNumbers;
 use crate::attach::Level;
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
-use crate::geometry::{Pair, PairSpec};
+use crate::geometry::{Pair, PairFault, PairSpec};
 
 /// Share of the narrower face below which the overlap is reported. Faces are offset or differ by a few percent on purpose.
 const LEAST_OVERLAP: f64 = 0.9;
@@ -33,6 +33,16 @@ pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64) -> Option<
         .note("forces and losses are computed for the shared width")
         .mend("check `at` and `facewidth` of both gears")
     })
+}
+
+/// Teeth that make no involute pair, where nothing looks at them. That a ring states no tip is no fault then.
+pub fn no_involute(path: &str, faults: &[PairFault]) -> Option<Diagnostic> {
+    let fault = faults.iter().find(|fault| **fault != PairFault::RingTip)?;
+    Some(
+        Diagnostic::warning(path, fault.to_string())
+            .note("no model looks at these teeth, so they count as pitch circles that roll on each other")
+            .mend("check the numbers of teeth and the centre distance; a loss model of the teeth will need them right"),
+    )
 }
 
 /// Large profile shifts that follow from the centre distance alone; `follows` says which do.

@@ -21,7 +21,7 @@ pub struct Stage {
     pub centre_distance_mm: f64,
     /// Reference centre distance, without profile shifts. [mm]
     pub reference_centre_distance_mm: f64,
-    /// Profile shift coefficients. [-]
+    /// Profile shift coefficients after ISO 21771, also for rings. [-]
     pub profile_shift: [f64; 2],
     /// Transverse pressure angle alpha_t. [deg]
     pub transverse_pressure_angle_deg: f64,
@@ -29,8 +29,8 @@ pub struct Stage {
     pub working_pressure_angle_deg: f64,
     /// Base helix angle beta_b. [deg]
     pub base_helix_angle_deg: f64,
-    /// Transverse contact ratio eps_alpha. [-]
-    pub transverse_contact_ratio: f64,
+    /// Transverse contact ratio eps_alpha; absent where the pair counts as pitch circles alone. [-]
+    pub transverse_contact_ratio: Option<f64>,
     /// Overlap contact ratio eps_beta. [-]
     pub overlap_contact_ratio: f64,
     /// Face width that both gears share. [mm]
@@ -68,7 +68,7 @@ impl Transmission {
                 transverse_pressure_angle_deg: pair.transverse_angle.to_degrees(),
                 working_pressure_angle_deg: pair.working_angle.to_degrees(),
                 base_helix_angle_deg: pair.base_helix.to_degrees(),
-                transverse_contact_ratio: pair.contact_ratio,
+                transverse_contact_ratio: pair.involute.then_some(pair.contact_ratio),
                 overlap_contact_ratio: pair.overlap_ratio,
                 face_overlap_mm: pair.facewidth * 1e3,
                 facewidth_mm: mm(gears.map(|g| g.facewidth)),

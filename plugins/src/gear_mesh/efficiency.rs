@@ -84,7 +84,7 @@ register!(GearMesh, "efficiency", Params,
     source: "the user's own",
     example: "{ type: efficiency, value: 0.985 }",
     evidence: [formula(Evidence::User, "the user states it")],
-    limits: [PLACE], terms: [SLIDING], observed: [EFFICIENCY], prepare: prepare);
+    limits: [PLACE], terms: [SLIDING], observed: [EFFICIENCY], geometry: false, prepare: prepare);
 
 #[cfg(test)]
 mod tests {

@@ -168,6 +168,16 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
         let error = gearloss_framework::attach::dangling(&format!("{path}.mesh"), "mesh", &entry.mesh, &names);
         return Err(runner.study.findings(vec![error]).into());
     };
+    if t.meshes().nth(index).is_some_and(|(_, part)| !part.pair.involute) {
+        return Err(runner.wrong(
+            &format!("{path}.mesh"),
+            format!(
+                "`{}` has no path of contact: its teeth are not known as an involute pair",
+                entry.mesh
+            ),
+            "state the tip diameter of the ring, or check what `gearloss check` says of the mesh",
+        ));
+    }
     let first = t.states().first().map_or("", |s| s.name.as_str());
     let given = runner.points(t, entry.gear.as_deref().unwrap_or(first), Vec::new(), Vec::new());
     let case = given

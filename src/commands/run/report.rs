@@ -16,7 +16,7 @@ use serde_json::Value;
 use super::super::solve::RPM;
 use super::Runner;
 use super::write::{Place, REPORT};
-use crate::output::Failure;
+use crate::output::{Failure, number};
 use crate::report::{Frame, GearboxPage, PageFault, PageTable};
 
 /// The user's template, where there is one.
@@ -190,7 +190,7 @@ fn meshes(t: &Transmission) -> PageTable {
                 format!("{:.3}", p.working_angle.to_degrees()),
                 format!("{:.3}", p.centre_distance * 1e3),
                 format!("{:.4} / {:.4}", p.profile_shift[0], p.profile_shift[1]),
-                format!("{:.3}", p.contact_ratio),
+                number(p.involute.then_some(p.contact_ratio), 3),
                 format!("{:.3}", p.overlap_ratio),
             ]
         })

@@ -105,6 +105,33 @@ fn a3_internal_24_72() {
     );
 }
 
+/// Derived from ISO 21771 with a negative number of teeth of the ring: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2),
+/// a = m_t (z1 + z2)/2 cos alpha_t/cos alpha_wt.
+#[test]
+fn shifts_of_a_ring_have_the_sign_of_iso_21771() {
+    let ring = |shifts: [Option<f64>; 2], distance: Option<f64>| {
+        let free = PairSpec {
+            internal: true,
+            ..spec([24, 72], 2.0, 20.0, 0.0, 20.0, 48.0, [52.0, 139.6])
+        };
+        Pair::new(&PairSpec {
+            centre_distance: distance,
+            profile_shift: shifts,
+            ..free
+        })
+        .unwrap()
+    };
+    let distance = |x1: f64, x2: f64| ring([Some(x1), Some(x2)], None).centre_distance;
+    near(distance(0.1, 0.2), 47.366_892_046e-3, 1e-12);
+    near(distance(0.1, -0.2), 48.196_991_638e-3, 1e-12);
+    // A pinion and a ring with opposite shifts keep the reference distance.
+    near(distance(0.3, -0.3), 48e-3, 1e-15);
+    let closed = ring([Some(0.1), None], Some(47.366_892_046e-3)).profile_shift;
+    near(closed[1], 0.2, 1e-6);
+    let closed = ring([None, Some(0.2)], Some(47.366_892_046e-3)).profile_shift;
+    near(closed[0], 0.1, 1e-6);
+}
+
 #[test]
 fn a4_from_profile_shifts() {
     let pair = Pair::new(&PairSpec {
