@@ -45,7 +45,8 @@ pub fn card(transmission: &Transmission) -> String {
         };
         text.push_str(&format!("gear {}: {ratios}\n", state.name));
     }
-    text.lines().map(|line| format!("  {line}\n")).collect()
+    let lines: Vec<&str> = text.lines().collect();
+    format!("  {}\n", lines.join("\n  "))
 }
 
 fn row(stage: &Stage) -> Vec<String> {

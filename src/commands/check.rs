@@ -121,7 +121,7 @@ fn gearbox(
         match serde_saphyr::to_string(&resolved.value) {
             Ok(yaml) => {
                 text.push_str(&yaml);
-                // As comments, so that the text goes on to be a document.
+                // As comments: they are no keys of a gearbox.
                 text.push_str("# derived geometry\n");
                 for stage in transmission.stages() {
                     text.push_str(&format!("# {}:\n", stage.mesh));

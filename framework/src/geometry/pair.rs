@@ -277,7 +277,8 @@ impl Pair {
             [Some(x1), Some(x2)] => [x1, x2],
             [Some(x1), None] => [x1, sum - x1],
             [None, Some(x2)] => [sum - x2, x2],
-            [None, None] if spec.internal => [0.0, sum],
+            // No negative zero.
+            [None, None] if spec.internal => [0.0, sum + 0.0],
             [None, None] => [0.5 * sum, 0.5 * sum],
         };
         let shortening = if spec.internal || !spec.tip_shortening {

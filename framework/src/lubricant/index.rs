@@ -120,6 +120,14 @@ mod tests {
     }
 
     #[test]
+    fn an_index_below_zero_thins_faster_than_the_worse_reference() {
+        // L 147.706 and H 82.870 mm2/s at 10 mm2/s: ISO 2909, VI = 100 (L - U)/(L - H).
+        close(kv40(10.0, -50.0).unwrap(), 180.1240);
+        close(index(180.1240, 10.0).unwrap(), -50.0);
+        close(kv100(180.1240, -50.0).unwrap(), 10.0);
+    }
+
+    #[test]
     fn u8b_a_family_of_one_index() {
         for (kv100, expected) in [
             (1.0, 2.316650),

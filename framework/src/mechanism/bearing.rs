@@ -206,14 +206,13 @@ impl BearingPart {
     pub fn static_factors(&self) -> Option<StaticFactors> {
         let (x0, y0) = match self.kind {
             BearingKind::DeepGrooveBall | BearingKind::DeepGrooveBallDoubleRow => (0.6, 0.5),
-            // Y0 0.26 for a contact angle of 40 degrees, 0.38 for 25.
-            BearingKind::AngularContactBall => (0.5, self.y0?),
             BearingKind::CylindricalRoller
             | BearingKind::CylindricalRollerFullComplement
             | BearingKind::NeedleCage
             | BearingKind::ToroidalRoller
             | BearingKind::ToroidalRollerFullComplement => (1.0, 0.0),
-            BearingKind::TaperedRoller => (0.5, self.y0?),
+            // For balls Y0 is 0.26 at a contact angle of 40 degrees, 0.38 at 25.
+            BearingKind::TaperedRoller | BearingKind::AngularContactBall => (0.5, self.y0?),
             BearingKind::SphericalRoller | BearingKind::SelfAligningBall => (1.0, self.y0?),
             // A contact angle of 90 degrees: thrust alone.
             BearingKind::ThrustBall | BearingKind::CylindricalRollerThrust | BearingKind::NeedleRollerThrust => {
