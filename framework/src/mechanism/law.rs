@@ -100,7 +100,7 @@ fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_>, stated: &[&'static str]) ->
     Err(Diagnostic::error(
         format!("at.{name}"),
         format!(
-            "{} contradicts {}, from which {} follows by more than 1 %",
+            "{} contradicts {}: {} follows from there, more than 1 % away",
             written(quantity, is),
             others.join(" and "),
             written(quantity, follows)
