@@ -29,6 +29,8 @@ pub enum Command {
     Merge(MergeArgs),
     /// Lists mechanisms and models, or what a gearbox lacks for them.
     Models(ModelsArgs),
+    /// Lists the designations of bearings and oils that a gearbox may name.
+    Catalogue(CatalogueArgs),
     /// Evaluates one model alone.
     Eval(EvalArgs),
     /// Prints a JSON Schema for editors.
@@ -361,6 +363,25 @@ pub struct ModelsArgs {
     /// Tables, or JSON with everything of the models listed.
     #[arg(long, value_enum, default_value = "table")]
     pub format: Format,
+}
+
+/// Arguments of `catalogue`.
+#[derive(Debug, ClapArgs)]
+pub struct CatalogueArgs {
+    /// Which catalogue.
+    #[arg(value_enum)]
+    pub of: CatalogueArg,
+    /// Part of the designations to list, such as `6208` or `"VG 150"`; absent, all.
+    pub text: Option<String>,
+}
+
+/// A catalogue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum CatalogueArg {
+    /// Rolling bearings.
+    Bearings,
+    /// Lubricants.
+    Oils,
 }
 
 /// Arguments of `eval`.

@@ -1,6 +1,7 @@
 //! The commands, one file each.
 
 mod card;
+pub mod catalogue;
 pub mod check;
 pub mod eval;
 pub mod explain;

@@ -50,13 +50,10 @@ pub fn call(args: impl IntoIterator<Item = OsString>) -> u8 {
     match std::panic::catch_unwind(|| run(args)) {
         Ok(Ok(End::Fine)) => 0,
         Ok(Ok(End::Finding)) => 1,
-        Ok(Err(Failure::Input(text))) => {
-            let _ = Out::error().text(&text);
-            2
-        }
-        Ok(Err(Failure::Interrupted)) => {
-            let _ = Out::error().text("interrupted\n");
-            130
+        Ok(Err(failure)) => {
+            let text = failure.text();
+            let _ = Out::error().text(text.as_deref().unwrap_or("interrupted\n"));
+            if text.is_some() { 2 } else { 130 }
         }
         Err(_) => {
             let _ = Out::error().text("This is a bug in gearloss. Please report the input and the lines above.\n");
@@ -69,6 +66,7 @@ fn run(args: Args) -> Result<End, Failure> {
     threads::limit()?;
     let mut out = Out::standard();
     match args.command {
+        Command::Catalogue(args) => commands::catalogue::run(&args, &mut out),
         Command::Check(args) => commands::check::run(&args, &mut out),
         Command::Solve(args) => commands::solve::run(&args, &mut out),
         Command::Explain(args) => commands::explain::run(&args, &mut out),

@@ -14,10 +14,12 @@ pub enum End {
     Finding,
 }
 
-/// Why a command ended early: wrong input, with the text to print.
+/// Why a command ended early.
 #[derive(Debug)]
 pub enum Failure {
-    /// Wrong input, with the text to print.
+    /// Wrong documents: what was found in them.
+    Found(Findings),
+    /// Other wrong input, with the text to print.
     Input(String),
     /// Ctrl-C was pressed.
     Interrupted,
@@ -28,11 +30,20 @@ impl Failure {
     pub fn input(message: impl std::fmt::Display, mend: impl std::fmt::Display) -> Self {
         Self::Input(format!("error: {message}\n  = mend: {mend}\n"))
     }
+
+    /// The text to print; none where Ctrl-C was pressed.
+    pub fn text(&self) -> Option<String> {
+        match self {
+            Self::Found(findings) => Some(findings.render()),
+            Self::Input(text) => Some(text.clone()),
+            Self::Interrupted => None,
+        }
+    }
 }
 
 impl From<Findings> for Failure {
     fn from(findings: Findings) -> Self {
-        Self::Input(findings.render())
+        Self::Found(findings)
     }
 }
 
@@ -115,6 +126,13 @@ impl Out {
                 Ok(())
             }
             other => other,
+        }
+    }
+
+    /// Adds a text to the copy alone.
+    pub fn only_copy(&mut self, text: &str) {
+        if let Some(copy) = &mut self.copy {
+            copy.push_str(text);
         }
     }
 

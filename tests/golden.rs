@@ -9,6 +9,21 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 
+/// Cases of more than one mistake.
+const SEVERAL: [&str; 11] = [
+    "anchors",
+    "boolean_traps",
+    "dangling_id",
+    "decimal_comma",
+    "drag_counted_twice",
+    "network_unknown_gear",
+    "network_unknown_nodes",
+    "number_as_text",
+    "out_of_range",
+    "over_determined",
+    "two_locating_bearings",
+];
+
 fn verdict(language: &Language, folder: &Path) -> String {
     let text = std::fs::read_to_string(folder.join("input.yaml")).unwrap();
     // The folder is given relative, so that messages about files do not hang on where the repository lies.
@@ -52,6 +67,11 @@ fn every_class_of_input_error_says_what_where_and_how_to_mend_it() {
             "error"
         };
         assert!(text.contains(severity), "{name} is accepted:\n{text}");
+        let one = text.matches(&format!("{severity}: ")).count() == 1;
+        assert!(
+            one || SEVERAL.contains(&name.as_str()),
+            "{name} is one mistake and gets several messages:\n{text}"
+        );
         assert!(text.contains("mend:"), "{name} does not say how to mend it:\n{text}");
     }
     assert!(

@@ -82,6 +82,94 @@ fn a_differential_turns_both_sides_equally_unless_told_otherwise() {
     assert!((speeds[2] + 960.0).abs() < 1e-9 && (torques[1] - torques[2]).abs() < 1e-9);
 }
 
+/// Both wheels as one port, in place of those of a gearbox.
+fn straight(language: &Language, text: &str) -> Transmission {
+    let choice = Choice {
+        overrides: vec![("wheels".to_owned(), serde_json::json!(["left", "right"]))],
+        ..Choice::default()
+    };
+    let gearbox = Gearbox::of_text(language, text, "input.yaml", ".").unwrap();
+    gearbox.transmission(language, &choice).unwrap()
+}
+
+/// Torque at the wheels for 50 Nm at the input, which the same torque at the wheels gives back.
+fn driven_straight(t: &Transmission) -> f64 {
+    assert_eq!(
+        t.ports().iter().map(|p| p.name.as_str()).collect::<Vec<_>>(),
+        ["input", "wheels"]
+    );
+    let (speeds, torques, status, efficiency) = solve(t, "only", &[("input", 4000.0)], &[("input", 50.0)]);
+    assert_eq!(status, Status::Drive);
+    // `solve` has found that powers and losses balance.
+    assert!((-torques[1] * speeds[1] / (50.0 * 4000.0) / efficiency.unwrap() - 1.0).abs() < 1e-12);
+    // The same state from the wheels.
+    let (back, input, ..) = solve(t, "only", &[("wheels", speeds[1])], &[("wheels", torques[1])]);
+    assert!(
+        (back[0] - 4000.0).abs() < 1e-9 && (input[0] - 50.0).abs() < 1e-7,
+        "{back:?} {input:?}"
+    );
+    torques[1]
+}
+
+#[test]
+fn wheels_of_a_differential_are_one_port_with_the_sum_of_their_torques() {
+    let language = language();
+    let apart = built(&language, DIFFERENTIAL);
+    let (_, torques, ..) = solve(&apart, "only", &[("input", 4000.0)], &[("input", 50.0)]);
+    let sum = driven_straight(&straight(&language, DIFFERENTIAL));
+    assert!(
+        (sum / (torques[1] + torques[2]) - 1.0).abs() < 1e-12,
+        "{sum} {torques:?}"
+    );
+}
+
+#[test]
+fn wheels_on_one_rigid_axle_share_the_torque_equally() {
+    let language = language();
+    // Both halves turn with the cage: nothing in the gearbox says how they share.
+    let locked = DIFFERENTIAL
+        .replace("differentials:\n  axle: { case: cage, left: left_half, right: right_half }\n", "")
+        .replace(
+            "lubricants:",
+            "couplings:\n  l: { kind: dog, between: [cage, left_half], model: none }\n  r: { kind: dog, between: [cage, right_half], model: none }\n\
+             gear_states: { only: [l, r] }\nlubricants:",
+        );
+    let t = straight(&language, &locked);
+    let sum = driven_straight(&t);
+    let case = t.case("only", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let point = Point {
+        speeds: &[4000.0 * RPM],
+        torques: &[50.0],
+        flow: PowerFlow::Real,
+        tolerance: Tolerance::default(),
+    };
+    let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+    let halves = solution.member_torques();
+    let of = |name: &str| halves[t.members().iter().position(|m| m == name).unwrap()].ports;
+    assert!(
+        (of("left_half") / (0.5 * sum) - 1.0).abs() < 1e-12 && (of("right_half") / (0.5 * sum) - 1.0).abs() < 1e-12
+    );
+}
+
+#[test]
+fn wheels_of_a_spur_differential_turn_straight_and_share_by_its_teeth() {
+    let language = language();
+    let text = std::fs::read_to_string(common::file("tests/wheels/spur_differential.yaml")).unwrap();
+    let t = straight(&language, &text);
+    let sum = driven_straight(&t);
+    // Ratio 4, one efficiency of 0.99 that carries torque, the seal of one wheel.
+    assert!(sum.abs() < 0.99 * 200.0 && sum.abs() > 0.985 * 200.0, "{sum}");
+    let apart = built(&language, &text);
+    let (speeds, torques, ..) = solve(
+        &apart,
+        "only",
+        &[("left", -1000.0), ("right", -1000.0)],
+        &[("input", 50.0)],
+    );
+    assert!((speeds[0] - 4000.0).abs() < 1e-9 && ((torques[1] + torques[2]) / sum - 1.0).abs() < 1e-12);
+}
+
 const PLANETARY: &str = "
 gearloss: gearbox/1
 ports: { input: sun_shaft, output: carrier }

@@ -12,7 +12,7 @@ mod sums;
 mod temperature;
 
 pub use bits::Bits;
-pub use cycle::{Driven, Ride, Stretch, drive};
+pub use cycle::{Driven, Ride, Stretch, can_drive, drive};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use notes::{Note, STATIC_SAFETY, Stated, WeakPoint, evidence, notes};
 pub use pieces::{MOST_HELD, Make, Numbered, Piece, held, solve_pieces};

@@ -322,6 +322,7 @@ pub fn dangling(path: &str, what: &str, id: &str, ids: &[&str]) -> Diagnostic {
     };
     match close {
         Some(close) => error.mend(format!("write `{close}`")),
+        None if ids.is_empty() => error.mend(format!("there is none: add `{id}`, or leave the name out")),
         None => error.mend(format!("name one of them, or add `{id}`")),
     }
 }

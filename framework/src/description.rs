@@ -40,6 +40,10 @@ pub struct GearboxEntry {
     pub set: Ordered<Value>,
     /// Shafts at which torque and speed are given or measured: name to shaft.
     pub ports: Ordered<String>,
+    /// Ports that turn at one speed and count as one port, `wheels`: both wheels of a driven axle on a straight road. Its torque is the
+    /// sum of theirs, which the transmission shares; where nothing decides the shares, they are equal.
+    #[schemars(length(min = 2))]
+    pub wheels: Option<Vec<String>>,
     /// Shafts, planet bodies and carriers: everything that turns, apart from loose gears.
     pub shafts: Ordered<ShaftEntry>,
     /// Gears.

@@ -2,6 +2,7 @@
 
 mod by_type;
 mod diagnostic;
+mod misplaced;
 mod node;
 mod places;
 mod publish;

@@ -1,5 +1,6 @@
 //! From a file to a transmission: read, walk, resolve, build; findings with their places.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -8,7 +9,7 @@ use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, read_ya
 use crate::files::{LONGEST_TEXT, read_text};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
-use crate::resolve::{Came, Choice, Resolved, resolve};
+use crate::resolve::{Came, Choice, Resolved, meets, resolve};
 use crate::transmission::Transmission;
 
 /// The most files that may extend each other.
@@ -45,10 +46,27 @@ impl Findings {
 
     /// All findings rendered, with their number at the end.
     pub fn render(&self) -> String {
+        self.render_new(&mut BTreeSet::new())
+    }
+
+    /// As [`Findings::render`], without what `shown` holds already: several files may include the one that is at fault.
+    pub fn render_new(&self, shown: &mut BTreeSet<String>) -> String {
         let mut text = String::new();
+        let mut again = 0;
         for finding in self.list.iter().take(MOST_SHOWN) {
-            text.push_str(&self.sources.render(finding));
-            text.push_str("\n\n");
+            let rendered = self.sources.render(finding);
+            if shown.contains(&rendered) {
+                again += 1;
+            } else {
+                text.push_str(&rendered);
+                text.push_str("\n\n");
+                shown.insert(rendered);
+            }
+        }
+        if again > 0 {
+            text.push_str(&format!(
+                "{again} of the errors are those above, in a file that several include\n"
+            ));
         }
         if self.list.len() > MOST_SHOWN {
             text.push_str(&format!("... and {} more\n", self.list.len() - MOST_SHOWN));
@@ -164,7 +182,20 @@ impl Gearbox {
     /// Everything that resolving finds, with places.
     pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
         resolve(language, &self.files, &self.value, choice)
-            .map_err(|list| self.findings(list.into_iter().map(|d| d.code(Code::Choice)).collect()))
+            .map_err(|list| self.findings(list.into_iter().map(|d| self.in_own_set(d).code(Code::Choice)).collect()))
+    }
+
+    /// A finding about a path that the document's own `set` changes is told there.
+    fn in_own_set(&self, finding: Diagnostic) -> Diagnostic {
+        let changes = self.value.get("set").and_then(Value::as_object);
+        let own = changes
+            .into_iter()
+            .flatten()
+            .find(|(path, _)| meets(path, &finding.path));
+        match own {
+            Some((path, _)) => finding.moved("set", path),
+            None => finding,
+        }
     }
 
     /// Builds the transmission of a resolved description.
@@ -225,6 +256,45 @@ impl Gearbox {
     }
 }
 
+/// What a document is, by its first key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DocumentKind {
+    /// The description of a gearbox.
+    Gearbox,
+    /// Analyses of gearboxes.
+    Study,
+}
+
+/// The one thing that is wrong with a document of the other kind.
+pub(crate) fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagnostic> {
+    let key = node.get("gearloss")?;
+    let written = key.text()?;
+    let has = |keys: [&str; 2]| keys.iter().any(|key| node.get(key).is_some());
+    let (message, mend) = match wanted {
+        DocumentKind::Study if written.starts_with("study") && has(["ports", "shafts"]) => (
+            "the first key says that this is a study, and the others are those of a gearbox",
+            "write `gearloss: gearbox/1`".to_owned(),
+        ),
+        DocumentKind::Gearbox if written.starts_with("gearbox") && has(["gearboxes", "analyses"]) => (
+            "the first key says that this is a gearbox, and the others are those of a study",
+            "write `gearloss: study/1`".to_owned(),
+        ),
+        DocumentKind::Study if written.starts_with("gearbox") => (
+            "this is a gearbox, and a study is due",
+            format!(
+                "`gearloss new study --gearbox {name}` writes a study of it; `check`, `solve` and `explain` take it as it is"
+            ),
+        ),
+        DocumentKind::Gearbox if written.starts_with("study") => (
+            "this is a study, and a gearbox is due",
+            "name a gearbox file, such as one under `gearboxes` of the study; `check` and `run` take the study"
+                .to_owned(),
+        ),
+        _ => return None,
+    };
+    Some(Diagnostic::error("gearloss", message).at(key.span).mend(mend))
+}
+
 /// A document laid over what it extends.
 fn chain(
     text: &str,
@@ -238,6 +308,10 @@ fn chain(
     let read = read_yaml(source, text);
     if !read.findings.is_empty() {
         found.extend(read.findings);
+        return None;
+    }
+    if let Some(error) = other_kind(&read.node, DocumentKind::Gearbox, name) {
+        found.push(error);
         return None;
     }
     let Some(base) = read.node.get("extends").and_then(Node::text) else {

@@ -12,13 +12,13 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
-pub use catalogue::{CatalogueRow, CatalogueTable};
+pub use catalogue::{CatalogueRow, CatalogueTable, without_suffix};
 pub use choice::{Choice, ModelSet, expand_set, sets_of};
 pub use paths::{lookup, matches};
 
-pub(crate) use paths::no_match;
+pub(crate) use paths::{meets, no_match};
 
-use crate::document::Diagnostic;
+use crate::document::{Diagnostic, did_you_mean};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::Files;
 
@@ -310,10 +310,7 @@ fn apply(
         hits.retain(|path| language.has_place(value, path));
         if hits.is_empty() {
             let key = pattern.rsplit('.').next().unwrap_or(pattern);
-            found.push(
-                Diagnostic::error(pattern, format!("nothing here has a key `{key}`"))
-                    .mend("a model has the keys of its own `type`: `gearloss models MECHANISM MODEL` lists them"),
-            );
+            found.push(no_place(value, pattern, key));
             continue;
         }
         for path in hits {
@@ -331,5 +328,21 @@ fn apply(
                 }
             }
         }
+    }
+}
+
+/// The error for a path whose last key nothing has: the key that was probably meant, or where the keys are listed.
+fn no_place(value: &Value, pattern: &str, key: &str) -> Diagnostic {
+    let error = Diagnostic::error(pattern, format!("nothing here has a key `{key}`"));
+    let above = pattern.rsplit_once('.').map_or("", |(above, _)| above);
+    let records = matches(value, above);
+    let record = records.iter().find_map(|path| lookup(value, path)?.as_object());
+    let keys: Vec<&str> = record.into_iter().flatten().map(|(key, _)| key.as_str()).collect();
+    match did_you_mean(key, keys.iter().copied()) {
+        Some(close) => error.mend(format!("write `{close}`")),
+        None if keys.contains(&"type") => {
+            error.mend("a model has the keys of its own `type`: `gearloss models MECHANISM MODEL` lists them")
+        }
+        None => error.mend("`gearloss check --resolved` prints every path"),
     }
 }

@@ -116,6 +116,10 @@ pub struct Conditions {
     /// Port at which the speed is given.
     #[serde(default = "input")]
     pub speed_at: String,
+    /// Ports of the gearbox that turn at one speed and count as one port, `wheels`: both wheels of a driven axle on a straight road.
+    /// Absent, those of the gearbox.
+    #[schemars(length(min = 2))]
+    pub wheels: Option<Vec<String>>,
     /// Temperature of the oil; absent, that of the gearbox: the one stated there, or that of the balance at each point. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil_temperature: Option<f64>,
@@ -132,6 +136,7 @@ impl Default for Conditions {
         Self {
             torque_at: input(),
             speed_at: input(),
+            wheels: None,
             oil_temperature: None,
             power_flow: PowerFlow::Real,
             set: Ordered::default(),

@@ -23,6 +23,8 @@ pub use oils::{Oils, Surface};
 pub use stage::Stage;
 pub use states::GearState;
 
+pub(crate) use states::RowName;
+
 pub(crate) use nodes::NodeNames;
 pub(crate) use planets::Sharing;
 
@@ -64,12 +66,15 @@ pub struct PartInfo {
     pub notes: NoteBase,
 }
 
+/// Name of the port that the ports of `wheels` become.
+pub const WHEELS: &str = "wheels";
+
 /// A port.
 #[derive(Debug, Clone)]
 pub struct Port {
     /// Name.
     pub name: String,
-    /// Member.
+    /// Member; the number behind the last one for the axle of [`WHEELS`].
     pub member: usize,
 }
 
@@ -153,6 +158,8 @@ pub struct Transmission {
     pub(crate) title: String,
     pub(crate) members: Vec<String>,
     pub(crate) ports: Vec<Port>,
+    /// Ports that turn at one speed and are one among `ports`; mostly none.
+    pub(crate) wheels: Vec<Port>,
     pub(crate) states: Vec<GearState>,
     pub(crate) gears: Vec<GearSeat>,
     pub(crate) meshes: Vec<MeshModel>,

@@ -2,6 +2,8 @@
 
 mod json;
 
+use std::collections::BTreeSet;
+
 use gearloss_framework::analysis::{Note, STATIC_SAFETY, evidence, merge, notes};
 use gearloss_framework::document::{Sources, read_yaml};
 use gearloss_framework::evaluate::{Point, PowerFlow};
@@ -9,7 +11,6 @@ use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
-use gearloss_framework::study::Study;
 use gearloss_framework::transmission::Transmission;
 
 use super::card::{card, figures};
@@ -28,24 +29,31 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
         return json::run(language, args, deny, out);
     }
     let mut wrong = String::new();
+    let mut shown = BTreeSet::new();
     let mut end = End::Fine;
     for file in &args.files {
-        let result = if is_study(file) {
-            Study::read(language, file)
-                .and_then(|study| study.check(language))
-                .map(|()| format!("{}: fine\n", file.display()))
-        } else {
-            gearbox(language, file, &args.choice, args.resolved).map(|(text, weakest)| {
+        if is_study(file) {
+            let refused = super::run::refused(language, file);
+            if refused.is_empty() {
+                out.line(format!("{}: fine", file.display()))?;
+            }
+            for failure in refused {
+                match failure.text() {
+                    Some(text) => wrong.push_str(&text),
+                    None => return Err(failure),
+                }
+            }
+            continue;
+        }
+        match gearbox(language, file, &args.choice, args.resolved) {
+            Ok((text, weakest)) => {
+                out.text(&text)?;
                 if deny.is_some_and(|deny| weakest.is_some_and(|w| w >= deny)) {
                     end = End::Finding;
-                    return text + &format!("  denied: {}\n", args.deny.as_deref().unwrap_or_default());
+                    out.line(format!("  denied: {}", args.deny.as_deref().unwrap_or_default()))?;
                 }
-                text
-            })
-        };
-        match result {
-            Ok(text) => out.text(&text)?,
-            Err(findings) => wrong.push_str(&findings.render()),
+            }
+            Err(findings) => wrong.push_str(&findings.render_new(&mut shown)),
         }
     }
     if wrong.is_empty() {

@@ -27,6 +27,7 @@ mod runner;
 mod sensitivity;
 mod shard;
 mod shares;
+mod stated_ranges;
 mod sweep;
 mod table;
 mod thermal_limit;
@@ -69,6 +70,25 @@ pub(super) fn read(language: &Language, file: &Path) -> Result<Study, Failure> {
     Ok(study)
 }
 
+/// What `run` would refuse of a study before it computes anything, analysis by analysis; each text once.
+pub(super) fn refused(language: &Language, file: &Path) -> Vec<Failure> {
+    let study = match read(language, file) {
+        Ok(study) => study,
+        Err(failure) => return vec![failure],
+    };
+    let runner = Runner::for_check(language, &study);
+    let mut refused: Vec<Failure> = Vec::new();
+    for (name, analysis) in study.entry.analyses.iter() {
+        if let Err(failure) = runner.attempt(name, analysis, &mut Out::nowhere()) {
+            let text = failure.text();
+            if refused.iter().all(|other| other.text() != text) {
+                refused.push(failure);
+            }
+        }
+    }
+    refused
+}
+
 /// All analyses and the report; what shards have computed is taken from them.
 pub(super) fn all(
     language: &Language,
@@ -102,22 +122,23 @@ pub(super) fn all(
         };
         match done {
             Ok(()) => {}
-            // What was computed before and what comes after is kept.
-            Err(Failure::Input(text)) => {
+            Err(failure) => {
+                let Some(text) = failure.text() else {
+                    runner.report.borrow_mut().drop_last();
+                    finished = Some(done_so_far);
+                    break;
+                };
+                // What was computed before and what comes after is kept.
                 failed += 1;
                 write::remove(&runner, name);
                 out.line(format!("{name}: failed"))?;
                 runner.report.borrow_mut().text(&format!("failed\n{text}"));
                 Out::error().text(&text)?;
             }
-            Err(Failure::Interrupted) => {
-                runner.report.borrow_mut().drop_last();
-                finished = Some(done_so_far);
-                break;
-            }
         }
         done_so_far += 1;
     }
+    runner.print_stated_ranges(out)?;
     report::write(&runner, template.as_deref())?;
     held.finish();
     out.line(format!("results in {}, report in report.html", runner.folder.display()))?;

@@ -11,7 +11,7 @@ use crate::flow::{Status, Tolerance};
 use crate::loss::Extent;
 use crate::thermal::Unbalanced;
 use crate::thermal::network::{Heats, March, Moment, Scheme, StepSize, Surroundings};
-use crate::transmission::{Case, Transmission};
+use crate::transmission::{Case, Transmission, WHEELS};
 
 /// How a duty is driven.
 #[derive(Clone, Copy)]
@@ -116,6 +116,7 @@ impl Cases<'_> {
             At::Input => (name(self.wheels), name(Some(t.reference_port()))),
         };
         let state = t.state(gear).map_err(|e| vec![e])?;
+        t.takes_one(state).map_err(|e| vec![e])?;
         let torques: &[&str] = if t.torques_needed(state) == 0 { &[] } else { &[torque] };
         let case = t.case(gear, &[speed], torques)?;
         let scratch = t.scratch(&case);
@@ -143,6 +144,40 @@ struct Asked {
     brakes: Option<f64>,
 }
 
+impl<'a> Cases<'a> {
+    fn new(transmission: &'a Transmission, ride: &'a Ride<'a>) -> Result<Self, Vec<Diagnostic>> {
+        let on_wheels = ride.intervals.iter().any(|i| matches!(i.demand, Demand::Wheel { .. }));
+        let wheels = on_wheels.then(|| wheels(transmission)).transpose();
+        Ok(Self {
+            transmission,
+            ride,
+            wheels: wheels.map_err(|e| vec![e])?,
+            known: Vec::new(),
+        })
+    }
+}
+
+/// That every interval of a duty finds its gear state and its ports; nothing is solved.
+///
+/// # Errors
+/// If a gear state or a port is unknown, or does not fit.
+pub fn can_drive(transmission: &Transmission, ride: &Ride<'_>) -> Result<(), Vec<Diagnostic>> {
+    let mut cases = Cases::new(transmission, ride)?;
+    for interval in ride.intervals {
+        let gear = interval.given.gear.as_deref().unwrap_or(ride.gear);
+        match (interval.demand, ride.vehicle) {
+            (Demand::Wheel { .. }, Some(_)) => {
+                cases.place(gear, At::Wheels)?;
+                cases.place(gear, At::Input)?;
+            }
+            _ => {
+                cases.place(gear, At::Port)?;
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Drives a duty. `progress` hears of each interval; where it answers false the work is broken off, and there is no result.
 ///
 /// # Errors
@@ -153,14 +188,8 @@ pub fn drive(
     progress: &dyn Fn(usize) -> bool,
 ) -> Result<Option<Driven>, Vec<Diagnostic>> {
     let reference = transmission.reference_port();
-    let on_wheels = ride.intervals.iter().any(|i| matches!(i.demand, Demand::Wheel { .. }));
-    let wheels = if on_wheels { Some(wheels(transmission)?) } else { None };
-    let mut cases = Cases {
-        transmission,
-        ride,
-        wheels,
-        known: Vec::new(),
-    };
+    let mut cases = Cases::new(transmission, ride)?;
+    let wheels = cases.wheels;
     let first = around(ride, ride.intervals.first());
     let network = transmission.network().filter(|_| ride.oil == OilTemperature::Network);
     let start = network.map_or_else(
@@ -251,17 +280,24 @@ pub fn drive(
     Ok(Some(driven))
 }
 
-/// The port that drives the wheels: `output`, or the one beside the reference port.
-fn wheels(t: &Transmission) -> Result<usize, Vec<Diagnostic>> {
-    let own = t.ports().iter().position(|p| p.name == "output");
+/// The port that drives the wheels: `wheels`, `output`, or the one beside the reference port.
+///
+/// # Errors
+/// If there is none of these.
+fn wheels(t: &Transmission) -> Result<usize, Diagnostic> {
+    let named = |name: &str| t.ports().iter().position(|p| p.name == name);
     let other = (t.ports().len() == 2).then(|| 1 - t.reference_port());
-    own.or(other).ok_or_else(|| {
+    let own = named(WHEELS).or_else(|| named("output")).or(other);
+    own.ok_or_else(|| {
+        let reference = &t.ports()[t.reference_port()].name;
         let names: Vec<&str> = t.ports().iter().map(|p| p.name.as_str()).collect();
-        vec![
-            Diagnostic::error("ports", "a vehicle needs the port that drives its wheels")
-                .note(format!("there are: {}", names.join(", ")))
-                .mend("call it `output`"),
-        ]
+        let others: Vec<&str> = names.iter().copied().filter(|name| name != reference).collect();
+        Diagnostic::error("ports", "a vehicle needs the port that drives its wheels")
+            .note(format!("there are: {}", names.join(", ")))
+            .mend(format!(
+                "write `conditions: {{ wheels: [{}] }}` in the study where both wheels are ports, or call the one port `output`",
+                others.join(", ")
+            ))
     })
 }
 

@@ -85,6 +85,42 @@ impl Rows<'_> {
         combinations
     }
 
+    /// The points of each gear state of each transmission, with the number of the latter; without torques and speeds.
+    pub fn kinds(&self, transmissions: &[BuiltFrom]) -> Vec<(usize, Points)> {
+        let mut kinds: Vec<(usize, Points)> = Vec::new();
+        for (place, gear) in self.keys(transmissions) {
+            if !kinds
+                .iter()
+                .any(|(own, points)| (*own, points.gear.as_str()) == (place, gear))
+            {
+                kinds.push((place, self.points(gear, &transmissions[place].1, Vec::new())));
+            }
+        }
+        kinds
+    }
+
+    /// Number of the transmission and gear state of each row.
+    fn keys<'s>(&'s self, transmissions: &'s [BuiltFrom]) -> Vec<(usize, &'s str)> {
+        let combinations = self.combinations();
+        let key = |row: &'s Row| {
+            let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
+            (place, self.state(row, &transmissions[place].1))
+        };
+        self.measured.rows.iter().map(key).collect()
+    }
+
+    fn points(&self, gear: &str, transmission: &Transmission, list: Vec<Given>) -> Points {
+        Points {
+            gear: gear.to_owned(),
+            torque_at: vec![self.torque_at.to_owned()],
+            speed_at: vec![self.speed_at.to_owned()],
+            field: Field::List(list),
+            oil: OilTemperature::of(transmission, self.oil),
+            flow: self.flow,
+            terms: self.terms,
+        }
+    }
+
     /// Solves every row with the torque that is left for the transmission once a rig has had its share. A measured temperature
     /// of the oil counts where the model does not find its own. `progress` hears how many more are solved; where it answers
     /// false there is no result.
@@ -97,15 +133,7 @@ impl Rows<'_> {
         rig: Option<OnRig<'_>>,
         progress: &(dyn Fn(usize) -> bool + Sync),
     ) -> Result<Option<SolvedRows>, Vec<Diagnostic>> {
-        let combinations = self.combinations();
-        let rows = &self.measured.rows;
-        let keys: Vec<(usize, &str)> = rows
-            .iter()
-            .map(|row| {
-                let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
-                (place, self.state(row, &transmissions[place].1))
-            })
-            .collect();
+        let keys = self.keys(&transmissions);
         let mut found: Vec<Option<PointResult>> = vec![None; keys.len()];
         let mut seen: Vec<Extent> = Vec::new();
         // Rows of one transmission and gear state are solved together.
@@ -115,15 +143,8 @@ impl Rows<'_> {
             }
             let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
             let transmission = &transmissions[key.0].1;
-            let points = Points {
-                gear: key.1.to_owned(),
-                torque_at: vec![self.torque_at.to_owned()],
-                speed_at: vec![self.speed_at.to_owned()],
-                field: Field::List(own.iter().map(|k| self.given(*k, transmission, rig)).collect()),
-                oil: OilTemperature::of(transmission, self.oil),
-                flow: self.flow,
-                terms: self.terms,
-            };
+            let list = own.iter().map(|k| self.given(*k, transmission, rig)).collect();
+            let points = self.points(key.1, transmission, list);
             let Some(solved) = run_grid(transmission, &points, progress)? else {
                 return Ok(None);
             };

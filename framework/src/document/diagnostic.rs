@@ -114,6 +114,16 @@ impl Diagnostic {
         self
     }
 
+    /// The finding about a path at another place: that of the change which led to it.
+    pub(crate) fn moved(self, place: impl Into<String>, path: &str) -> Self {
+        Self {
+            path: place.into(),
+            message: format!("`{path}`: {}", self.message),
+            spans: Vec::new(),
+            ..self
+        }
+    }
+
     /// The finding in one line: path and message.
     pub fn title(&self) -> String {
         if self.path.is_empty() {
@@ -245,7 +255,7 @@ pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
 }
 
 /// Edits, with a swap of neighbours as one (optimal string alignment).
-fn distance(a: &str, b: &str) -> usize {
+pub(super) fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
     for i in 0..=a.len() {

@@ -4,6 +4,7 @@
 use serde_json::{Map, Value};
 
 use super::diagnostic::{Code, Diagnostic, did_you_mean};
+use super::misplaced;
 use super::node::{Content, Key, Node};
 use super::places::{Place, Places};
 use super::quantity::parse_quantity;
@@ -91,6 +92,9 @@ fn found(list: Vec<Diagnostic>) -> Vec<Diagnostic> {
     list.into_iter().map(|finding| finding.code(Code::Value)).collect()
 }
 
+/// Name of the `type` of a record, with all types that it could have.
+type Tag<'a> = (&'a str, &'a [(String, Shape)]);
+
 struct Walker<'a> {
     schema: &'a Schema,
     findings: Vec<Diagnostic>,
@@ -158,17 +162,22 @@ impl<'a> Walker<'a> {
     }
 
     fn wrong(&mut self, node: &Node, wanted: &str) -> Option<Value> {
-        let message = if matches!(node.content, Content::Null) {
-            format!("has no value; {wanted} is due")
+        let help = if wanted.starts_with("a map") {
+            "write keys and values: `{ key: value }`, or one on each line below, indented".to_owned()
         } else {
-            format!("is {}, not {wanted}", node.kind())
+            format!("write {wanted}")
         };
-        let mend = if matches!(node.content, Content::Null) {
-            "write a value, or leave the key out"
+        self.expected(node, wanted, help)
+    }
+
+    /// Another kind of value than the wanted one.
+    fn expected(&mut self, node: &Node, wanted: &str, help: String) -> Option<Value> {
+        if matches!(node.content, Content::Null) {
+            let message = format!("has no value; {wanted} is due");
+            self.report(node, message, "write a value, or leave the key out");
         } else {
-            "see `gearloss schema`"
-        };
-        self.report(node, message, mend);
+            self.report(node, format!("expected {wanted}, found {}", node.kind()), help);
+        }
         None
     }
 
@@ -296,7 +305,13 @@ impl<'a> Walker<'a> {
 
     fn list(&mut self, node: &Node, item: &'a Shape, least: usize, most: usize) -> Option<Value> {
         let Content::List(list) = &node.content else {
-            return self.wrong(node, "a list in brackets");
+            let written = match &node.content {
+                Content::Number(x) => tidy(*x),
+                Content::Text { text, .. } => text.clone(),
+                _ => "...".to_owned(),
+            };
+            let entries = vec![written; least.clamp(1, 8)].join(", ");
+            return self.expected(node, "a list in brackets", format!("write `[{entries}]`"));
         };
         if list.len() < least || list.len() > most {
             let commas = list.len() > most
@@ -342,6 +357,9 @@ impl<'a> Walker<'a> {
         };
         let mut map = Map::new();
         for (key, node) in entries {
+            if key.name == "set" && self.is_change(node) {
+                continue;
+            }
             self.within(&key.name, |w| {
                 if !is_id(&key.name, digits_first) {
                     let (message, mend) = if is_boolean_trap(&key.name) {
@@ -378,6 +396,39 @@ impl<'a> Walker<'a> {
         Some(Value::Object(map))
     }
 
+    /// True for changes to a base file that are written inside a section, which is reported: `set` is a key of the document itself.
+    fn is_change(&mut self, node: &Node) -> bool {
+        let schema = self.schema;
+        let of_document = |fields: &[(String, Field)]| {
+            fields
+                .iter()
+                .any(|(name, field)| name == "set" && matches!(schema.follow(&field.shape), Shape::Paths))
+        };
+        let Shape::Record(fields) = schema.follow(&schema.root) else {
+            return false;
+        };
+        let Content::Map(changes) = &node.content else {
+            return false;
+        };
+        if self.path.is_empty() || self.path.contains('.') || !of_document(fields) {
+            return false;
+        }
+        // An entry may be called `set`, too; its keys are no paths.
+        let Some((first, _)) = changes.first().filter(|(key, _)| key.name.contains('.')) else {
+            return false;
+        };
+        let first = first.name.as_str();
+        let whole = if first.starts_with(&format!("{}.", self.path)) {
+            first.to_owned()
+        } else {
+            format!("{}.{first}", self.path)
+        };
+        let help = format!("write it at the left margin, with whole paths: `set: {{ {whole}: ... }}`");
+        let error = Diagnostic::error(format!("{}.set", self.path), "`set` is a key of the document itself");
+        self.findings.push(error.at(node.span).mend(help));
+        true
+    }
+
     fn tagged(&mut self, node: &Node, what: &str, variants: &'a [(String, Shape)], short: &[String]) -> Option<Value> {
         let names = || variants.iter().map(|(name, _)| name.as_str());
         match &node.content {
@@ -406,7 +457,7 @@ impl<'a> Walker<'a> {
                 Some(tag) => match tag.text() {
                     Some(name) => {
                         if let Some((_, Shape::Record(fields))) = variants.iter().find(|(variant, _)| variant == name) {
-                            self.record(node, fields, Some(name))
+                            self.record(node, fields, Some((name, variants)))
                         } else {
                             self.unknown_type(tag, what, name, &names().collect::<Vec<_>>());
                             None
@@ -477,7 +528,7 @@ impl<'a> Walker<'a> {
         }
     }
 
-    fn record(&mut self, node: &Node, fields: &'a [(String, Field)], tag: Option<&str>) -> Option<Value> {
+    fn record(&mut self, node: &Node, fields: &'a [(String, Field)], tag: Option<Tag<'_>>) -> Option<Value> {
         let Content::Map(entries) = &node.content else {
             return self.wrong(node, "a map of keys");
         };
@@ -486,7 +537,7 @@ impl<'a> Walker<'a> {
         let mut meant: Vec<String> = Vec::new();
         for (key, node) in entries {
             if !fields.iter().any(|(name, _)| *name == key.name) {
-                meant.extend(self.unknown_key(key, node, fields, entries, behind));
+                meant.extend(self.unknown_key((key, node), (fields, tag), entries, behind));
             }
             behind = if let Content::Number(x) = node.content {
                 Some(x)
@@ -505,7 +556,7 @@ impl<'a> Walker<'a> {
                             key: key.span,
                         },
                     );
-                    if let (Some(tag), "type") = (tag, name.as_str()) {
+                    if let (Some((tag, _)), "type") = (tag, name.as_str()) {
                         return Some(Value::from(tag));
                     }
                     w.value(node, &field.shape)
@@ -547,9 +598,8 @@ impl<'a> Walker<'a> {
 
     fn unknown_key(
         &mut self,
-        key: &Key,
-        node: &Node,
-        fields: &[(String, Field)],
+        (key, node): (&Key, &Node),
+        (fields, tag): (&[(String, Field)], Option<Tag<'_>>),
         entries: &[(Key, Node)],
         behind: Option<f64>,
     ) -> Option<String> {
@@ -568,19 +618,34 @@ impl<'a> Walker<'a> {
                 key.name
             ))
         } else {
-            let open = fields
-                .iter()
-                .map(|(name, _)| name.as_str())
-                .filter(|name| entries.iter().all(|(k, _)| k.name != *name));
+            let names = || fields.iter().map(|(name, _)| name.as_str());
+            let open: Vec<&str> = names()
+                .filter(|name| entries.iter().all(|(k, _)| k.name != *name))
+                .collect();
             let error = Diagnostic::error(path, format!("unknown key `{}`", key.name));
-            meant = did_you_mean(&key.name, open).map(str::to_owned);
-            if let Some(close) = &meant {
-                error.mend(format!("write `{close}`"))
-            } else {
-                let names: Vec<&str> = fields.iter().map(|(name, _)| name.as_str()).collect();
-                error
-                    .note(format!("keys here: {}", names.join(", ")))
-                    .mend("leave it out")
+            // The keys of a model are those of its `type`: another one may have this key.
+            let of_others = tag.map(|(own, variants)| {
+                let has =
+                    |shape: &Shape| matches!(shape, Shape::Record(f) if f.iter().any(|(name, _)| *name == key.name));
+                let others = variants.iter().filter(|(name, shape)| name != own && has(shape));
+                let others: Vec<&str> = others.map(|(name, _)| name.as_str()).collect();
+                (own, others)
+            });
+            let inside = !self.path.is_empty();
+            let help = misplaced::help(self.schema, fields, &open, &key.name, inside && tag.is_none());
+            meant = help.meant;
+            match (help.words, of_others) {
+                (Some(words), _) => error.mend(words),
+                (None, Some((own, others))) if !others.is_empty() => error
+                    .note(format!("keys of `{own}`: {}", names().collect::<Vec<_>>().join(", ")))
+                    .mend(format!(
+                        "`{}` is a key of {}: choose another `type`, or a key of `{own}`",
+                        key.name,
+                        others.join(", ")
+                    )),
+                _ => error
+                    .note(format!("keys here: {}", names().collect::<Vec<_>>().join(", ")))
+                    .mend("choose one of these keys, or remove it"),
             }
         };
         self.findings.push(finding.at(key.span).code(Code::UnknownKey));

@@ -8,7 +8,7 @@ use crate::loss::Notebook;
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
-use crate::transmission::PartKind;
+use crate::transmission::{PartKind, RowName};
 
 /// One quantity of a context.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,10 +88,14 @@ impl Solution<'_> {
             own.ports = work.ports[i];
             own.drags = work.drags[i];
         }
-        for (row, multiplier) in state.train.rows.iter().zip(&work.multipliers) {
+        for ((row, name), multiplier) in state.train.rows.iter().zip(&state.rows).zip(&work.multipliers) {
             for (column, coefficient) in &row.terms {
                 if let Some(own) = torques.get_mut(*column) {
-                    own.meshes += coefficient * multiplier;
+                    let torque = coefficient * multiplier;
+                    match name {
+                        RowName::Wheel(_) => own.ports += torque,
+                        RowName::Path(_) | RowName::Equal(_) => own.meshes += torque,
+                    }
                 }
             }
         }

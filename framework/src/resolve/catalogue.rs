@@ -94,6 +94,19 @@ impl CatalogueTable {
     }
 }
 
+/// The longest known designation that a written one goes on from with a suffix, and that suffix: `6208` and `-2RS1`.
+pub fn without_suffix<'a>(written: &'a str, known: impl Iterator<Item = &'a str>) -> Option<(&'a str, &'a str)> {
+    let suffix_of = |base: &&str| {
+        let head = written.get(..base.len())?;
+        let suffix = &written[base.len()..];
+        let ends = suffix.chars().next()?;
+        // `62081` is another bearing than `6208`, not one with a suffix.
+        (head.eq_ignore_ascii_case(base) && !ends.is_ascii_digit()).then_some(suffix)
+    };
+    let bases = known.filter_map(|base| Some((base, suffix_of(&base)?)));
+    bases.max_by_key(|(base, _)| base.len())
+}
+
 /// Fills the absent keys of every component that has a designation.
 pub(super) fn fill(
     language: &Language,
@@ -117,7 +130,9 @@ pub(super) fn fill(
                 path,
                 format!("no section of components is called `{section}`"),
             )),
-            Err(reason) => found.push(Diagnostic::error(path, reason)),
+            Err(reason) => {
+                found.push(Diagnostic::error(path, reason).mend("file names are relative to the gearbox document"))
+            }
         }
     }
     let components = language.registry().sections().map(|(_, s)| (s.name, "bore"));
@@ -142,9 +157,19 @@ pub(super) fn fill(
                         .map(String::as_str)
                         .collect();
                     let path = format!("{section}.{id}.designation");
-                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`"))
-                        .note(format!("{} designations are known", names.len()));
+                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`")).note(format!(
+                        "{} designations are known: `gearloss catalogue {}` lists them",
+                        names.len(),
+                        if section == LUBRICANTS { "oils" } else { section }
+                    ));
                     let close = did_you_mean(&designation, names.iter().copied());
+                    if let Some((base, suffix)) = without_suffix(&designation, names.iter().copied()) {
+                        found.push(error.mend(format!(
+                            "write `{base}`, whose dimensions and ratings these are; no row says what `{suffix}` changes, such as seals, \
+                             clearance or cage: state it in keys and in the model of this entry"
+                        )));
+                        continue;
+                    }
                     let here = if section == LUBRICANTS {
                         "state viscosity, kind and density here"
                     } else {

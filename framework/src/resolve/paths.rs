@@ -17,6 +17,15 @@ fn step<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
     }
 }
 
+/// True where a path, or one above it, is met by a pattern, `*` standing for any key.
+pub(crate) fn meets(pattern: &str, path: &str) -> bool {
+    let mut keys = path.split('.');
+    pattern == path
+        || pattern
+            .split('.')
+            .all(|own| keys.next().is_some_and(|key| own == "*" || own == key))
+}
+
 /// All paths that a pattern meets, in the order of the document. The last key may be absent where its parent exists: the
 /// schema then says whether it may be written.
 pub fn matches(value: &Value, pattern: &str) -> Vec<String> {

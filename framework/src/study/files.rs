@@ -11,11 +11,11 @@ use crate::attach::dangling;
 use crate::description::Ordered;
 use crate::document::{Code, Diagnostic, Places, Sources, read_yaml};
 use crate::files::{LONGEST_DATA, LONGEST_TEXT, read_bytes, read_text};
-use crate::gearbox::{Findings, Gearbox};
+use crate::gearbox::{DocumentKind, Findings, Gearbox, other_kind};
 use crate::language::Language;
 use crate::measured::{Measured, MeasuredEntry};
-use crate::resolve::{Choice, expand_set, sets_of};
-use crate::transmission::Transmission;
+use crate::resolve::{Choice, Resolved, expand_set, meets, sets_of};
+use crate::transmission::{Case, Transmission, WHEELS};
 
 /// A study as read, with its gearboxes.
 pub struct Study {
@@ -64,6 +64,12 @@ impl Study {
         if !read.findings.is_empty() {
             return Err(Findings {
                 list: read.findings,
+                sources,
+            });
+        }
+        if let Some(error) = other_kind(&read.node, DocumentKind::Study, name) {
+            return Err(Findings {
+                list: vec![error],
                 sources,
             });
         }
@@ -155,17 +161,58 @@ impl Study {
 
     /// The choice of a set, with the overrides of the conditions.
     pub fn choice(&self, set: Option<&str>) -> Choice {
+        let conditions = &self.entry.conditions;
+        let wheels = conditions
+            .wheels
+            .iter()
+            .map(|ports| (WHEELS.to_owned(), ports.clone().into()));
+        let changes = conditions
+            .set
+            .iter()
+            .map(|(path, value)| (path.to_owned(), value.clone()));
         Choice {
             set: set.map(str::to_owned),
             sets: self.sets.clone(),
-            overrides: self
-                .entry
-                .conditions
-                .set
-                .iter()
-                .map(|(path, value)| (path.to_owned(), value.clone()))
-                .collect(),
+            overrides: wheels.chain(changes).collect(),
         }
+    }
+
+    /// The transmission of a gearbox under a choice. `changes` are paths that an analysis changes beside the conditions, each with its
+    /// place in the study: what is wrong with a change is told there.
+    ///
+    /// # Errors
+    /// Everything that resolving and building find.
+    pub fn built(
+        &self,
+        language: &Language,
+        gearbox: &Gearbox,
+        choice: &Choice,
+        changes: &[(String, String)],
+    ) -> Result<(Resolved, Transmission), Findings> {
+        let build = || {
+            let resolved = gearbox.resolve(language, choice)?;
+            let transmission = gearbox.build(language, &resolved)?;
+            Ok((resolved, transmission))
+        };
+        build().map_err(|findings: Findings| {
+            let own = |finding: &Diagnostic| {
+                let changed = changes.iter().find(|(path, _)| meets(path, &finding.path));
+                let set = self.entry.conditions.set.ids().find(|path| meets(path, &finding.path));
+                let wheels = finding.path == WHEELS || finding.path.starts_with("wheels.");
+                match (changed, set) {
+                    (Some((path, place)), _) => Some(finding.clone().moved(place, path)),
+                    (None, Some(path)) => Some(finding.clone().moved("conditions.set", path)),
+                    (None, None) if wheels && self.entry.conditions.wheels.is_some() => Some(Diagnostic {
+                        path: format!("conditions.{}", finding.path),
+                        spans: Vec::new(),
+                        ..finding.clone()
+                    }),
+                    _ => None,
+                }
+            };
+            let own: Option<Vec<Diagnostic>> = findings.list.iter().map(own).collect();
+            own.map_or(findings, |list| self.findings(list))
+        })
     }
 
     /// Points under the conditions.
@@ -180,6 +227,44 @@ impl Study {
             flow: conditions.power_flow,
             terms: false,
         }
+    }
+
+    /// The case of points under the conditions.
+    ///
+    /// # Errors
+    /// If the gear state, the ports or their number do not fit: at the conditions where these name a port, or at `place`.
+    pub fn case(
+        &self,
+        place: &str,
+        gearbox: &Gearbox,
+        transmission: &Transmission,
+        points: &Points,
+    ) -> Result<Case, Findings> {
+        let of_gearbox = |error: Diagnostic| gearbox.findings(vec![error]);
+        let state = transmission.state(&points.gear).map_err(of_gearbox)?;
+        let conditions = &self.entry.conditions;
+        let names: Vec<&str> = transmission.ports().iter().map(|port| port.name.as_str()).collect();
+        let unknown = [
+            ("torque_at", &conditions.torque_at, &points.torque_at),
+            ("speed_at", &conditions.speed_at, &points.speed_at),
+        ]
+        .into_iter()
+        .filter(|(_, own, used)| used.contains(own) && !names.contains(&own.as_str()))
+        .map(|(key, own, _)| dangling(&format!("conditions.{key}"), "port", own, &names));
+        let unknown: Vec<Diagnostic> = unknown.collect();
+        if !unknown.is_empty() {
+            return Err(self.findings(unknown));
+        }
+        let [needed, free] = [transmission.torques_needed(state), transmission.states()[state].freedom];
+        if points.torque_at.len() < needed || points.speed_at.len() < free {
+            let at_place = |error: Diagnostic| Diagnostic {
+                path: place.to_owned(),
+                ..error
+            };
+            let fits = transmission.takes_one(state).map_err(at_place);
+            fits.map_err(|error| self.findings(vec![error]))?;
+        }
+        points.case(transmission).map_err(|list| gearbox.findings(list))
     }
 
     /// The rows of a file under the conditions; `bind` are the paths of columns that change the gearbox.
@@ -248,11 +333,11 @@ impl Study {
                         path: path.clone(),
                         ..error
                     }),
-                    _ => built.push(gearbox.transmission(language, &self.choice(set))?),
+                    _ => built.push(self.built(language, gearbox, &self.choice(set), &[])?.1),
                 }
             }
             if built.is_empty() {
-                built.push(gearbox.transmission(language, &self.choice(None))?);
+                built.push(self.built(language, gearbox, &self.choice(None), &[])?.1);
             }
             let of_grid = grid.and_then(|name| Some((name, self.entry.grids.get(name)?)));
             for t in &built {
@@ -274,7 +359,7 @@ impl Study {
         }
         if let Some(gear) = self.entry.report_at.as_ref().and_then(|at| at.gear.as_ref()) {
             let (_, gearbox) = self.gearbox("report_at", None)?;
-            let t = gearbox.transmission(language, &self.choice(None))?;
+            let (_, t) = self.built(language, gearbox, &self.choice(None), &[])?;
             if let Err(error) = t.state(gear) {
                 found.push(Diagnostic {
                     path: "report_at.gear".to_owned(),

@@ -11,7 +11,7 @@ use super::planets;
 use super::plausible;
 use super::states::states;
 use super::statics::{imported, load_factors, shaft_loads};
-use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission};
+use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
 use crate::attach::{Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::Diagnostic;
@@ -37,6 +37,7 @@ impl Transmission {
         let mut warnings = Vec::new();
         let members = Members::new(&entry, &mut found);
         let ports = ports(&entry, &members, &mut found);
+        let (ports, wheels) = joined(&entry, &members, ports, &mut found);
         let (gears, meshes) = gearing(language.registry(), &entry, &members, &mut found, &mut warnings);
         let sharing = planets::sharing(&entry, &members, &mut found);
         let nodes = NodeNames::new(&entry, &mut found);
@@ -116,7 +117,7 @@ impl Transmission {
             );
         }
         let states = if found.is_empty() {
-            states(&entry, &members, &meshes, &clearances, &ports, &mut found)
+            states(&entry, &members, &meshes, &clearances, (&ports, &wheels), &mut found)
         } else {
             Vec::new()
         };
@@ -162,6 +163,7 @@ impl Transmission {
                 title: entry.title.clone().unwrap_or_default(),
                 members: members.names,
                 ports,
+                wheels,
                 states,
                 gears,
                 meshes: mesh_models,
@@ -292,6 +294,38 @@ fn ports(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -
         );
     }
     ports
+}
+
+/// The ports with those of `wheels` as one at the end, and those of `wheels` themselves.
+fn joined(
+    entry: &GearboxEntry,
+    members: &Members,
+    ports: Vec<Port>,
+    found: &mut Vec<Diagnostic>,
+) -> (Vec<Port>, Vec<Port>) {
+    let Some(names) = &entry.wheels else {
+        return (ports, Vec::new());
+    };
+    let known: Vec<&str> = entry.ports.ids().collect();
+    for (i, name) in names.iter().enumerate() {
+        let path = format!("wheels.{i}");
+        if !known.contains(&name.as_str()) {
+            found.push(dangling(&path, "port", name, &known));
+        } else if names[..i].contains(name) {
+            found.push(Diagnostic::error(path, format!("`{name}` is named twice")).mend("name each port once"));
+        }
+    }
+    if known.contains(&WHEELS) && !names.iter().any(|name| name == WHEELS) {
+        let message = format!("the ports of `wheels` become one port of that name, and there is one called `{WHEELS}`");
+        found.push(Diagnostic::error(format!("ports.{WHEELS}"), message).mend("call the port otherwise"));
+    }
+    let (wheels, mut ports): (Vec<Port>, Vec<Port>) = ports.into_iter().partition(|port| names.contains(&port.name));
+    ports.push(Port {
+        name: WHEELS.to_owned(),
+        // The column behind those of the members: the axle, which is no shaft of the gearbox.
+        member: members.names.len(),
+    });
+    (ports, wheels)
 }
 
 struct Placing {

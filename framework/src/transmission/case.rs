@@ -145,6 +145,41 @@ impl Transmission {
         speeds
     }
 
+    /// That one given speed and at most one given torque decide a gear state, as in every point of a study.
+    ///
+    /// # Errors
+    /// How many the state takes, with what to do about it.
+    pub fn takes_one(&self, state: usize) -> Result<(), Diagnostic> {
+        let (torques, own) = (self.torques_needed(state), &self.states[state]);
+        if own.freedom <= 1 && torques <= 1 {
+            return Ok(());
+        }
+        let reference = self.reference_port();
+        let others = self.ports.iter().enumerate().filter(|(i, _)| *i != reference);
+        let others: Vec<&str> = others.map(|(_, port)| port.name.as_str()).collect();
+        let plural = |count: usize| if count == 1 { "" } else { "s" };
+        let error = Diagnostic::error(
+            format!("gear_states.{}", own.name),
+            format!(
+                "`{}` takes {} given speed{} and {torques} given torque{}, and an analysis gives one of each",
+                own.name,
+                own.freedom,
+                plural(own.freedom),
+                plural(torques)
+            ),
+        );
+        Err(if others.len() > 1 {
+            error
+                .note(format!("ports: {}, {}", self.ports[reference].name, others.join(", ")))
+                .mend(format!(
+                    "write `conditions: {{ wheels: [{}] }}` in the study where these turn at one speed, or leave ports out of `ports` that transmit nothing",
+                    others.join(", ")
+                ))
+        } else {
+            error.mend("name a gear state that joins the ports; `spin_loss` has all of them without load")
+        })
+    }
+
     /// Number of torques that a point of a gear state must give.
     pub fn torques_needed(&self, state: usize) -> usize {
         let state = &self.states[state];

@@ -246,11 +246,15 @@ pub fn gearing(
                     } else {
                         "check teeth, module, angles, centre distance, profile shifts and tip diameters of this pair"
                     };
-                found.extend(
-                    faults
-                        .iter()
-                        .map(|fault| Diagnostic::error(path.clone(), fault.to_string()).mend(mend)),
-                );
+                found.extend(faults.iter().map(|fault| match fault {
+                    PairFault::RingTip => {
+                        let ring = &gears[second].id;
+                        Diagnostic::error(format!("gears.{ring}"), fault.to_string()).mend(
+                            "add `tip_diameter: ... mm`, the bore of its teeth: without shift and shortening the reference diameter less two modules",
+                        )
+                    }
+                    _ => Diagnostic::error(path.clone(), fault.to_string()).mend(mend),
+                }));
                 continue;
             }
         };

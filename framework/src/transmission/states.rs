@@ -15,6 +15,8 @@ pub enum RowName {
     Path(String),
     /// The rule that both sides of a differential turn at one speed.
     Equal(String),
+    /// A port that turns with the axle of `wheels`, by name.
+    Wheel(String),
 }
 
 /// One gear state.
@@ -45,11 +47,13 @@ pub fn states(
     members: &Members,
     meshes: &[MeshSeat],
     clearances: &[SeatedClearance],
-    ports: &[super::Port],
+    (ports, wheels): (&[super::Port], &[super::Port]),
     found: &mut Vec<Diagnostic>,
 ) -> Vec<GearState> {
+    // The axle of wheels stands behind the members, where its port has it.
+    let axle = members.names.len();
     let mut base = Train {
-        columns: members.names.len(),
+        columns: axle + usize::from(!wheels.is_empty()),
         rows: Vec::new(),
     };
     let mut names = Vec::new();
@@ -96,7 +100,20 @@ pub fn states(
             equal.push(column);
         }
     }
-    let shares = shares(entry, members, meshes, &mesh_rows, found);
+    let mut shares = shares(entry, members, meshes, &mesh_rows, found);
+    let first_wheel = base.rows.len();
+    for wheel in wheels {
+        base.rows.push(Row::joined(Some(wheel.member), Some(axle)));
+        names.push(RowName::Wheel(wheel.name.clone()));
+    }
+    // Where the transmission itself holds wheels at one speed, nothing else would say how they share the torque.
+    for second in 1..wheels.len() {
+        shares.extend((0..second).map(|first| Share {
+            member: axle,
+            a: (first_wheel + first, 1.0),
+            b: (first_wheel + second, 1.0),
+        }));
+    }
     let written: Vec<(String, Vec<String>, Vec<String>)> = if entry.gear_states.is_empty() {
         vec![("only".to_owned(), Vec::new(), Vec::new())]
     } else {
@@ -138,6 +155,15 @@ pub fn states(
                 Some(member) => state.standing.push(member),
                 None => found.push(dangling(&format!("{path}.standstill"), "shaft or loose gear", id, &ids)),
             }
+        }
+        if !wheels.is_empty() {
+            // Wheels of one speed leave some differentials nothing to rule.
+            let freedom = Motion::freedom(&state.train);
+            state.equal.retain(|difference| {
+                let mut held = state.train.clone();
+                held.rows.push(Row::joined(Some(*difference), None));
+                Motion::freedom(&held) < freedom
+            });
         }
         if found.len() == before {
             choose_ports(&mut state, ports, members, &path, found);
@@ -224,15 +250,18 @@ pub(crate) fn explain(
     path: &str,
 ) -> Diagnostic {
     let name = |column: &usize| {
+        let axle = ports.iter().find(|p| p.member == *column).map(|p| p.name.clone());
         members
             .get(*column)
             .cloned()
+            .or(axle)
             .unwrap_or_else(|| "a difference of speeds".to_owned())
     };
     let list = |columns: &[usize]| columns.iter().map(name).collect::<Vec<_>>().join(", ");
     let row = |row: &usize| match state.rows.get(*row) {
         Some(RowName::Path(path)) => path.clone(),
         Some(RowName::Equal(path)) => format!("equal speeds of {path}"),
+        Some(RowName::Wheel(name)) => format!("equal speed of {name} and the other `wheels`"),
         None => String::new(),
     };
     let rows = |rows: &[usize]| rows.iter().map(row).collect::<Vec<_>>().join(", ");

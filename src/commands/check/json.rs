@@ -7,7 +7,6 @@ use gearloss_framework::document::{Code, Diagnostic, Severity, Sources, Span};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
-use gearloss_framework::study::Study;
 use serde_json::{Value, json};
 
 use crate::args::{CheckArgs, ChoiceArgs};
@@ -28,17 +27,14 @@ pub fn run(
     for file in &args.files {
         let is_study = super::is_study(file);
         let checked = if is_study {
-            Study::read(language, file)
-                .and_then(|study| study.check(language))
-                .map(|()| Checked::default())
+            study(crate::commands::run::refused(language, file))?
         } else {
-            gearbox(language, file, &args.choice, args.resolved)
+            gearbox(language, file, &args.choice, args.resolved).unwrap_or_else(|findings| Checked {
+                findings: found(&findings.list, &findings.sources),
+                wrong: findings.list.iter().any(|d| d.severity == Severity::Error),
+                ..Checked::default()
+            })
         };
-        let checked = checked.unwrap_or_else(|findings| Checked {
-            findings: found(&findings.list, &findings.sources),
-            wrong: findings.list.iter().any(|d| d.severity == Severity::Error),
-            ..Checked::default()
-        });
         let denied = deny.is_some_and(|deny| checked.weakest.is_some_and(|weakest| weakest >= deny));
         if denied {
             end = End::Finding;
@@ -79,6 +75,25 @@ struct Checked {
     /// What is said of a gearbox that was built.
     built: Option<serde_json::Map<String, Value>>,
     weakest: Option<Evidence>,
+}
+
+/// What `run` would refuse of a study.
+fn study(refused: Vec<Failure>) -> Result<Checked, Failure> {
+    let mut checked = Checked {
+        wrong: !refused.is_empty(),
+        ..Checked::default()
+    };
+    for failure in refused {
+        match failure {
+            Failure::Found(findings) => checked.findings.extend(found(&findings.list, &findings.sources)),
+            Failure::Input(text) => {
+                let finding = Diagnostic::error("", text.trim().trim_start_matches("error: "));
+                checked.findings.extend(found(&[finding], &Sources::default()));
+            }
+            Failure::Interrupted => return Err(Failure::Interrupted),
+        }
+    }
+    Ok(checked)
 }
 
 fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -> Result<Checked, Findings> {

@@ -9,7 +9,7 @@ use gearloss_framework::study::{BalanceEntry, Write};
 use gearloss_framework::thermal::Step;
 use serde_json::{Value, json};
 
-use super::super::solve::{json_of_balance, of_balance, outside};
+use super::super::solve::{json_of_balance, of_balance};
 use super::thermal_limit::needs_balance;
 use super::write::{cell, head, picture, write};
 use super::{Runner, gear_of};
@@ -18,11 +18,8 @@ use crate::output::{Failure, Out};
 pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
-    let set: Vec<(String, Value)> = entry
-        .set
-        .iter()
-        .map(|(path, value)| (path.to_owned(), value.clone()))
-        .collect();
+    let change = |(own, value): (&str, &Value)| (own.to_owned(), value.clone(), format!("{path}.set"));
+    let set: Vec<(String, Value, String)> = entry.set.iter().map(change).collect();
     let built = runner.built_with(gearbox, &entry.model_sets, &set)?;
     let header = [
         "model_set",
@@ -39,7 +36,10 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
         needs_balance(runner, &path, b)?;
         let t = &b.transmission;
         let points = runner.points(t, gear_of(entry.gear.as_deref(), t), Vec::new(), Vec::new());
-        let case = points.case(t).map_err(|list| Failure::from(b.gearbox.findings(list)))?;
+        let case = runner.case(b.gearbox, t, &points)?;
+        if runner.only_checks {
+            continue;
+        }
         let torques = [entry.torque];
         let point = Point {
             speeds: &[entry.speed],
@@ -57,7 +57,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
         let seen = notes(t, &scratch.totals);
         out.line(format!("{name}: models {}", b.name))?;
         out.text(&of_balance(t, &found, false))?;
-        out.line(outside(&seen))?;
+        runner.outside(&seen, out);
+        out.line("")?;
         for (i, step) in found.history.iter().enumerate() {
             let of = if i < found.scanned { "scan" } else { "solution" };
             let mut row = vec![b.name.clone(), (i + 1).to_string(), of.to_owned()];
@@ -75,6 +76,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BalanceEntry, out: &mut Out)
             found.scanned,
             write,
         )?;
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["balances"] = Value::Array(results);

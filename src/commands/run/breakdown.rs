@@ -8,7 +8,7 @@ use gearloss_framework::study::{As, BreakdownEntry, Over, Quantity, SpinLossEntr
 use serde_json::Value;
 
 use self::bars::{Bars, Kind, Row};
-use super::super::solve::{RPM, outside};
+use super::super::solve::RPM;
 use super::map::tidy;
 use super::write::{head, write};
 use super::{Built, Runner, axis, gear_of, speeds, torques};
@@ -66,10 +66,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
 /// Speed of the port with given torque over that of the port with given speed.
 fn ratio(runner: &Runner<'_>, b: &Built<'_>, gear: &str) -> Result<f64, Failure> {
     let t = &b.transmission;
-    let case = runner
-        .points(t, gear, Vec::new(), Vec::new())
-        .case(t)
-        .map_err(|list| Failure::from(b.gearbox.findings(list)))?;
+    let case = runner.case(b.gearbox, t, &runner.points(t, gear, Vec::new(), Vec::new()))?;
     let port = |ports: &[usize]| ports.first().map(|p| t.ports()[*p].member);
     let speeds = t.speeds(&case, &vec![1.0; case.speed_ports.len()]);
     Ok(port(&case.torque_ports).map_or(1.0, |member| speeds[member]))
@@ -163,6 +160,9 @@ fn solve(
     let list = rows.iter().flat_map(|(_, bars)| bars.iter().map(|(_, given)| *given));
     let mut points = runner.listed(&b.transmission, gear, list.collect());
     points.terms = bars.needs_terms();
+    if runner.checked(b, &points)? {
+        return Ok(());
+    }
     let solved = runner.solve(b, &points)?;
     let mut all = solved.points.into_iter();
     for (title, labels) in rows {
@@ -177,12 +177,16 @@ fn solve(
         bars.show(runner, b, gear, &row, out)?;
     }
     let seen = notes(&b.transmission, &solved.seen);
-    out.line(outside(&seen))?;
+    runner.outside(&seen, out);
+    out.line("")?;
     bars.close(b, gear, &seen);
     Ok(())
 }
 
 fn finish(runner: &Runner<'_>, name: &str, built: &[Built<'_>], bars: &Bars<'_>) -> Result<(), Failure> {
+    if runner.only_checks {
+        return Ok(());
+    }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["breakdowns"] = Value::Array(bars.results.clone());
     write(runner, name, bars.formats(), &bars.header(), &bars.rows, &value)
@@ -226,6 +230,9 @@ pub fn spin_loss(runner: &Runner<'_>, name: &str, entry: &SpinLossEntry, out: &m
             points.speed_at = speed_at;
             points.torque_at = names.iter().filter(|n| *n != turned).cloned().collect();
             points.terms = bars.needs_terms();
+            if runner.checked(b, &points)? {
+                continue;
+            }
             let solved = runner.solve(b, &points)?;
             let mut title = format!("no load, `{turned}` turned");
             if !resting.is_empty() {
@@ -239,7 +246,8 @@ pub fn spin_loss(runner: &Runner<'_>, name: &str, entry: &SpinLossEntry, out: &m
             };
             bars.show(runner, b, gear, &row, out)?;
             let seen = notes(t, &solved.seen);
-            out.line(outside(&seen))?;
+            runner.outside(&seen, out);
+            out.line("")?;
             bars.close(b, gear, &seen);
             // Not the port of the conditions, at which the other analyses give their speeds.
             if let Some(result) = bars.results.last_mut() {

@@ -1,6 +1,6 @@
 //! Several models of one component over speed, term by term, with measured points beside them.
 
-use gearloss_framework::analysis::{Note, notes};
+use gearloss_framework::analysis::{Note, Points, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{PartLoss, Point};
 use gearloss_framework::flow::Tolerance;
@@ -10,7 +10,7 @@ use gearloss_framework::report::Figure;
 use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::{ComponentCompareEntry, Data};
-use gearloss_framework::transmission::Transmission;
+use gearloss_framework::transmission::{Case, Transmission};
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
@@ -55,6 +55,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let own = runner.built(gearbox, entry.model_set.as_slice())?;
+    // A drag may come with the models.
+    let known = |b: &Built<'_>| b.transmission.parts().iter().any(|part| part.path == entry.component);
+    if !entry.component.contains(".drag.") && !own.iter().any(known) {
+        return Err(no_part(runner, &path, &entry.component, &own[0].transmission));
+    }
     let torques = torques(runner, &format!("{path}.torque"), &entry.torque, &own[0].transmission)?;
     let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &own[0].transmission)?;
     let points: Vec<(f64, f64)> = torques
@@ -71,11 +76,16 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
     for (model, value) in entry.models.iter() {
         match answered(runner, &path, entry, gearbox, (model, value), &points, &measured) {
             Ok(model) => models.push(model),
-            Err(Failure::Input(text)) => failed.push_str(&text),
-            Err(interrupted) => return Err(interrupted),
+            Err(failure) => match failure.text() {
+                Some(text) => failed.push_str(&text),
+                None => return Err(failure),
+            },
         }
     }
-    if models.is_empty() {
+    if runner.only_checks && failed.is_empty() {
+        return Ok(());
+    }
+    if models.is_empty() || runner.only_checks {
         return Err(Failure::Input(failed));
     }
     let rows = rows(&models, &measured);
@@ -161,21 +171,23 @@ fn answered<'a>(
         .overrides
         .extend(entry.set.iter().map(|(path, value)| (path.to_owned(), value.clone())));
     choice.overrides.push((slot(&entry.component), value.clone()));
-    let resolved = gearbox.resolve(runner.language, &choice)?;
-    let transmission = gearbox.build(runner.language, &resolved)?;
+    let own = (slot(&entry.component), format!("{path}.models.{model}"));
+    let (resolved, transmission) = runner.study.built(runner.language, gearbox, &choice, &[own])?;
     let first = transmission.states().first().map_or("", |s| s.name.as_str());
     let gear = entry.gear.clone().unwrap_or_else(|| first.to_owned());
     let part = transmission.parts().iter().position(|p| p.path == entry.component);
     let Some(part) = part else {
         return Err(no_part(runner, path, &entry.component, &transmission));
     };
+    let given = runner.points(&transmission, &gear, Vec::new(), Vec::new());
+    let case = runner.case(gearbox, &transmission, &given)?;
     let all: Vec<(f64, f64)> = points
         .iter()
         .copied()
+        .filter(|_| !runner.only_checks)
         .chain(measured.iter().map(|m| (m.torque, m.speed)))
         .collect();
-    let (answers, seen) =
-        answers(runner, &transmission, &gear, part, &all).map_err(|list| Failure::from(gearbox.findings(list)))?;
+    let (answers, seen) = answers(runner, &transmission, (&given, &case), part, &all);
     let instance = transmission.parts()[part].notes.instance();
     Ok(Model {
         terms: transmission.instances()[instance].entry.terms,
@@ -200,13 +212,11 @@ fn no_part(runner: &Runner<'_>, path: &str, component: &str, transmission: &Tran
 fn answers(
     runner: &Runner<'_>,
     transmission: &Transmission,
-    gear: &str,
+    (given, case): (&Points, &Case),
     part: usize,
     points: &[(f64, f64)],
-) -> Result<(Vec<Answer>, Vec<Note>), Vec<Diagnostic>> {
-    let given = runner.points(transmission, gear, Vec::new(), Vec::new());
-    let case = given.case(transmission)?;
-    let mut scratch = transmission.scratch(&case);
+) -> (Vec<Answer>, Vec<Note>) {
+    let mut scratch = transmission.scratch(case);
     let answers = points
         .iter()
         .map(|(torque, speed)| {
@@ -217,8 +227,8 @@ fn answers(
                 flow: given.flow,
                 tolerance: Tolerance::default(),
             };
-            let warm = given.oil.find(transmission, &case, &point, &mut scratch);
-            let solution = transmission.evaluate(&case, &point, warm.temperatures(), &mut scratch);
+            let warm = given.oil.find(transmission, case, &point, &mut scratch);
+            let solution = transmission.evaluate(case, &point, warm.temperatures(), &mut scratch);
             let loss = solution.explain(part).0;
             Answer {
                 torque: *torque,
@@ -228,7 +238,7 @@ fn answers(
         })
         .collect();
     runner.seen(transmission, &scratch.totals);
-    Ok((answers, notes(transmission, &scratch.totals)))
+    (answers, notes(transmission, &scratch.totals))
 }
 
 /// Loss of all copies, where it has a value.

@@ -104,6 +104,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut 
     let (mut rows, mut results) = (Vec::new(), Vec::new());
     for b in &built {
         let found = places(runner, &path, entry, b)?;
+        if runner.only_checks {
+            continue;
+        }
         for p in &found.places {
             let mut row = vec![b.name.clone(), entry.mesh.clone()];
             row.extend(
@@ -139,6 +142,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ContactPathEntry, out: &mut 
                 "film_um": p.film, "mu": p.mu, "sliding_loss_w": p.loss,
             })).collect::<Vec<_>>(),
         }));
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["paths"] = Value::Array(results);
@@ -180,9 +186,7 @@ fn places(runner: &Runner<'_>, path: &str, entry: &ContactPathEntry, built: &Bui
     }
     let first = t.states().first().map_or("", |s| s.name.as_str());
     let given = runner.points(t, entry.gear.as_deref().unwrap_or(first), Vec::new(), Vec::new());
-    let case = given
-        .case(t)
-        .map_err(|list| Failure::from(built.gearbox.findings(list)))?;
+    let case = runner.case(built.gearbox, t, &given)?;
     let torques = [entry.torque];
     let point = Point {
         speeds: &[entry.speed],

@@ -10,6 +10,7 @@ use serde_json::Value;
 
 use self::outcome::Outcome;
 use super::duties::Duties;
+use super::inputs::Input;
 use super::shares::together;
 use super::write::{head, write};
 use super::{Built, Runner};
@@ -37,6 +38,10 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CycleAnalysisEntry, out: &mu
     let mut outcomes = Vec::new();
     for b in &built {
         duties.check(runner, &path, b)?;
+        if runner.only_checks {
+            Input::all(runner, &path, &entry.inputs, b)?;
+            continue;
+        }
         let bar = runner.bar(duties.len() as u64, &b.name);
         for read in &duties.list {
             let going = |n: usize| {
@@ -51,13 +56,16 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CycleAnalysisEntry, out: &mu
         }
         bar.finish_and_clear();
     }
+    if runner.only_checks {
+        return Ok(());
+    }
     if !entry.inputs.is_empty() {
         for b in &built {
             bands::sample(runner, &path, entry, b, &duties, &mut outcomes, out)?;
         }
     }
     for outcome in &outcomes {
-        show::show(name, outcome, out)?;
+        show::show(runner, name, outcome, out)?;
         pictures::pictures(runner, name, entry, outcome)?;
     }
     let nodes = outcome::all_nodes(&outcomes);

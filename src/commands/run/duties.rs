@@ -1,6 +1,6 @@
 //! Duties of a study: read, and driven through a transmission.
 
-use gearloss_framework::analysis::{Driven, OilTemperature, Ride, drive};
+use gearloss_framework::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::duty::{Demand, Duty, Given, Interval, Vehicle};
 use gearloss_framework::files::{LONGEST_DATA, read_bytes};
@@ -151,6 +151,9 @@ impl<'a> Duties<'a> {
             let mend = "leave them out, or give all of them by `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is compared";
             return Err(runner.wrong(&format!("cycles.{}", read.name), message, mend));
         }
+        for read in &self.list {
+            can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(runner, read, list))?;
+        }
         let network = b.transmission.network().filter(|_| oil == OilTemperature::Network);
         let cooled = network.is_some_and(|n| n.exchangers().len() > 0);
         for read in &self.list {
@@ -198,9 +201,14 @@ impl<'a> Duties<'a> {
         read: &Read,
         progress: &dyn Fn(usize) -> bool,
     ) -> Result<Option<Driven>, Vec<Diagnostic>> {
+        drive(t, &self.ride(t, read), progress)
+    }
+
+    /// How one of them is driven.
+    fn ride<'r>(&'r self, t: &'r Transmission, read: &'r Read) -> Ride<'r> {
         let of_port = read.intervals.iter().any(|i| matches!(i.demand, Demand::Port { .. }));
         let longest = read.intervals.iter().map(|i| i.duration).fold(0.0, f64::max);
-        let ride = Ride {
+        Ride {
             intervals: &read.intervals,
             // What tells no torque belongs to no port, and rests at the reference port.
             port: read
@@ -220,9 +228,25 @@ impl<'a> Duties<'a> {
                 None => StepSize::Fixed(self.entry.step.unwrap_or(longest)),
             },
             flow: self.conditions.power_flow,
-        };
-        drive(t, &ride, progress)
+        }
     }
+}
+
+/// What keeps a duty from being driven, at the duty.
+fn unfit(runner: &Runner<'_>, read: &Read, list: Vec<Diagnostic>) -> Failure {
+    let at_duty = |mut error: Diagnostic| {
+        let key = if error.path == "ports" && read.port.is_some() {
+            ".port"
+        } else {
+            ""
+        };
+        error.path = format!("cycles.{}{key}", read.name);
+        error
+    };
+    let mut list: Vec<Diagnostic> = list.into_iter().map(at_duty).collect();
+    // A port of both torque and speed is unknown once.
+    list.dedup();
+    runner.study.findings(list).into()
 }
 
 /// Names of the temperatures of a driven duty: nodes, or the oil alone.

@@ -214,7 +214,10 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &FluidSweepEntry, out: &mut O
     let names = together(built.iter().map(|b| &b.transmission), entry.by);
     for b in built {
         duties.check(runner, &path, &b)?;
-        all.push(sweep(runner, &path, entry, b, (&duties, &names), out)?);
+        all.extend(sweep(runner, &path, entry, b, (&duties, &names), out)?);
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     for s in &all {
         show::show(name, s, &duties, out)?;
@@ -253,7 +256,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &FluidSweepEntry, out: &mut O
     write(runner, name, &entry.write, &header, &rows, &value)
 }
 
-/// Drives all listed oils, and those that lead to the least losses.
+/// Drives all listed oils, and those that lead to the least losses; none where the analysis is only checked.
 fn sweep<'a>(
     runner: &Runner<'_>,
     path: &str,
@@ -261,7 +264,7 @@ fn sweep<'a>(
     built: Built<'a>,
     (duties, names): (&Duties<'_>, &[String]),
     out: &mut Out,
-) -> Result<Sweep<'a>, Failure> {
+) -> Result<Option<Sweep<'a>>, Failure> {
     let swept = Swept::new(runner, path, entry, &built)?;
     let values = swept.values(runner, path, entry)?;
     let trial = Trial::new(runner, &built);
@@ -287,9 +290,6 @@ fn sweep<'a>(
         let fluid = Fluid { value, losses, refined };
         Ok((fluid, seen))
     };
-    let bar = runner.bar(values.len() as u64, &format!("{} oils", built.name));
-    let mut seen = Left::new();
-    let mut fluids: Vec<Fluid> = Vec::new();
     let failed = |value: f64, reason: String| {
         if interrupt::pressed() {
             return Failure::Interrupted;
@@ -300,6 +300,16 @@ fn sweep<'a>(
             "leave the value out, or narrow the range",
         )
     };
+    if runner.only_checks {
+        for value in values {
+            let oil = swept.overrides(value).and_then(|changes| trial.build(changes));
+            oil.map_err(|reason| failed(value, reason))?;
+        }
+        return Ok(None);
+    }
+    let bar = runner.bar(values.len() as u64, &format!("{} oils", built.name));
+    let mut seen = Left::new();
+    let mut fluids: Vec<Fluid> = Vec::new();
     let mut keep = |results: Vec<(f64, Result<(Fluid, Left), String>)>, fluids: &mut Vec<Fluid>| {
         for (value, result) in results {
             let (fluid, more) = result.map_err(|reason| failed(value, reason))?;
@@ -336,14 +346,14 @@ fn sweep<'a>(
         }
     }
     bar.finish_and_clear();
-    runner.left_at_samples(&seen, out)?;
+    runner.left_at_samples(&seen, out);
     let least = (0..duties.list.len()).map(|k| Least::of(&points(&fluids, k))).collect();
-    Ok(Sweep {
+    Ok(Some(Sweep {
         built,
         swept,
         fluids,
         least,
-    })
+    }))
 }
 
 /// Value and mean loss of each oil for a duty.

@@ -47,6 +47,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     for b in &built {
         let rows = runner.study.rows(&measured, &entry.bind, entry.gear.as_deref(), false);
         let choice = runner.study.choice(b.set());
+        runner.rows_fit(&rows, b.gearbox, &choice)?;
         let made = Identification::new(
             runner.language,
             b.gearbox,
@@ -90,6 +91,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
         }
         let candidates = entry.next.as_ref().map(|next| next::candidates(runner, name, next, b));
         let candidates = candidates.transpose()?;
+        if runner.only_checks {
+            continue;
+        }
         let pressed = interrupt::pressed;
         let settings = Settings {
             loss: loss(entry),
@@ -118,6 +122,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
         )?;
         show::show(runner, name, entry, &outcome, out)?;
         outcomes.push(outcome);
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     compare(runner, name, &outcomes, out)?;
     tables::write(runner, name, entry, &outcomes)?;

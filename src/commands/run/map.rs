@@ -26,7 +26,7 @@ use self::pictures::pictures;
 pub(super) use self::plan::Planned;
 use self::rows::RowsOf;
 use self::taken::{Taken, Taker};
-use super::super::solve::{RPM, outside};
+use super::super::solve::RPM;
 use super::{Built, Runner};
 use crate::output::{Failure, Out, Table, fixed, number};
 
@@ -53,13 +53,25 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
             }
             on_list(runner, name, entry, &listed, gearbox)?
         }
-        _ => on_grid(runner, name, entry, &planned(runner, name, entry)?)?,
+        _ => {
+            let planned = planned(runner, name, entry)?;
+            for plan in &planned {
+                runner.checked(&plan.built, &plan.points)?;
+            }
+            on_grid(runner, name, entry, &planned)?
+        }
     };
+    if runner.only_checks {
+        if let Some(data) = &entry.measured {
+            runner.read(&format!("{path}.measured"), data, &[])?;
+        }
+        return Ok(());
+    }
     let one_table = over_bound::fits(&maps);
     if one_table {
-        over_bound(name, &maps, out)?;
+        over_bound(runner, name, &maps, out)?;
     } else {
-        maps.iter().try_for_each(|map| map.show(name, out))?;
+        maps.iter().try_for_each(|map| map.show(runner, name, out))?;
     }
     for line in export::write(runner, name, entry, &maps)? {
         out.line(format!("{name}: {line}"))?;
@@ -122,6 +134,9 @@ fn on_grid<'s>(
     entry: &MapEntry,
     planned: &[Planned<'s>],
 ) -> Result<Vec<Map<'s>>, Failure> {
+    if runner.only_checks {
+        return Ok(Vec::new());
+    }
     let bound: Vec<String> = planned.first().map_or_else(Vec::new, |first| {
         first.bound.iter().map(|(path, _)| path.clone()).collect()
     });
@@ -167,6 +182,9 @@ fn on_list<'s>(
         listed,
         false,
     )?;
+    if runner.only_checks {
+        return Ok(Vec::new());
+    }
     let paths: Vec<String> = entry.bind.iter().map(|(_, path)| path.clone()).collect();
     let all: Vec<&Built<'_>> = solved.iter().flat_map(|s| &s.built).collect();
     let mut files = Files::new(runner, name, entry, &paths, &all)?;
@@ -304,7 +322,7 @@ impl Map<'_> {
     }
 
     /// Prints the map.
-    fn show(&self, name: &str, out: &mut Out) -> Result<(), Failure> {
+    fn show(&self, runner: &Runner<'_>, name: &str, out: &mut Out) -> Result<(), Failure> {
         let words = self.words();
         out.line(format!(
             "{name}: efficiency in %, gear {}, models {}{words}",
@@ -334,7 +352,7 @@ impl Map<'_> {
         if let Some(thinned) = self.thinned() {
             out.line(thinned)?;
         }
-        out.text(&outside(&self.notes))?;
+        runner.outside(&self.notes, out);
         out.line("")?;
         Ok(())
     }

@@ -8,7 +8,7 @@ use gearloss_framework::study::{By, OperatingPointsEntry};
 use gearloss_framework::thermal::Outcome;
 use serde_json::{Map, Value, json};
 
-use super::super::solve::{RPM, outside};
+use super::super::solve::RPM;
 use super::Runner;
 use super::map::tidy;
 use super::rows::Solved;
@@ -47,6 +47,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
     let gear = entry.gear.as_deref();
     let terms = entry.by == By::Term;
     let all = runner.at_rows(gearbox, &entry.model_sets, &entry.bind, gear, &listed, terms)?;
+    if runner.only_checks {
+        return Ok(());
+    }
     let built = || all.iter().flat_map(|s| &s.built);
     let names = together(built().map(|b| &b.transmission), entry.by);
     let header = header(entry, &names);
@@ -60,7 +63,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
                 .map(|(at, (_, gear, _))| cells(&solved.name, gear, names.len(), at)),
         );
         show(name, &solved.name, entry, &names, &points, out)?;
-        out.line(outside(&solved.notes))?;
+        runner.outside(&solved.notes, out);
+        out.line("")?;
         results.push(result(entry, solved, &names, &points));
         let title = format!("{name}: losses, models {}, oil temperature above each bar", solved.name);
         let figure = Figure::Bars {

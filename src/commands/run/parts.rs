@@ -18,6 +18,7 @@ use super::Runner;
 use super::folder::{Held, cannot, is_unfinished, temporary};
 use super::pieces::{PieceFile, Place};
 use super::shard::{Deal, Kind, Shard};
+use super::stated_ranges::{StatedRanges, is_printed_at_the_end};
 use super::write::{copy, hash_of, inputs};
 use crate::output::{Failure, Out};
 use crate::report::Section;
@@ -150,6 +151,8 @@ pub struct Outcome {
     pub failed: bool,
     /// Stated ranges that were left.
     pub left: usize,
+    /// The same, for the end of the run.
+    stated_ranges: StatedRanges,
     pub section: Section,
     /// Files of results with their hashes.
     pub files: Vec<(String, String)>,
@@ -172,6 +175,7 @@ impl Outcome {
         Some(Self {
             failed,
             left: runner.left.get(),
+            stated_ranges: runner.stated_ranges.take(),
             section,
             files,
             folder: runner.folder.clone(),
@@ -194,7 +198,12 @@ impl Outcome {
 
     /// Prints what was printed, and puts files and section where they would be.
     pub fn replay(&self, runner: &Runner<'_>, out: &mut Out) -> Result<(), Failure> {
-        out.text(self.section.text())?;
+        for line in self.section.text().split_inclusive('\n') {
+            if !is_printed_at_the_end(line) {
+                out.text(line)?;
+            }
+        }
+        runner.stated_ranges.borrow_mut().extend(self.stated_ranges.clone());
         runner.report.borrow_mut().add(self.section.clone());
         for (file, _) in &self.files {
             let path = self.folder.join(file);

@@ -61,14 +61,18 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &RmsSurfaceEntry, out: &mut O
     let mut sets = Vec::new();
     for built in runner.built(gearbox, &entry.against)? {
         let axes = axes(runner, &path, entry, &measured, &built)?;
+        runner.rows_fit(&rows, built.gearbox, &runner.study.choice(built.set()))?;
         sets.push((built, axes));
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     let mut seen = Left::new();
     let mut solved = Vec::new();
     for (built, axes) in &sets {
         solved.push(solve::pairs(runner, entry, built, axes, &rows, &mut seen)?);
     }
-    runner.left_at_samples(&seen, out)?;
+    runner.left_at_samples(&seen, out);
     let counted = solve::counted_points(runner, &path, entry, &measured, &sets, &solved)?;
     let mut all = Vec::new();
     for ((built, axes), pairs) in sets.into_iter().zip(solved) {

@@ -1,9 +1,10 @@
 //! Points of a file: read, and solved under sets of models.
 
-use gearloss_framework::analysis::{Note, OnRig, PointResult, Rows, notes};
+use gearloss_framework::analysis::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
 use gearloss_framework::description::Ordered;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::measured::{Measured, MeasuredEntry, PortSpeeds};
+use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::Data;
 use serde_json::Value;
 
@@ -45,7 +46,8 @@ impl Runner<'_> {
         Ok(measured)
     }
 
-    /// Solves every row under each set, with the torques that the rig leaves for the transmission.
+    /// Solves every row under each set, with the torques that the rig leaves for the transmission; solves none where an analysis is
+    /// only checked.
     pub(super) fn at_rows<'s>(
         &'s self,
         gearbox: &'s Gearbox,
@@ -56,30 +58,34 @@ impl Runner<'_> {
         terms: bool,
     ) -> Result<Vec<Solved<'s>>, Failure> {
         let rows = self.study.rows(measured, bind, gear, terms);
-        let own = |set: Option<&'s String>| -> Result<Solved<'s>, Failure> {
+        let own = |set: Option<&'s String>| -> Result<Option<Solved<'s>>, Failure> {
             let (gearbox, choice) = match set {
                 Some(name) => self.study.reference("analyses", name, gearbox)?,
                 None => (gearbox, None),
             };
             let name = set.map_or("own", String::as_str);
+            let choice = self.study.choice(choice);
+            let transmissions = self.rows_fit(&rows, gearbox, &choice)?;
+            if self.only_checks {
+                return Ok(None);
+            }
             let bar = self.bar(measured.rows.len() as u64, name);
             let going = |n: usize| {
                 bar.inc(n as u64);
                 !interrupt::pressed()
             };
-            let choice = self.study.choice(choice);
-            let solve = |on: Option<OnRig<'_>>| {
-                let transmissions = rows.build(self.language, gearbox, &choice)?;
+            let solve = |transmissions: Vec<BuiltFrom>, on: Option<OnRig<'_>>| {
                 let solved = rows.solve(transmissions, on, &going);
                 let solved = solved.map_err(|list| Failure::from(gearbox.findings(list)))?;
                 solved.ok_or(Failure::Interrupted)
             };
-            let mut solved = solve(None)?;
+            let mut solved = solve(transmissions, None)?;
             if !measured.rig.is_silent() {
                 let speeds = rows.speeds(&solved, measured.rig.at_out());
                 let speeds = speeds.map_err(|error| Failure::from(self.study.findings(vec![error])))?;
                 let (rig, speeds) = (measured.rig, &speeds[..]);
-                solved = solve(Some(OnRig { rig, speeds }))?;
+                let transmissions = rows.build(self.language, gearbox, &choice)?;
+                solved = solve(transmissions, Some(OnRig { rig, speeds }))?;
             }
             bar.finish_and_clear();
             self.seen(&solved.transmissions[0].1, &solved.seen);
@@ -90,17 +96,32 @@ impl Runner<'_> {
                 transmission,
             });
             let built: Vec<Built<'s>> = built.collect();
-            Ok(Solved {
+            Ok(Some(Solved {
                 name: name.to_owned(),
                 rows: solved.rows,
                 notes: notes(&built[0].transmission, &solved.seen),
                 built,
-            })
+            }))
         };
         if sets.is_empty() {
-            return Ok(vec![own(None)?]);
+            return Ok(own(None)?.into_iter().collect());
         }
-        sets.iter().map(|set| own(Some(set))).collect()
+        let all: Vec<_> = sets.iter().map(|set| own(Some(set))).collect::<Result<_, Failure>>()?;
+        Ok(all.into_iter().flatten().collect())
+    }
+
+    /// The transmissions of rows; refuses rows whose bound values, gear states or ports do not fit the gearbox.
+    pub(super) fn rows_fit(
+        &self,
+        rows: &Rows<'_>,
+        gearbox: &Gearbox,
+        choice: &Choice,
+    ) -> Result<Vec<BuiltFrom>, Failure> {
+        let transmissions = rows.build(self.language, gearbox, choice)?;
+        for (place, points) in rows.kinds(&transmissions) {
+            self.case(gearbox, &transmissions[place].1, &points)?;
+        }
+        Ok(transmissions)
     }
 }
 

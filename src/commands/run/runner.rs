@@ -10,10 +10,11 @@ use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::study::{Analysis, Grid, Study};
-use gearloss_framework::transmission::Transmission;
+use gearloss_framework::transmission::{Case, Transmission};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 
+use super::stated_ranges::StatedRanges;
 use super::{
     Parts, about, balance, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map,
     operating_points, rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
@@ -49,12 +50,18 @@ pub struct Runner<'a> {
     pub(super) names: write::Names,
     /// Limits that were left at any point, counted over all analyses.
     pub(super) left: Cell<usize>,
+    /// Name of the analysis at hand.
+    pub(super) analysis: RefCell<String>,
+    /// The same limits, for the end of the run.
+    pub(super) stated_ranges: RefCell<StatedRanges>,
     /// Files of points that the analysis at hand has read, with their hashes.
     pub(super) read: RefCell<Vec<(String, String)>>,
     /// Files that the gearboxes had read before any analysis.
     pub(super) known: Vec<Vec<PathBuf>>,
     /// What shards have computed, where they are merged.
     pub(super) parts: Option<Parts>,
+    /// True for `check`: an analysis ends where it would begin to compute, with all that it refuses before.
+    pub(super) only_checks: bool,
 }
 
 impl<'a> Runner<'a> {
@@ -68,9 +75,21 @@ impl<'a> Runner<'a> {
             report: RefCell::default(),
             names: write::Names::default(),
             left: Cell::new(0),
+            analysis: RefCell::default(),
+            stated_ranges: RefCell::default(),
             read: RefCell::default(),
             known: study.gearboxes.iter().map(known).collect(),
             parts,
+            only_checks: false,
+        }
+    }
+
+    /// For `check`, which computes and writes nothing.
+    pub(super) fn for_check(language: &'a Language, study: &'a Study) -> Self {
+        Self {
+            progress: false,
+            only_checks: true,
+            ..Self::new(language, study, PathBuf::new(), None)
         }
     }
 }
@@ -80,6 +99,7 @@ impl Runner<'_> {
     /// name are its own, whatever ran before.
     pub(super) fn attempt(&self, name: &str, analysis: &Analysis, out: &mut Out) -> Result<(), Failure> {
         self.report.borrow_mut().begin(name, about(analysis));
+        name.clone_into(&mut self.analysis.borrow_mut());
         self.read.borrow_mut().clear();
         for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
             gearbox.files.forget_all_but(known);
@@ -115,12 +135,12 @@ impl Runner<'_> {
         self.built_with(gearbox, sets, &[])
     }
 
-    /// As [`Runner::built`], with further overrides.
+    /// As [`Runner::built`], with further overrides, each with its place in the study.
     pub(super) fn built_with<'s>(
         &'s self,
         gearbox: &'s Gearbox,
         sets: &'s [String],
-        overrides: &[(String, Value)],
+        changes: &[(String, Value, String)],
     ) -> Result<Vec<Built<'s>>, Failure> {
         let build = |name: Option<&'s str>| -> Result<Built<'s>, Failure> {
             let (gearbox, set) = match name {
@@ -128,9 +148,13 @@ impl Runner<'_> {
                 None => (gearbox, None),
             };
             let mut choice = self.study.choice(set);
-            choice.overrides.extend_from_slice(overrides);
-            let resolved = gearbox.resolve(self.language, &choice)?;
-            let transmission = gearbox.build(self.language, &resolved)?;
+            let overrides = changes.iter().map(|(path, value, _)| (path.clone(), value.clone()));
+            choice.overrides.extend(overrides);
+            let places: Vec<_> = changes
+                .iter()
+                .map(|(path, _, place)| (path.clone(), place.clone()))
+                .collect();
+            let (resolved, transmission) = self.study.built(self.language, gearbox, &choice, &places)?;
             Ok(Built {
                 name: name.unwrap_or("own").to_owned(),
                 gearbox,
@@ -163,6 +187,18 @@ impl Runner<'_> {
 
     pub(super) fn field(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
         self.study.points(transmission, gear, field)
+    }
+
+    /// Refuses points that do not fit a gearbox; true where an analysis shall end there.
+    pub(super) fn checked(&self, built: &Built<'_>, points: &Points) -> Result<bool, Failure> {
+        self.case(built.gearbox, &built.transmission, points)?;
+        Ok(self.only_checks)
+    }
+
+    /// The case of points under the conditions.
+    pub(super) fn case(&self, gearbox: &Gearbox, t: &Transmission, points: &Points) -> Result<Case, Failure> {
+        let place = format!("analyses.{}", self.analysis.borrow());
+        Ok(self.study.case(&place, gearbox, t, points)?)
     }
 
     /// A bar of progress on standard error, on a terminal only.
@@ -239,6 +275,7 @@ impl Runner<'_> {
         make: &Make<'_, T>,
         take: &mut dyn FnMut(Piece<T>) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
+        self.checked(built, points)?;
         let count = points.field.len();
         let own = count * numbers.len() / points.field.pieces().max(1);
         let bar = self.bar(own as u64, &built.name);

@@ -68,7 +68,10 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SensitivityEntry, out: &mut 
         let (torques, speeds) = grid_axes(runner, &entry.grid, grid, &built.transmission)?;
         let mut points = runner.points(&built.transmission, &gear, torques, speeds);
         points.terms = true;
-        all.push(found(runner, &path, entry, built, &points, out)?);
+        all.extend(found(runner, &path, entry, built, &points, out)?);
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     let (mut rows, mut values) = (Vec::new(), Vec::new());
     for found in &all {
@@ -94,7 +97,7 @@ impl Found<'_> {
     }
 }
 
-/// Everything of one set.
+/// Everything of one set; nothing where it is only checked.
 fn found<'a>(
     runner: &Runner<'_>,
     path: &str,
@@ -102,7 +105,7 @@ fn found<'a>(
     built: Built<'a>,
     points: &Points,
     out: &mut Out,
-) -> Result<Found<'a>, Failure> {
+) -> Result<Option<Found<'a>>, Failure> {
     let place = |i: usize| format!("{path}.parameters.{i}");
     let mut ranges = Vec::new();
     for (i, parameter) in entry.parameters.iter().enumerate() {
@@ -126,6 +129,9 @@ fn found<'a>(
         let mend = "narrow the ranges, or leave points without a value out of the grid";
         runner.wrong(path, message, mend)
     };
+    if runner.checked(&built, points)? {
+        return Ok(None);
+    }
     let nominal = runner.solve(&built, points)?.points;
     let outputs = Outputs::of(&built.transmission, &nominal);
     let values = outputs.values(&built.transmission, &nominal).map_err(no_value)?;
@@ -172,8 +178,8 @@ fn found<'a>(
         return Err(Failure::Interrupted);
     }
     let (local, morris, sobol) = worked.map_err(no_value)?;
-    runner.left_at_samples(&seen.into_inner().unwrap_or_default(), out)?;
-    Ok(Found {
+    runner.left_at_samples(&seen.into_inner().unwrap_or_default(), out);
+    Ok(Some(Found {
         gear: points.gear.clone(),
         points: points.field.len(),
         built,
@@ -184,7 +190,7 @@ fn found<'a>(
         morris,
         sobol,
         samples,
-    })
+    }))
 }
 
 /// The parameters at the values of the gearbox, which have to lie in their ranges.

@@ -187,12 +187,12 @@ fn whole(runner: &Runner<'_>, work: &Work<'_>, count: &mut Count) -> Result<(), 
     let own = Runner::new(runner.language, runner.study, folder, None);
     let failed = match own.attempt(work.name, work.analysis, &mut Out::nowhere()) {
         Ok(()) => false,
-        Err(Failure::Input(text)) => {
+        Err(failure) => {
+            let Some(text) = failure.text() else { return Err(failure) };
             Out::error().text(&text)?;
             count.failed += 1;
             true
         }
-        Err(Failure::Interrupted) => return Err(Failure::Interrupted),
     };
     if let Some(outcome) = Outcome::of(&own, failed) {
         outcome.keep(part, work.name)?;

@@ -9,7 +9,7 @@ use gearloss_framework::study::{By, SecondEntry, SweepEntry};
 use gearloss_framework::thermal::Outcome;
 use serde_json::{Value, json};
 
-use super::super::solve::{RPM, outside};
+use super::super::solve::RPM;
 use super::map::{tidy, word};
 use super::shares::{Shares, together};
 use super::write::{cell, head, picture, write};
@@ -49,14 +49,19 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
     };
     for (k, second) in seconds.iter().enumerate() {
         for (i, change) in entry.values.iter().enumerate() {
-            let mut changes = vec![(entry.path.clone(), change.clone())];
-            changes.extend(second.map(|(path, value)| (path.clone(), value.clone())));
+            // Where every value fails it is the path that is wrong, which stands first.
+            let mut changes = vec![(entry.path.clone(), change.clone(), format!("{path}.values.{i}"))];
+            changes
+                .extend(second.map(|(own, value)| (own.clone(), value.clone(), format!("{path}.second.values.{k}"))));
             for built in runner.built_with(gearbox, &entry.model_sets, &changes)? {
                 let gear = gear_of(entry.gear.as_deref(), &built.transmission);
                 let torques = torques(runner, &format!("{path}.torque"), &entry.torque, &built.transmission)?;
                 let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &built.transmission)?;
                 let mut points = runner.points(&built.transmission, gear, torques, speeds);
                 points.terms = entry.by == By::Term;
+                if runner.checked(&built, &points)? {
+                    continue;
+                }
                 let solved = runner.solve(&built, &points)?;
                 all.push(At {
                     value: [i, k],
@@ -66,6 +71,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
                 });
             }
         }
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     let shares = together(all.iter().map(|at| &at.built.transmission), entry.by);
     let mut header: Vec<String> = ["model_set", "gear"].map(str::to_owned).to_vec();
@@ -111,7 +119,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
             "shares": shares, "points": points, "notes": notes(&at.built.transmission, &at.seen),
         }));
     }
-    show(name, entry, &words, &all, out)?;
+    show(runner, name, entry, &words, &all, out)?;
     let mut value = head(runner, name, &all.iter().map(|at| &at.built).collect::<Vec<_>>());
     value["sweep"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &rows, &value)?;
@@ -136,7 +144,14 @@ fn beside(entry: &SweepEntry, second: usize) -> String {
     entry.second.as_ref().and_then(named).unwrap_or_default()
 }
 
-fn show(name: &str, entry: &SweepEntry, words: &[String], all: &[At<'_>], out: &mut Out) -> Result<(), Failure> {
+fn show(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &SweepEntry,
+    words: &[String],
+    all: &[At<'_>],
+    out: &mut Out,
+) -> Result<(), Failure> {
     let seconds = entry.second.as_ref().map_or(1, |s| s.values.len());
     for set in sets(all) {
         let mut seen = Vec::new();
@@ -158,7 +173,8 @@ fn show(name: &str, entry: &SweepEntry, words: &[String], all: &[At<'_>], out: &
                 merge(&mut seen, &at.seen);
             }
         }
-        out.line(outside(&notes(&of(all, set, 0)[0].built.transmission, &seen)))?;
+        runner.outside(&notes(&of(all, set, 0)[0].built.transmission, &seen), out);
+        out.line("")?;
     }
     Ok(())
 }

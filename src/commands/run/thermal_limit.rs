@@ -11,7 +11,7 @@ use gearloss_framework::study::{Find, ThermalLimitEntry};
 use gearloss_framework::thermal::Limit;
 use serde_json::{Value, json};
 
-use super::super::solve::{RPM, outside};
+use super::super::solve::RPM;
 use super::map::tidy;
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, gear_of, speeds, torques};
@@ -70,7 +70,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
             rows.push(row);
         }
         show(name, entry, b, &found, out)?;
-        out.line(outside(&seen))?;
+        runner.outside(&seen, out);
+        out.line("")?;
         for temperature in &entry.temperature {
             let own = found.iter().filter(|f| f.temperature == *temperature);
             let name = if built.len() > 1 {
@@ -106,6 +107,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
             "limits": found.iter().map(json_of).collect::<Vec<_>>(),
             "notes": seen,
         }));
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
     value["thermal_limits"] = Value::Array(results);
@@ -164,14 +168,15 @@ fn search(
 ) -> Result<(Vec<Found>, Vec<Note>), Failure> {
     let t = &built.transmission;
     let points = runner.points(t, gear, Vec::new(), Vec::new());
-    let case = points
-        .case(t)
-        .map_err(|list| Failure::from(built.gearbox.findings(list)))?;
+    let case = runner.case(built.gearbox, t, &points)?;
     if case.torque_ports.is_empty() && entry.find == Find::Torque {
         return Err(Failure::input(
             format!("`{gear}` takes no torque, so none can be its limit"),
             "name another gear, or look for the speed",
         ));
+    }
+    if runner.only_checks {
+        return Ok((Vec::new(), Vec::new()));
     }
     let mut scratch = t.scratch(&case);
     let (range, fixed) = match entry.find {

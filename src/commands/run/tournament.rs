@@ -115,6 +115,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
             }
             let own = grid_axes(runner, grid_name, grid, t)?;
             let points = runner.points(t, gear, own.0.clone(), own.1.clone());
+            if runner.checked(&base, &points)? {
+                return candidates::slots(runner, &path, entry, &base, (&points, &[])).map(|_| ());
+            }
             let field = field(runner, &path, entry, base, &points, out, name)?;
             spread::show(runner, name, entry, gear, &own, &field, out)
         }
@@ -125,6 +128,10 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
             }
             let gear = gear_of(entry.gear.as_deref(), t).to_owned();
             let (rows, mut list) = rows(runner, &path, &measured, &gear, out)?;
+            if runner.checked(&base, &runner.listed(t, &gear, Vec::new()))? {
+                let points = runner.listed(t, &gear, Vec::new());
+                return candidates::slots(runner, &path, entry, &base, (&points, &[])).map(|_| ());
+            }
             if !measured.rig.is_silent() {
                 // The speeds tell what the rig adds; the rest of the torque is left for the transmission.
                 let solved = runner.solve(&base, &runner.listed(t, &gear, list.clone()))?;

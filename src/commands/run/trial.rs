@@ -13,7 +13,7 @@ use serde_json::Value;
 
 use super::{Built, Runner};
 use crate::interrupt;
-use crate::output::{Failure, Out};
+use crate::output::Out;
 use gearloss_framework::study::Study;
 
 /// Stated ranges that were left: path and quantity.
@@ -95,14 +95,11 @@ pub fn why(t: &Transmission, p: &PointResult) -> String {
 }
 
 impl Runner<'_> {
-    /// Counts and prints the stated ranges that trials left.
-    pub(super) fn left_at_samples(&self, left: &Left, out: &mut Out) -> Result<(), Failure> {
+    /// Counts the stated ranges that trials left, and keeps them for the end of the run.
+    pub(super) fn left_at_samples(&self, left: &Left, out: &mut Out) {
         self.left.set(self.left.get() + left.len());
         for (path, name) in left {
-            out.line(format!(
-                "outside: {path}: {name} leaves its stated range at some samples"
-            ))?;
+            self.outside_at_samples(path, name, out);
         }
-        Ok(())
     }
 }

@@ -60,8 +60,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
     for built in built {
         let (torques, speeds) = grid_axes(runner, &entry.grid, grid, &built.transmission)?;
         let points = runner.points(&built.transmission, gear, torques.clone(), speeds.clone());
-        let nominal = runner.solve(&built, &points)?.points;
         let inputs = Input::all(runner, &path, &entry.inputs, &built)?;
+        if runner.checked(&built, &points)? {
+            continue;
+        }
+        let nominal = runner.solve(&built, &points)?.points;
         let (samples, failed) = sample(runner, entry, &built, &inputs, &points, out)?;
         all.push(Sampled {
             built,
@@ -72,6 +75,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
             samples,
             failed,
         });
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     let mut header: Vec<String> = ["model_set", "gear", "torque_nm", "speed_rpm"]
         .map(str::to_owned)
@@ -147,7 +153,7 @@ fn sample(
             Err(reason) => failed.push(reason),
         }
     }
-    runner.left_at_samples(&left, out)?;
+    runner.left_at_samples(&left, out);
     if samples.len() < 2 {
         let message = format!(
             "hardly a sample could be built: {}",

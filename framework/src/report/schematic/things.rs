@@ -109,6 +109,16 @@ pub(super) struct Things {
     pub reference: usize,
 }
 
+/// Name and member of every port as it is on its shaft: those of `wheels` one by one.
+fn ports(transmission: &Transmission) -> Vec<(String, usize)> {
+    let own = transmission
+        .ports
+        .iter()
+        .filter(|p| p.member < transmission.members.len());
+    let all = own.chain(&transmission.wheels);
+    all.map(|p| (p.name.clone(), p.member)).collect()
+}
+
 impl Things {
     pub(super) fn new(transmission: &Transmission, resolved: &Value) -> Self {
         let (members, lines) = members(transmission, resolved);
@@ -131,7 +141,7 @@ impl Things {
             lines,
             wheels,
             contacts,
-            ports: transmission.ports.iter().map(|p| (p.name.clone(), p.member)).collect(),
+            ports: ports(transmission),
             reference: transmission.reference_port(),
         }
     }

@@ -6,7 +6,7 @@ use gearloss_framework::report::{Figure, Map};
 use gearloss_framework::study::CompareEntry;
 use serde_json::{Value, json};
 
-use super::super::super::solve::{RPM, outside};
+use super::super::super::solve::RPM;
 use super::super::map::{spread, tidy};
 use super::super::write::{cell, head, picture, write};
 use super::super::{Runner, grid_axes};
@@ -47,7 +47,13 @@ pub fn run(
     for b in built.iter().rev() {
         (torques, speeds) = grid_axes(runner, grid_name, grid, &b.transmission)?;
         let points = runner.points(&b.transmission, gear, torques.clone(), speeds.clone());
+        if runner.checked(b, &points)? {
+            continue;
+        }
         solved.insert(0, runner.solve(b, &points)?);
+    }
+    if runner.only_checks {
+        return Ok(());
     }
     let quantity = |p: &PointResult| entry.quantity.of(p);
     let unit = entry.quantity.unit(entry.difference);
@@ -154,7 +160,8 @@ pub fn run(
             })
         };
         let seen = notes(&b.transmission, &other.seen);
-        out.line(outside(&seen))?;
+        runner.outside(&seen, out);
+        out.line("")?;
         results.push(json!({
             "model_set": b.name,
             "base": base,

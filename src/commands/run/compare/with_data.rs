@@ -6,7 +6,7 @@ use gearloss_framework::measured::{Measured, Row, Seen, counted};
 use gearloss_framework::study::{CompareEntry, Data};
 use serde_json::{Value, json};
 
-use super::super::super::solve::{RPM, outside};
+use super::super::super::solve::RPM;
 use super::super::deviations::{self, Deviation};
 use super::super::map::tidy;
 use super::super::rows::Solved;
@@ -61,6 +61,9 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, data: &Data, o
         .into_iter()
         .map(|solved| compared(entry, &measured, solved))
         .collect();
+    if runner.only_checks {
+        return Ok(());
+    }
     if all.iter().all(|c| c.pairs.iter().all(|p| p.measured.is_none())) {
         let error = Diagnostic::error(
             format!("{path}.data"),
@@ -107,7 +110,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, data: &Data, o
             );
             rows.push(cells);
         }
-        results.push(show(name, entry, &measured, c, out)?);
+        results.push(show(runner, name, entry, &measured, c, out)?);
     }
     verdict(runner, name, entry, &all, out)?;
     let built: Vec<&Built<'_>> = all.iter().flat_map(|c| &c.built).collect();
@@ -154,6 +157,7 @@ fn pair(entry: &CompareEntry, measured: &Measured, (i, row, gear): (usize, &Row,
 }
 
 fn show(
+    runner: &Runner<'_>,
     name: &str,
     entry: &CompareEntry,
     measured: &Measured,
@@ -203,7 +207,8 @@ fn show(
         }
     }
     out.text(&table.render())?;
-    out.line(outside(&c.notes))?;
+    runner.outside(&c.notes, out);
+    out.line("")?;
     Ok(json!({
         "model_set": c.name,
         "quantity": entry.quantity,

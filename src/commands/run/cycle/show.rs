@@ -3,11 +3,11 @@
 use gearloss_framework::analysis::notes;
 use gearloss_framework::duty::Duty;
 
-use super::super::super::solve::outside;
+use super::super::Runner;
 use super::outcome::Outcome;
 use crate::output::{Failure, Out, Table, significant};
 
-pub fn show(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
+pub fn show(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
     let total = &o.driven.total;
     let loss = o.loss();
     out.line(format!(
@@ -68,7 +68,8 @@ pub fn show(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         o.driven.steps[0],
         o.driven.evaluations
     ))?;
-    out.line(outside(&notes(&o.built.transmission, &o.driven.seen)))?;
+    runner.outside(&notes(&o.built.transmission, &o.driven.seen), out);
+    out.line("")?;
     Ok(())
 }
 

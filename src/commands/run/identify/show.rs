@@ -4,7 +4,7 @@ use gearloss_framework::inference::{Accuracy, Reach, Verdict};
 use gearloss_framework::least_squares::{Reason, Status};
 use gearloss_framework::study::{Difference, IdentifyEntry, RuleEntry};
 
-use super::super::super::solve::{RPM, outside};
+use super::super::super::solve::RPM;
 use super::super::Runner;
 use super::outcome::Outcome;
 use crate::output::{Failure, Out, Table, figures, fixed};
@@ -65,7 +65,8 @@ pub fn show(
         out.line(format!("no bands on the losses: {reason}"))?;
     }
     next(runner, name, entry, o, out)?;
-    out.line(outside(&o.notes))?;
+    runner.outside(&o.notes, out);
+    out.line("")?;
     Ok(())
 }
 

@@ -2,7 +2,8 @@
 
 use gearloss_framework::analysis::{OilTemperature, merge, notes};
 
-use super::super::super::solve::{RPM, outside};
+use super::super::super::solve::RPM;
+use super::super::Runner;
 use super::{Brief, Map, set_names, spread, word};
 use crate::output::{Failure, Out, Table, fixed, number};
 
@@ -22,7 +23,7 @@ pub fn fits(maps: &[Map<'_>]) -> bool {
 }
 
 /// The loss, and with a balance the temperature, over speed and the values of the one bound path.
-pub fn over_bound(name: &str, maps: &[Map<'_>], out: &mut Out) -> Result<(), Failure> {
+pub fn over_bound(runner: &Runner<'_>, name: &str, maps: &[Map<'_>], out: &mut Out) -> Result<(), Failure> {
     for set in set_names(maps) {
         let of_set: Vec<&Map<'_>> = maps.iter().filter(|m| m.built.name == set).collect();
         let points = &of_set[0].kept.points;
@@ -55,7 +56,7 @@ pub fn over_bound(name: &str, maps: &[Map<'_>], out: &mut Out) -> Result<(), Fai
         for map in &of_set {
             merge(&mut all, &map.seen);
         }
-        out.text(&outside(&notes(&of_set[0].built.transmission, &all)))?;
+        runner.outside(&notes(&of_set[0].built.transmission, &all), out);
         out.line("")?;
     }
     Ok(())

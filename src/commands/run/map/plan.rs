@@ -41,7 +41,9 @@ pub fn on_grid<'s>(
     }
     let mut maps = Vec::new();
     for bound in combinations {
-        for built in runner.built_with(gearbox, &entry.model_sets, &bound)? {
+        let change = |(own, value): &(String, Value)| (own.clone(), value.clone(), format!("{path}.bind"));
+        let changes: Vec<_> = bound.iter().map(change).collect();
+        for built in runner.built_with(gearbox, &entry.model_sets, &changes)? {
             let built = Rc::new(built);
             let t = &built.transmission;
             let (torques, speeds) = grid_axes(runner, grid_name, grid, t)?;

@@ -128,7 +128,11 @@ pub fn slots(
     base: &Built<'_>,
     (points, solved): (&Points, &[PointResult]),
 ) -> Result<(Vec<Slot>, Vec<String>), Failure> {
-    let time = timed(&base.transmission, points)?;
+    let time = if runner.only_checks {
+        0.0
+    } else {
+        timed(&base.transmission, points)?
+    };
     let (mut slots, mut left_out): (Vec<Slot>, Vec<String>) = (Vec::new(), Vec::new());
     for (i, candidates) in entry.mechanisms.iter().enumerate() {
         let path = format!("{path}.mechanisms.{i}");
@@ -282,6 +286,9 @@ fn evaluated(
         .gearbox
         .build(runner.language, &changed)
         .map_err(|findings| because(&findings.list))?;
+    if runner.only_checks {
+        return Ok((Vec::new(), 0.0));
+    }
     let solved = run_grid(&transmission, points, &|_| !interrupt::pressed()).map_err(|list| because(&list))?;
     let solved = solved.ok_or(Refused::Interrupted)?;
     runner.seen(&transmission, &solved.seen);

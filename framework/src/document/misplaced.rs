@@ -1,0 +1,105 @@
+//! Where an unknown key belongs: below a neighbour, under a longer name, at another model, or elsewhere in the document.
+
+use super::diagnostic::{did_you_mean, distance};
+use super::schema::{Field, Schema, Shape};
+
+/// How many records lie in one another where a key is looked for.
+const DEPTH: usize = 4;
+
+/// What to do about an unknown key.
+pub(super) struct Help {
+    /// The key of the record that was probably meant.
+    pub meant: Option<String>,
+    /// How to fix it; absent where nothing is known.
+    pub words: Option<String>,
+}
+
+/// Looks for what was meant by a key that a record does not have. `open` are the keys of the record that are not written yet, `inside`
+/// tells that the record is not the document itself.
+pub(super) fn help(schema: &Schema, fields: &[(String, Field)], open: &[&str], key: &str, inside: bool) -> Help {
+    let meant = |name: &str| Help {
+        meant: Some(name.to_owned()),
+        words: Some(format!("write `{name}`")),
+    };
+    let words = |words: String| Help {
+        meant: None,
+        words: Some(words),
+    };
+    let close = did_you_mean(key, open.iter().copied());
+    // `facewdith` is a slip of the hand, `module` the last word of `normal_module` and no misspelt `model`.
+    if let Some(close) = close.filter(|close| distance(key, close) == 1) {
+        return meant(close);
+    }
+    let has_word = |name: &&&str| name.split('_').any(|word| word == key);
+    if let Some(name) = open.iter().find(has_word) {
+        return meant(name);
+    }
+    let mut below = Vec::new();
+    for (name, field) in fields {
+        search(schema, &field.shape, key, name, DEPTH, &mut below);
+    }
+    if let Some(path) = below.iter().find(|path| !path.contains('*')) {
+        let written = path
+            .rsplit('.')
+            .skip(1)
+            .fold(format!("{key}: ..."), |inner, name| format!("{name}: {{ {inner} }}"));
+        return Help {
+            // Or the record that holds it would be told as missing, too.
+            meant: path.split('.').next().map(str::to_owned),
+            words: Some(format!("it belongs deeper: write `{written}`")),
+        };
+    }
+    if let Some(close) = close {
+        return meant(close);
+    }
+    if !inside {
+        if let Some(path) = below.first() {
+            return words(format!("`{key}` is a key at `{path}`: move it there"));
+        }
+    } else {
+        let mut all = Vec::new();
+        if let Shape::Record(fields) = schema.follow(&schema.root) {
+            if fields.iter().any(|(name, _)| name == key) {
+                return words(format!(
+                    "`{key}:` is a key of the document itself: write it at the left margin"
+                ));
+            }
+            for (name, field) in fields {
+                search(schema, &field.shape, key, name, DEPTH, &mut all);
+            }
+        }
+        if let Some(path) = all.first() {
+            return words(format!("`{key}` is a key at `{path}`: move it there"));
+        }
+    }
+    Help {
+        meant: None,
+        words: None,
+    }
+}
+
+/// Paths of a key in records below a shape; models, whose keys depend on their `type`, are left out.
+fn search(schema: &Schema, shape: &Shape, key: &str, path: &str, depth: usize, found: &mut Vec<String>) {
+    if depth == 0 {
+        return;
+    }
+    match schema.follow(shape) {
+        Shape::Record(fields) => {
+            for (name, field) in fields {
+                let own = format!("{path}.{name}");
+                if name == key && !found.contains(&own) {
+                    found.push(own);
+                } else {
+                    search(schema, &field.shape, key, &own, depth - 1, found);
+                }
+            }
+        }
+        Shape::Ids { item, .. } => search(schema, item, key, &format!("{path}.*"), depth - 1, found),
+        Shape::Either(shapes) => {
+            for shape in shapes {
+                search(schema, shape, key, path, depth - 1, found);
+            }
+        }
+        _ => {}
+    }
+}

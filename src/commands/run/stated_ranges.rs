@@ -1,0 +1,216 @@
+//! Stated ranges that models left, over all analyses of a run: printed once, at its end.
+
+use gearloss_framework::analysis::Note;
+use serde::{Deserialize, Serialize};
+
+use super::super::solve;
+use super::Runner;
+use crate::output::{Failure, Out, significant};
+
+/// Beginning of each line about a range that was left.
+const OUTSIDE: &str = "outside: ";
+
+/// Values of a model's quantity that were outside of its stated range.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Values {
+    least: f64,
+    greatest: f64,
+    points: u64,
+    outside: u64,
+    unit: String,
+    /// Lower and upper end, and where they come from.
+    range: ([f64; 2], String),
+}
+
+impl Values {
+    fn of(note: &Note) -> Option<Self> {
+        let stated = note.range.filter(|_| note.outside > 0)?;
+        Some(Self {
+            least: note.least,
+            greatest: note.greatest,
+            points: note.points.into(),
+            outside: note.outside.into(),
+            unit: note.unit.to_owned(),
+            range: ([stated.least, stated.greatest], stated.origin.to_owned()),
+        })
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.least = self.least.min(other.least);
+        self.greatest = self.greatest.max(other.greatest);
+        self.points += other.points;
+        self.outside += other.outside;
+    }
+}
+
+/// A quantity of one model that left its range.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Left {
+    /// Path of the model.
+    path: String,
+    /// Symbol.
+    name: String,
+    /// Absent where samples tell only that it was left.
+    values: Option<Values>,
+    /// Analyses.
+    analyses: Vec<String>,
+}
+
+/// All ranges that were left, in the order in which they were first.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct StatedRanges(Vec<Left>);
+
+impl StatedRanges {
+    fn add(&mut self, other: Left) {
+        let known = |own: &&mut Left| (&own.path, &own.name) == (&other.path, &other.name);
+        let Some(own) = self.0.iter_mut().find(known) else {
+            self.0.push(other);
+            return;
+        };
+        match (&mut own.values, other.values) {
+            (Some(values), Some(more)) => values.add(&more),
+            (None, more) => own.values = more,
+            (Some(_), None) => {}
+        }
+        for analysis in other.analyses {
+            if !own.analyses.contains(&analysis) {
+                own.analyses.push(analysis);
+            }
+        }
+    }
+
+    /// Adds those of another run.
+    pub fn extend(&mut self, other: Self) {
+        other.0.into_iter().for_each(|left| self.add(left));
+    }
+
+    /// A line for each quantity and range, with all models that left it.
+    fn lines(&self) -> Vec<String> {
+        let mut groups: Vec<Vec<&Left>> = Vec::new();
+        for left in &self.0 {
+            let range = |left: &Left| left.values.as_ref().map(|values| values.range.clone());
+            let same = |group: &&mut Vec<&Left>| group[0].name == left.name && range(group[0]) == range(left);
+            match groups.iter_mut().find(same) {
+                Some(group) => group.push(left),
+                None => groups.push(vec![left]),
+            }
+        }
+        groups.iter().map(|group| line(group)).collect()
+    }
+}
+
+/// One line of models that left the same range.
+fn line(group: &[&Left]) -> String {
+    let paths: Vec<&str> = group.iter().map(|left| left.path.as_str()).collect();
+    let mut analyses: Vec<&str> = Vec::new();
+    for analysis in group.iter().flat_map(|left| &left.analyses) {
+        if !analyses.contains(&analysis.as_str()) {
+            analyses.push(analysis);
+        }
+    }
+    let (paths, analyses, name) = (paths.join(", "), analyses.join(", "), &group[0].name);
+    let mut values = group.iter().filter_map(|left| left.values.clone());
+    let Some(first) = values.next() else {
+        return format!("{OUTSIDE}{paths}: {name} leaves its stated range at some samples; in {analyses}");
+    };
+    let all = values.fold(first, |mut all, values| {
+        all.add(&values);
+        all
+    });
+    let unit = if all.unit == "-" {
+        String::new()
+    } else {
+        format!(" {}", all.unit)
+    };
+    let ([least, greatest], origin) = &all.range;
+    format!(
+        "{OUTSIDE}{paths}: {name} {} to {}{unit} is outside of {} to {} at {} of {} points ({origin}); in {analyses}",
+        significant(all.least),
+        significant(all.greatest),
+        significant(*least),
+        significant(*greatest),
+        all.outside,
+        all.points
+    )
+}
+
+/// What a section of the report says beyond what is printed while the analyses run.
+pub fn is_printed_at_the_end(line: &str) -> bool {
+    line.starts_with(OUTSIDE)
+}
+
+impl Runner<'_> {
+    /// Keeps what left its stated range for the end of the run; the report has it at the analysis, too.
+    pub(super) fn outside(&self, notes: &[Note], out: &mut Out) {
+        out.only_copy(&solve::outside(notes));
+        for note in notes.iter().filter(|note| note.outside > 0) {
+            self.stated_ranges.borrow_mut().add(Left {
+                path: note.path.clone(),
+                name: note.name.to_owned(),
+                values: Values::of(note),
+                analyses: vec![self.analysis.borrow().clone()],
+            });
+        }
+    }
+
+    /// The same for a range that some samples left.
+    pub(super) fn outside_at_samples(&self, path: &str, name: &str, out: &mut Out) {
+        out.only_copy(&format!(
+            "{OUTSIDE}{path}: {name} leaves its stated range at some samples\n"
+        ));
+        self.stated_ranges.borrow_mut().add(Left {
+            path: path.to_owned(),
+            name: name.to_owned(),
+            values: None,
+            analyses: vec![self.analysis.borrow().clone()],
+        });
+    }
+
+    /// Prints what was kept.
+    pub(super) fn print_stated_ranges(&self, out: &mut Out) -> Result<(), Failure> {
+        let lines = self.stated_ranges.borrow().lines();
+        for line in &lines {
+            out.line(line)?;
+        }
+        if !lines.is_empty() {
+            out.line("")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn left(path: &str, least: f64, analysis: &str) -> Left {
+        Left {
+            path: path.to_owned(),
+            name: "n_dm".to_owned(),
+            values: Some(Values {
+                least,
+                greatest: 9.0,
+                points: 10,
+                outside: 4,
+                unit: "-".to_owned(),
+                range: ([0.0, 5.0], "catalogue".to_owned()),
+            }),
+            analyses: vec![analysis.to_owned()],
+        }
+    }
+
+    #[test]
+    fn one_line_tells_of_all_analyses_and_models() {
+        let mut ranges = StatedRanges::default();
+        ranges.add(left("bearings.B1.model", 2.0, "map"));
+        ranges.add(left("bearings.B1.model", 1.0, "city"));
+        ranges.add(left("bearings.B2.model", 3.0, "map"));
+        assert_eq!(
+            ranges.lines(),
+            [
+                "outside: bearings.B1.model, bearings.B2.model: n_dm 1 to 9 is outside of 0 to 5 at 12 of 30 points \
+              (catalogue); in map, city"
+            ]
+        );
+    }
+}
