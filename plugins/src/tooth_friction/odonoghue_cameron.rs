@@ -14,7 +14,6 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::entraining;
-use crate::boundary::greatest;
 
 const SUM_SPEED: Limit = Limit::new(
     0,
@@ -38,6 +37,11 @@ pub struct ODonoghueCameron {
     pub greatest: f64,
 }
 
+/// Not boundary friction, which the formula exceeds at usual speeds already.
+fn greatest() -> f64 {
+    1.0
+}
+
 impl ToothFrictionModel for ODonoghueCameron {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         let s = at.show("S", "uin", at.ra / INCH * 1e6);
@@ -59,7 +63,7 @@ register!(ToothFriction, "odonoghue_cameron", ODonoghueCameron,
     example: "{ type: odonoghue_cameron }",
     evidence: [
         formula(Evidence::Recalled, "from memory; the magnitude is plausible"),
-        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+        default_of("greatest", Evidence::Assumed, "above what the formula answers at usual speeds, which boundary friction is not"),
     ],
     limits: [SUM_SPEED], observed: [MU]);
 
