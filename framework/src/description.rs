@@ -58,6 +58,12 @@ pub struct GearboxEntry {
     /// Differentials.
     #[serde(default)]
     pub differentials: Ordered<DifferentialEntry>,
+    /// Relative speed over that at which bodies turn together, below which their friction falls in proportion to it, to nothing where
+    /// they turn as one: gears and bearings on a carrier whose planets hardly roll, as in a differential on a straight road. Unevenness
+    /// of real drives turns the sense of such friction all the time. Zero: all of the friction at any relative speed. [-]
+    #[serde(default = "uneven_running")]
+    #[schemars(range(min = 0.0, max = 0.1))]
+    pub locked_below: f64,
     /// Which couplings are engaged in which gear.
     #[serde(default)]
     #[schemars(extend("x-digits-first" = true))]
@@ -88,6 +94,11 @@ pub struct GearboxEntry {
     /// Where values come from.
     #[serde(default)]
     pub sources: Vec<AssumedEntry>,
+}
+
+/// Single-pitch deviations of micrometres on pitches of millimetres; assumed.
+fn uneven_running() -> f64 {
+    1e-3
 }
 
 /// Kind and format version of a gearbox document.

@@ -1,5 +1,6 @@
 //! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
 
+mod grip;
 mod readings;
 mod row;
 mod scratch;
@@ -189,7 +190,7 @@ impl Transmission {
                     }
                 } else {
                     let answer = component_loss(component, &state, &book);
-                    let moment = moment(&answer, speed) * component.count;
+                    let moment = moment(&answer, speed) * self.copies(i, &s.speeds);
                     brake(component.between, speed, moment, &mut s.idle_drags);
                     *loss = answer;
                 }
@@ -279,7 +280,7 @@ impl Transmission {
                 let (component, speed) = (&self.components[i], relative[i]);
                 // Kept when everything was read of it: a copy waits for all that was just written.
                 let loss = loaded_loss(component, &state, uneven_loads, &book);
-                let moment = moment(&loss, speed) * component.count;
+                let moment = moment(&loss, speed) * self.copies(i, speeds);
                 brake(component.between, speed, moment, flow.drags);
                 component_losses[i] = loss;
             }
@@ -292,7 +293,9 @@ impl Transmission {
                 let answer = self.mesh(i, tangential[i], drives, &state, &book);
                 let speed = self.mesh_speed(i, speeds);
                 flow.mesh_loss[i] = match &answer {
-                    Ok(loss) if speed != 0.0 => loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor,
+                    Ok(loss) if speed != 0.0 => {
+                        loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor * self.mesh_grip(i, speeds)
+                    }
                     _ => 0.0,
                 };
                 *loss = answer;

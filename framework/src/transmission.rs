@@ -179,6 +179,8 @@ pub struct Transmission {
     pub(crate) supports: Vec<String>,
     /// True where the planets of a set carry different loads.
     pub(crate) uneven: bool,
+    /// Relative speed over that at which bodies turn together, below which they hold each other.
+    pub(crate) locked_below: f64,
     /// Findings that do not keep the transmission from being evaluated.
     pub warnings: Vec<Diagnostic>,
     /// Temperature of the oil as described, where it is not found by balance. \[degC\]

@@ -433,7 +433,9 @@ impl Row<'_> {
                     #[inline(always)]
                     || {
                         let sum = components[i].sound_sum(untaken);
-                        brake_lanes(component, speed, &sum, components[i].measure(), flow.drags);
+                        let count = t.copies(i, state.speeds);
+                        let between = component.between;
+                        brake_lanes(between, count, speed, &sum, components[i].measure(), flow.drags);
                     },
                 );
                 leave(alone_lanes, &components[i]);
@@ -470,7 +472,8 @@ impl Row<'_> {
                         flow.mesh_loss[i] = if at.speed == 0.0 {
                             Lane::all(0.0)
                         } else {
-                            meshes[i].total_watts(at.speed, |watts| watts * mesh.seat.count * mesh.loss_factor)
+                            let grip = t.mesh_grip(i, state.speeds);
+                            meshes[i].total_watts(at.speed, |watts| watts * mesh.seat.count * mesh.loss_factor * grip)
                         };
                     },
                 );
@@ -633,7 +636,7 @@ impl Row<'_> {
                     *watts = match part.kind {
                         PartKind::Component(i) if settled.relative[i] == 0.0 => Lane::ZERO,
                         PartKind::Component(i) => {
-                            let count = t.components[i].count;
+                            let count = t.copies(i, state.speeds);
                             components[i].total_watts(settled.relative[i], |watts| watts * count)
                         }
                         PartKind::Mesh(i) => {
@@ -711,11 +714,11 @@ fn leave(alone: &mut [bool; LANES], losses: &LossLanes) {
 
 /// As [`brake`] in all lanes.
 #[inline(always)]
-fn brake_lanes(component: &Component, speed: f64, sums: &Lane, measure: Measure, drags: &mut [Lane]) {
-    for (member, sense) in component.between.into_iter().zip([-1.0, 1.0]) {
+fn brake_lanes(between: [Option<u16>; 2], count: f64, speed: f64, sums: &Lane, measure: Measure, drags: &mut [Lane]) {
+    for (member, sense) in between.into_iter().zip([-1.0, 1.0]) {
         let Some(member) = member else { continue };
         let drags = &mut drags[member as usize];
-        let signed = |moment: f64| moment * component.count * speed.signum() * sense;
+        let signed = |moment: f64| moment * count * speed.signum() * sense;
         *drags = match measure {
             Measure::Moment => each(|i| drags[i] + signed(sums[i])),
             Measure::Power => each(|i| drags[i] + signed(sums[i] / speed.abs())),

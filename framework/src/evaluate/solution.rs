@@ -72,7 +72,7 @@ impl Transmission {
                 (
                     &s.component_losses[i],
                     relative,
-                    self.components[i].count,
+                    self.copies(i, &s.speeds),
                     relative == 0.0,
                 )
             }

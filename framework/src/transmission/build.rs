@@ -179,6 +179,7 @@ impl Transmission {
                 imported,
                 supports: supports.iter().map(|s| s.path.clone()).collect(),
                 uneven: sharing.iter().any(Option::is_some),
+                locked_below: entry.locked_below,
                 warnings,
                 oil_temperature: entry.thermal.oil,
                 thermal_mode: entry.thermal.mode,

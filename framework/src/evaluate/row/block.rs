@@ -51,7 +51,7 @@ impl Block<'_> {
         let info = &t.parts[part];
         match info.kind {
             PartKind::Component(i) if t.hangs_on_torque(info) => {
-                let (speed, count) = (s.state.relative[i], t.components[i].count);
+                let (speed, count) = (s.state.relative[i], t.copies(i, &s.state.speeds));
                 if speed == 0.0 {
                     return Lane::all(0.0);
                 }
