@@ -337,3 +337,34 @@ fn texts_of_tables_are_no_formulas() {
     let page = fs::read_to_string(folder.join("results/report.html")).unwrap();
     assert!(!page.contains("<!--<script>"), "a name breaks the page");
 }
+
+#[test]
+fn analyses_that_hold_their_points_refuse_too_many_of_them() {
+    let folder = folder("many");
+    let span = |unit: &str| format!("{{ from: 1 {unit}, to: 90000 {unit}, step: 1 {unit} }}");
+    let wide = format!("torque: {}, speed: {}", span("Nm"), span("rpm"));
+    let grid = "torque: { from: 1 Nm, to: 100 Nm, step: 1 Nm }, speed: { from: 10 rpm, to: 1000 rpm, step: 10 rpm }";
+    let inputs = "[{ path: lubricants.oil.viscosity.kv40, percent: 5 }]";
+    for analysis in [
+        "{ type: compare, grid: wide, base: own, against: [own] }".to_owned(),
+        format!("{{ type: uncertainty, grid: field, samples: 65536, inputs: {inputs} }}"),
+        format!("{{ type: sensitivity, grid: field, methods: [sobol], samples: 65536, parameters: {inputs} }}"),
+        format!("{{ type: sweep, path: seals.front.diameter, values: [20 mm, 21 mm], {wide} }}"),
+        format!("{{ type: breakdown, {wide} }}"),
+        format!("{{ type: temperature_sweep, oil_temperature: [20 degC], {wide} }}"),
+        format!(
+            "{{ type: component_compare, component: seals.front, models: {{ own: {{ type: iso14179_2 }} }}, {wide} }}"
+        ),
+    ] {
+        let study = format!(
+            "gearloss: study/1\ngearboxes: {{ ours: gearbox.yaml }}\ngrids: {{ field: {{ {grid} }}, wide: {{ torque: {{ from: 1 Nm, to: 4000 Nm, step: 1 Nm }}, \
+             speed: {{ from: 1 rpm, to: 4000 rpm, step: 1 rpm }} }} }}\nanalyses: {{ many: {analysis} }}\n"
+        );
+        fs::write(folder.join("study.yaml"), study).unwrap();
+        refused(
+            &folder,
+            &["run", "study.yaml"],
+            &["more points", "than the 2000000", "analyses"],
+        );
+    }
+}

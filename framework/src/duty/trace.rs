@@ -35,6 +35,9 @@ pub struct Trace {
     pub notes: Vec<String>,
 }
 
+/// The most intervals that a series may have, repeated: a gigabyte of them.
+const MOST_INTERVALS: usize = 5_000_000;
+
 /// A step longer than this many median steps is a gap.
 const GAP: f64 = 5.0;
 
@@ -132,6 +135,17 @@ impl Trace {
     /// # Errors
     /// If the rows tell the vehicle's speed alone and no vehicle is stated.
     pub fn intervals(&self, vehicle: Option<&Vehicle>) -> Result<Vec<Interval>, MeasuredFault> {
+        let count = self.samples.len().saturating_mul(self.repeat as usize);
+        if count > MOST_INTERVALS {
+            return Err(fault(
+                format!(
+                    "{} rows {} times are more than {MOST_INTERVALS} intervals",
+                    self.samples.len(),
+                    self.repeat
+                ),
+                "repeat it less often, or give fewer rows",
+            ));
+        }
         let mut once = Vec::with_capacity(self.samples.len());
         for pair in self.samples.windows(2) {
             let [from, to] = pair else { continue };

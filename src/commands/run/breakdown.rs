@@ -29,6 +29,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
     for b in &built {
         let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &b.transmission)?;
         let loads = loads(runner, &path, entry, b)?;
+        runner.holds(&path, speeds.len(), loads.len())?;
         let gear = gear_of(entry.gear.as_deref(), &b.transmission);
         let ratio = ratio(runner, b, gear)?;
         let at = |load: &Load, speed: f64| Given {
@@ -278,6 +279,7 @@ pub fn temperature_sweep(
         let t = &b.transmission;
         let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, t)?;
         let torques = torques(runner, &format!("{path}.torque"), &entry.torque, t)?;
+        runner.holds(&path, torques.len().saturating_mul(speeds.len()), temperatures.len())?;
         let gear = gear_of(entry.gear.as_deref(), t);
         let mut rows = Vec::new();
         for torque in &torques {

@@ -62,6 +62,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
     }
     let torques = torques(runner, &format!("{path}.torque"), &entry.torque, &own[0].transmission)?;
     let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &own[0].transmission)?;
+    runner.holds(&path, torques.len().saturating_mul(speeds.len()), entry.models.len())?;
     let points: Vec<(f64, f64)> = torques
         .iter()
         .flat_map(|t| speeds.iter().map(move |w| (*t, *w)))

@@ -39,6 +39,10 @@ impl Built<'_> {
     }
 }
 
+/// The most points that an analysis may hold at a time, some of them as samples; with all that is made of each they take a few
+/// gigabytes. Maps over grids hold none.
+const MOST_HELD: usize = 2_000_000;
+
 /// What all analyses of one run share.
 pub struct Runner<'a> {
     pub(super) language: &'a Language,
@@ -217,6 +221,7 @@ impl Runner<'_> {
 
     /// Solves all points and holds them.
     pub(super) fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
+        self.holds("analyses", points.field.len(), 1)?;
         let mut all = GridResult::default();
         self.solve_pieces(built, points, None, &held, &mut |piece| {
             all.add(piece);
@@ -321,6 +326,24 @@ impl Runner<'_> {
         self.study
             .findings(vec![Diagnostic::error(path, message.into()).mend(mend)])
             .into()
+    }
+
+    /// Refuses what would hold too many points: so many times so many.
+    pub(super) fn holds(&self, path: &str, points: usize, times: usize) -> Result<(), Failure> {
+        if points.saturating_mul(times) <= MOST_HELD {
+            return Ok(());
+        }
+        let of = if times > 1 {
+            format!(", {times} times {points},")
+        } else {
+            format!(", {points},")
+        };
+        let message = format!("more points{of} than the {MOST_HELD} that an analysis can hold");
+        Err(self.wrong(
+            path,
+            message,
+            "take fewer samples, values or points; a `map` over a grid takes more, piece by piece",
+        ))
     }
 
     /// Counts the limits that were left.

@@ -142,6 +142,7 @@ fn found<'a>(
         (Method::Sobol, samples * (parameters + 2)),
     ];
     let count: usize = runs.iter().filter(|(method, _)| wanted(*method)).map(|(_, n)| n).sum();
+    runner.holds(path, points.field.len(), count)?;
     let bar = runner.bar(count as u64, &built.name);
     let trial = Trial::new(runner, &built);
     let seen = Mutex::new(Left::new());

@@ -59,6 +59,8 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
                 let speeds = speeds(runner, &format!("{path}.speed"), &entry.speed, &built.transmission)?;
                 let mut points = runner.points(&built.transmission, gear, torques, speeds);
                 points.terms = entry.by == By::Term;
+                let held: usize = all.iter().map(|at| at.points.len()).sum();
+                runner.holds(&path, held + points.field.len(), 1)?;
                 if runner.checked(&built, &points)? {
                     continue;
                 }

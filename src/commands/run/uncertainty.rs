@@ -60,6 +60,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
     for built in built {
         let (torques, speeds) = grid_axes(runner, &entry.grid, grid, &built.transmission)?;
         let points = runner.points(&built.transmission, gear, torques.clone(), speeds.clone());
+        runner.holds(&format!("{path}.samples"), points.field.len(), entry.samples as usize)?;
         let inputs = Input::all(runner, &path, &entry.inputs, &built)?;
         if runner.checked(&built, &points)? {
             continue;

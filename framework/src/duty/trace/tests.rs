@@ -287,3 +287,14 @@ fn a_speed_of_the_vehicle_needs_the_vehicle() {
     let f = trace.intervals(None).unwrap_err();
     assert_eq!(f.message, "the duty tells the speed of a vehicle and no torque");
 }
+
+#[test]
+fn a_series_is_not_repeated_into_more_intervals_than_are_held() {
+    let trace = Trace {
+        samples: vec![Sample::default(); 6000],
+        repeat: 1000,
+        ..Trace::default()
+    };
+    let refused = trace.intervals(None).unwrap_err();
+    assert_eq!(refused.message, "6000 rows 1000 times are more than 5000000 intervals");
+}

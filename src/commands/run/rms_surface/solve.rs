@@ -59,6 +59,7 @@ pub fn pairs(
 ) -> Result<Vec<Pair>, Failure> {
     let [x, y] = axes;
     let count = x.values.len() * y.values.len();
+    runner.holds("analyses", rows.measured.rows.len(), count)?;
     let bar = runner.bar(count as u64, &built.name);
     let trial = Trial::new(runner, built);
     let speeds = trial.speeds(rows);
