@@ -205,7 +205,7 @@ fn a_run_that_was_killed_is_gone_on_with() {
         .unwrap();
     let results = folder.join("results");
     // Until it has begun to write; it takes a second from there.
-    while !(results.is_dir() && names(&results).iter().any(|name| name.ends_with(".part"))) {
+    while !(results.is_dir() && names(&results).iter().any(|name| name.contains(".part"))) {
         assert!(run.try_wait().unwrap().is_none(), "it ended before it was seen");
         std::thread::sleep(std::time::Duration::from_millis(1));
     }
@@ -321,13 +321,8 @@ fn texts_of_tables_are_no_formulas() {
     fs::write(folder.join("points.csv"), points).unwrap();
     let analysis =
         "analyses: { tests: { type: operating_points, data: { file: points.csv }, write: [csv, json, svg] } }\n";
-    let study = STUDY
-        .lines()
-        .take(3)
-        .map(|line| format!("{line}\n"))
-        .collect::<String>()
-        + analysis;
-    fs::write(folder.join("study.yaml"), study).unwrap();
+    let head = STUDY.split("analyses:").next().unwrap();
+    fs::write(folder.join("study.yaml"), head.to_owned() + analysis).unwrap();
     let output = gearloss(&folder, &["run", "study.yaml"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let csv = fs::read_to_string(folder.join("results/tests.csv")).unwrap();

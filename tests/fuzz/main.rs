@@ -101,7 +101,7 @@ fn all_of(folder: &Path, mut first: u64, end: u64, stride: u64) -> String {
             .and_then(|line| line.split(' ').next()?.parse::<u64>().ok());
         let err = fs::read_to_string(folder.join("err")).unwrap_or_default();
         let word = err.lines().last().unwrap_or_default();
-        fs::write(&log, format!("{}? ? 0 0 ended the process, {status}: {word}\n", text)).unwrap();
+        fs::write(&log, format!("{text}? ? 0 0 ended the process, {status}: {word}\n")).unwrap();
         ended += 1;
         match last {
             Some(last) if ended < 20 => first = last + stride,

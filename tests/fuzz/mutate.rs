@@ -226,10 +226,10 @@ fn changed(text: &str, scalars: &[String], random: &mut Random) -> String {
         (6, Some((x, _))) => format!("{x} {}", random.one(&UNITS)),
         (7, Some((_, unit))) => format!("{}{unit}", "9".repeat(1 + random.below(400))),
         (0..=4, None) => random.one(scalars).clone(),
-        (5, _) => random.one(&NUMBERS).to_string(),
+        (5, _) => (*random.one(&NUMBERS)).to_owned(),
         (8, _) => typo(text, random),
         (9, _) if random.once_in(20) => "long ".repeat(1 + random.below(4000)),
-        _ => random.one(&ODD).to_string(),
+        _ => (*random.one(&ODD)).to_owned(),
     }
 }
 
@@ -280,7 +280,7 @@ fn rename(tree: &mut Tree, way: &[usize], words: &Words, random: &mut Random) {
         let key = &mut map[*last].0;
         *key = match random.below(4) {
             0 => random.one(&words.keys).clone(),
-            1 => random.one(&ODD).to_string(),
+            1 => (*random.one(&ODD)).to_owned(),
             _ => typo(key, random),
         };
     }
@@ -359,7 +359,7 @@ pub fn table(csv: &mut String, random: &mut Random) {
             // A whole column.
             for cells in &mut lines {
                 if let Some(cell) = cells.get_mut(column).filter(|cell| number(cell).is_some()) {
-                    *cell = random.one(&NUMBERS).to_string();
+                    *cell = (*random.one(&NUMBERS)).to_owned();
                 }
             }
         }

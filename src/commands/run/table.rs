@@ -112,7 +112,7 @@ impl Lines {
 /// as the sign of a text. Numbers keep their sign.
 fn inert(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
-    if is_formula && text.parse().is_ok_and(f64::is_finite) || !is_formula {
+    if !is_formula || text.parse().is_ok_and(f64::is_finite) {
         Cow::Borrowed(text)
     } else {
         Cow::Owned(format!("'{text}"))
