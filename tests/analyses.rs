@@ -71,7 +71,16 @@ fn models_of_one_component_stand_beside_measured_points() {
     let first = run(
         "compare",
         analyses,
-        &[("measured.csv", "torque [Nm],speed [rpm],loss [W]\n10,5000,1\n")],
+        &[(
+            "measured.csv",
+            "torque [Nm],speed [rpm],loss [W]\n10,5000,1\n10,10000,1e-300\n",
+        )],
+    );
+    // A loss that nobody can have measured has no deviation in percent.
+    assert!(
+        first.1.contains("note: 1 points are omitted") && !first.1.contains("inf"),
+        "{}",
+        first.1
     );
     let compared = json(&first.0, "b1")["component_comparison"].clone();
     let loss = |model: usize, point: usize| compared["models"][model]["points"][point]["loss_w"].as_f64().unwrap();

@@ -15,6 +15,7 @@ mod folder;
 mod identify;
 mod inputs;
 mod map;
+mod measurable;
 mod operating_points;
 mod parquet;
 mod parts;

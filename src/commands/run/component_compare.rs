@@ -15,6 +15,7 @@ use serde_json::{Value, json};
 
 use super::super::solve::RPM;
 use super::map::{spread, tidy};
+use super::measurable::{is_measurable, note};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, speeds, torques};
 use crate::output::{Failure, Out, Table, fixed, number};
@@ -100,6 +101,16 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
             number(Some(*rms), 1),
             count
         ))?;
+    }
+    let omitted = |model: &Model<'_>| {
+        let pairs = model.answers[points.len()..].iter().zip(&measured);
+        pairs
+            .filter(|(answer, m)| watts(answer).is_some_and(|w| !is_measurable(m.watts, w)))
+            .count()
+    };
+    let omitted = models.iter().map(omitted).max().unwrap_or(0);
+    if omitted > 0 {
+        out.line(note(omitted, "the model minus measurement"))?;
     }
     out.line("")?;
     let header = [
@@ -393,7 +404,9 @@ fn deviations(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]
             let gaps: Vec<f64> = model.answers[points.len()..]
                 .iter()
                 .zip(measured)
-                .filter_map(|(answer, m)| watts(answer).map(|w| 100.0 * (w - m.watts) / m.watts))
+                .filter_map(|(answer, m)| watts(answer).map(|w| (w, m.watts)))
+                .filter(|(computed, seen)| is_measurable(*seen, *computed))
+                .map(|(computed, seen)| 100.0 * (computed - seen) / seen)
                 .collect();
             let count = gaps.len() as f64;
             (!gaps.is_empty()).then(|| {

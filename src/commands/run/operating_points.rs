@@ -11,6 +11,7 @@ use serde_json::{Map, Value, json};
 use super::super::solve::RPM;
 use super::Runner;
 use super::map::tidy;
+use super::measurable::{is_measurable, note};
 use super::rows::Solved;
 use super::shares::{Shares, together};
 use super::write::{cell, head, picture, write};
@@ -267,16 +268,7 @@ fn show(
         ))?;
     }
     if omitted > 0 {
-        out.line(format!(
-            "note: {omitted} points are omitted from the loss minus measurement in %: their measured loss is below a millionth of \
-             the computed one"
-        ))?;
+        out.line(note(omitted, "the loss minus measurement"))?;
     }
     Ok(())
-}
-
-/// Whether a deviation can be stated as a share of a measured loss: no instrument sees a millionth of the loss that is computed,
-/// and a share of nothing is no number.
-fn is_measurable(seen: f64, loss: f64) -> bool {
-    seen != 0.0 && seen.abs() >= 1e-6 * loss.abs()
 }

@@ -190,9 +190,11 @@ pub fn copy(runner: &Runner<'_>, file: &str, mut from: impl Read) -> Result<(), 
     place.done(written.map_err(|e| e.to_string()))
 }
 
-/// A cell: the number with all its digits, or nothing.
+/// A cell: the number with all its digits; nothing where it is none.
 pub fn cell(value: Option<f64>) -> String {
-    value.map_or_else(String::new, |x| format!("{x}"))
+    value
+        .filter(|x| x.is_finite())
+        .map_or_else(String::new, |x| format!("{x}"))
 }
 
 /// FNV-1a, 64 bit: tells whether an input changed, no more.
