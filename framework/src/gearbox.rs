@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, read_yaml};
+use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, Span, read_yaml};
 use crate::files::{LONGEST_TEXT, read_text};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
@@ -160,7 +160,7 @@ impl Gearbox {
         sources: &mut Sources,
     ) -> Result<Self, Vec<Diagnostic>> {
         let mut found = Vec::new();
-        let node = chain(text, name, &folder, sources, &mut found, &mut Vec::new());
+        let node = chain(text, name, &folder, sources, &mut found, &mut Vec::new(), None);
         let Some(node) = node.filter(|_| found.is_empty()) else {
             return Err(found);
         };
@@ -295,7 +295,7 @@ pub(crate) fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Optio
     Some(Diagnostic::error("gearloss", message).at(key.span).mend(mend))
 }
 
-/// A document laid over what it extends.
+/// A document laid over what it extends; `from` is where another one names it.
 fn chain(
     text: &str,
     name: &str,
@@ -303,6 +303,7 @@ fn chain(
     sources: &mut Sources,
     found: &mut Vec<Diagnostic>,
     seen: &mut Vec<PathBuf>,
+    from: Option<Span>,
 ) -> Option<Node> {
     let source = sources.add(name, text);
     let read = read_yaml(source, text);
@@ -311,7 +312,15 @@ fn chain(
         return None;
     }
     if let Some(error) = other_kind(&read.node, DocumentKind::Gearbox, name) {
-        found.push(error);
+        found.push(match from {
+            Some(span) => Diagnostic::error(
+                "extends",
+                format!("{name} is a study, and only a gearbox can be extended"),
+            )
+            .at(span)
+            .mend("name a gearbox file, such as one under `gearboxes` of that study"),
+            None => error,
+        });
         return None;
     }
     let Some(base) = read.node.get("extends").and_then(Node::text) else {
@@ -337,7 +346,7 @@ fn chain(
         }
         Ok(text) => {
             let inner = file.parent().unwrap_or(Path::new("")).to_path_buf();
-            let base = chain(&text, &file.display().to_string(), &inner, sources, found, seen)?;
+            let base = chain(&text, &file.display().to_string(), &inner, sources, found, seen, span)?;
             Some(read.node.over(base))
         }
     }

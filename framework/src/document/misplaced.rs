@@ -52,11 +52,7 @@ pub(super) fn help(schema: &Schema, fields: &[(String, Field)], open: &[&str], k
     if let Some(close) = close {
         return meant(close);
     }
-    if !inside {
-        if let Some(path) = below.first() {
-            return words(format!("`{key}` is a key at `{path}`: move it there"));
-        }
-    } else {
+    if inside {
         let mut all = Vec::new();
         if let Shape::Record(fields) = schema.follow(&schema.root) {
             if fields.iter().any(|(name, _)| name == key) {
@@ -68,9 +64,10 @@ pub(super) fn help(schema: &Schema, fields: &[(String, Field)], open: &[&str], k
                 search(schema, &field.shape, key, name, DEPTH, &mut all);
             }
         }
-        if let Some(path) = all.first() {
-            return words(format!("`{key}` is a key at `{path}`: move it there"));
-        }
+        below = all;
+    }
+    if let Some(path) = below.first() {
+        return words(format!("`{key}` is a key at `{path}`: move it there"));
     }
     Help {
         meant: None,

@@ -131,7 +131,7 @@ pub(super) fn fill(
                 format!("no section of components is called `{section}`"),
             )),
             Err(reason) => {
-                found.push(Diagnostic::error(path, reason).mend("file names are relative to the gearbox document"))
+                found.push(Diagnostic::error(path, reason).mend("file names are relative to the gearbox document"));
             }
         }
     }

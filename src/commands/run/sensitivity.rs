@@ -129,12 +129,6 @@ fn found<'a>(
         let mend = "narrow the ranges, or leave points without a value out of the grid";
         runner.wrong(path, message, mend)
     };
-    if runner.checked(&built, points)? {
-        return Ok(None);
-    }
-    let nominal = runner.solve(&built, points)?.points;
-    let outputs = Outputs::of(&built.transmission, &nominal);
-    let values = outputs.values(&built.transmission, &nominal).map_err(no_value)?;
     let (parameters, trajectories, samples) = (ranges.len(), entry.trajectories as usize, entry.samples as usize);
     let runs = [
         (Method::Local, 1 + 2 * parameters),
@@ -143,6 +137,12 @@ fn found<'a>(
     ];
     let count: usize = runs.iter().filter(|(method, _)| wanted(*method)).map(|(_, n)| n).sum();
     runner.holds(path, points.field.len(), count)?;
+    if runner.checked(&built, points)? {
+        return Ok(None);
+    }
+    let nominal = runner.solve(&built, points)?.points;
+    let outputs = Outputs::of(&built.transmission, &nominal);
+    let values = outputs.values(&built.transmission, &nominal).map_err(no_value)?;
     let bar = runner.bar(count as u64, &built.name);
     let trial = Trial::new(runner, &built);
     let seen = Mutex::new(Left::new());

@@ -18,8 +18,8 @@ struct Values {
     points: u64,
     outside: u64,
     unit: String,
-    /// Lower and upper end, and where they come from.
-    range: ([f64; 2], String),
+    /// Both ends in words, because JSON knows no range without end, and where they come from.
+    range: (String, String),
 }
 
 impl Values {
@@ -31,7 +31,10 @@ impl Values {
             points: note.points.into(),
             outside: note.outside.into(),
             unit: note.unit.to_owned(),
-            range: ([stated.least, stated.greatest], stated.origin.to_owned()),
+            range: (
+                format!("{} to {}", significant(stated.least), significant(stated.greatest)),
+                stated.origin.to_owned(),
+            ),
         })
     }
 
@@ -122,13 +125,11 @@ fn line(group: &[&Left]) -> String {
     } else {
         format!(" {}", all.unit)
     };
-    let ([least, greatest], origin) = &all.range;
+    let (range, origin) = &all.range;
     format!(
-        "{OUTSIDE}{paths}: {name} {} to {}{unit} is outside of {} to {} at {} of {} points ({origin}); in {analyses}",
+        "{OUTSIDE}{paths}: {name} {} to {}{unit} is outside of {range} at {} of {} points ({origin}); in {analyses}",
         significant(all.least),
         significant(all.greatest),
-        significant(*least),
-        significant(*greatest),
         all.outside,
         all.points
     )
@@ -193,7 +194,7 @@ mod tests {
                 points: 10,
                 outside: 4,
                 unit: "-".to_owned(),
-                range: ([0.0, 5.0], "catalogue".to_owned()),
+                range: ("0 to 5".to_owned(), "catalogue".to_owned()),
             }),
             analyses: vec![analysis.to_owned()],
         }
