@@ -181,8 +181,13 @@ impl Gearbox {
     /// # Errors
     /// Everything that resolving finds, with places.
     pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
-        resolve(language, &self.files, &self.value, choice)
-            .map_err(|list| self.findings(list.into_iter().map(|d| self.in_own_set(d).code(Code::Choice)).collect()))
+        resolve(language, &self.files, &self.value, choice).map_err(|list| {
+            self.findings(
+                list.into_iter()
+                    .map(|d| self.in_own_set(d).code(Code::Choice))
+                    .collect(),
+            )
+        })
     }
 
     /// A finding about a path that the document's own `set` changes is told there.

@@ -137,7 +137,12 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
     if flow && !transmission.supports().is_empty() {
         let mut loads = Table::new(&["support", "radial N", "axial N", "tilting Nm"]);
         let row = |path: String, load: SupportLoad| {
-            vec![path, fixed(load.radial, 1), fixed(load.axial, 1), fixed(load.tilting, 3)]
+            vec![
+                path,
+                fixed(load.radial, 1),
+                fixed(load.axial, 1),
+                fixed(load.tilting, 3),
+            ]
         };
         for (i, path) in transmission.supports().iter().enumerate() {
             loads.row(row(path.clone(), solution.load(i)));

@@ -15,12 +15,7 @@ use crate::output::{End, Failure, Out};
 
 /// Prints one document for all files. Wrong files are told by what it says and by how the program ends, not by what is printed
 /// beside it.
-pub fn run(
-    language: &Language,
-    args: &CheckArgs,
-    deny: Option<Evidence>,
-    out: &mut Out,
-) -> Result<End, Failure> {
+pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &mut Out) -> Result<End, Failure> {
     let mut end = End::Fine;
     let mut wrong = false;
     let mut files = Vec::new();

@@ -188,7 +188,9 @@ fn whole(runner: &Runner<'_>, work: &Work<'_>, count: &mut Count) -> Result<(), 
     let failed = match own.attempt(work.name, work.analysis, &mut Out::nowhere()) {
         Ok(()) => false,
         Err(failure) => {
-            let Some(text) = failure.text() else { return Err(failure) };
+            let Some(text) = failure.text() else {
+                return Err(failure);
+            };
             Out::error().text(&text)?;
             count.failed += 1;
             true
