@@ -341,7 +341,7 @@ fn analyses_that_hold_their_points_refuse_too_many_of_them() {
     let grid = "torque: { from: 1 Nm, to: 100 Nm, step: 1 Nm }, speed: { from: 10 rpm, to: 1000 rpm, step: 10 rpm }";
     let inputs = "[{ path: lubricants.oil.viscosity.kv40, percent: 5 }]";
     for analysis in [
-        "{ type: compare, grid: wide, base: own, against: [own] }".to_owned(),
+        "{ type: compare, grid: wide, base: mine, against: [mine] }".to_owned(),
         format!("{{ type: uncertainty, grid: field, samples: 65536, inputs: {inputs} }}"),
         format!("{{ type: sensitivity, grid: field, methods: [sobol], samples: 65536, parameters: {inputs} }}"),
         format!("{{ type: sweep, path: seals.front.diameter, values: [20 mm, 21 mm], {wide} }}"),
@@ -352,7 +352,7 @@ fn analyses_that_hold_their_points_refuse_too_many_of_them() {
         ),
     ] {
         let study = format!(
-            "gearloss: study/1\ngearboxes: {{ ours: gearbox.yaml }}\ngrids: {{ field: {{ {grid} }}, wide: {{ torque: {{ from: 1 Nm, to: 4000 Nm, step: 1 Nm }}, \
+            "gearloss: study/1\ngearboxes: {{ ours: gearbox.yaml }}\nmodel_sets: {{ mine: {{ seal: none }} }}\ngrids: {{ field: {{ {grid} }}, wide: {{ torque: {{ from: 1 Nm, to: 4000 Nm, step: 1 Nm }}, \
              speed: {{ from: 1 rpm, to: 4000 rpm, step: 1 rpm }} }} }}\nanalyses: {{ many: {analysis} }}\n"
         );
         fs::write(folder.join("study.yaml"), study).unwrap();
