@@ -351,7 +351,7 @@ mod tests {
             "{% extends 'report' %}",
         ] {
             let fault = page(&report(), Some(other)).unwrap_err();
-            assert!(fault.contains("non-existing template"), "{fault}");
+            assert!(fault.contains("template not found"), "{fault}");
         }
     }
 }

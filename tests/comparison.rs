@@ -327,8 +327,11 @@ fn churning_table(out: &mut String, language: &Language) {
             .map(|(model, printed)| {
                 let speed = n * RPM;
                 // A trace of oil at the other gear makes the splash factor one.
-                let at = json!({ "speed": speed, "speed_2": -speed, "tip_dip": 0.045, "dip": 0.045, "tip_dip_2": 1e-9, "dip_2": 0.0,
+                let mut at = json!({ "speed": speed, "speed_2": -speed, "tip_dip_2": 1e-9, "dip_2": 0.0,
                     "nu": nu_si, "eta": nu_si * 842.0, "rho": 842.0, "towards_mesh": 0.0 });
+                // The independent computation gives every law the same depth, whichever circle the law counts it from.
+                let from_reference = ["changenet", "shore"].iter().any(|name| model.contains(name));
+                at[if from_reference { "dip" } else { "tip_dip" }] = json!(0.045);
                 let (watts, _) = drag(language, model, &part, at.as_object().unwrap());
                 (watts / speed, printed)
             })

@@ -161,7 +161,7 @@ fn a_wltc_takes_few_evaluations_and_few_passes() {
     }
     // With the bodies known there is one way along each path, and some three passes at each of its places.
     assert_eq!((sum.0 as usize) * laws[0].1.len(), sum.2);
-    assert_eq!(sum, (312, 18970, 6240));
+    assert_eq!(sum, (312, 29049, 9984));
 }
 
 /// Runs a study of one duty with the drive unit; what it says to standard error.

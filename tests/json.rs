@@ -52,6 +52,21 @@ fn check_tells_what_is_fine() {
         serde_json::json!(["first", "second", "neutral"])
     );
     assert!(files[0]["resolved"].is_null());
+    let ratio = |gear: &str| {
+        let ratios = files[0]["ratios"].as_array().unwrap();
+        ratios.iter().find(|r| r["gear"] == gear).unwrap()["ratio"].as_f64()
+    };
+    let stage = |mesh: &str| {
+        let stages = files[0]["stages"].as_array().unwrap();
+        stages.iter().find(|s| s["mesh"] == format!("meshes.{mesh}")).unwrap()["ratio"]
+            .as_f64()
+            .unwrap()
+    };
+    // Both stages are external pairs, so the output turns as the input does.
+    let product = stage("M1") * stage("M2");
+    assert!((ratio("first").unwrap() / product - 1.0).abs() < 1e-12, "{product}");
+    let ratios = files[0]["ratios"].as_array().unwrap();
+    assert!(ratios.iter().all(|r| r["gear"] != "neutral"), "{ratios:?}");
     let (value, code) = check(&["examples/two-speed-ev/gearbox.yaml", "--resolved", "--deny", "disputed"]);
     assert_eq!((code, &value["files"][0]["denied"]), (1, &true.into()));
     assert_eq!(value["files"][0]["resolved"]["gearloss"], "gearbox/1");
@@ -93,6 +108,21 @@ fn every_finding_has_its_code_place_and_help() {
     assert_eq!(wrong["line"], 10);
     // The place that says why stands beside.
     assert!(!of("duplicate_key")["related"].as_array().unwrap().is_empty());
+}
+
+#[test]
+fn options_of_gearboxes_are_refused_for_studies() {
+    for option in [
+        &["--set", "a=1"][..],
+        &["--models", "joint"],
+        &["--resolved"],
+        &["--deny", "recalled"],
+    ] {
+        let output = gearloss(&[&["check", "examples/two-speed-ev/study.yaml"], option].concat());
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(error.contains(&format!("{} has no meaning for", option[0])), "{error}");
+        assert_eq!(output.status.code(), Some(2));
+    }
 }
 
 #[test]

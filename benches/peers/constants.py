@@ -35,7 +35,7 @@ BEARINGS = {
 OIL_LEVEL, OIL_VOLUME = -49e-3, 1.2e-3
 RQ = hypot(0.375e-6, 0.375e-6)
 MODULUS = 206e9 / (1.0 - 0.3**2)
-# Three points on each smooth piece.
+# Three points on each smooth piece; the program takes seven.
 GAUSS = ((-sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (sqrt(0.6), 5.0 / 9.0))
 # V_M of the drag of balls at H/d_m of 0.35 and 0.40, between which both bearings of the output lie.
 V_M = ((0.35, 4.33e-4), (0.40, 4.80e-4))

@@ -33,6 +33,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     let mut end = End::Fine;
     for file in &args.files {
         if is_study(file) {
+            belongs_to_gearboxes(args, file)?;
             let refused = super::run::refused(language, file);
             if refused.is_empty() {
                 out.line(format!("{}: fine", file.display()))?;
@@ -60,6 +61,23 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
         Ok(end)
     } else {
         Err(Failure::Input(wrong))
+    }
+}
+
+/// Refuses options that say nothing of a study.
+fn belongs_to_gearboxes(args: &CheckArgs, file: &std::path::Path) -> Result<(), Failure> {
+    let given = [
+        ("--set", !args.choice.set.is_empty()),
+        ("--models", args.choice.models.is_some()),
+        ("--resolved", args.resolved),
+        ("--deny", args.deny.is_some()),
+    ];
+    match given.into_iter().find(|(_, given)| *given) {
+        Some((option, _)) => Err(Failure::input(
+            format!("{option} has no meaning for {}, which is a study", file.display()),
+            format!("check its gearbox with {option}, or the study without"),
+        )),
+        None => Ok(()),
     }
 }
 

@@ -61,7 +61,7 @@ pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFa
     if number == 0 {
         return Err(QuantityFault::new(
             format!("`{text}` is not a quantity"),
-            format!("write a {} such as {}", unit.dimension.name(), example(unit)),
+            format!("write {} such as {}", unit.dimension.with_article(), example(unit)),
         ));
     }
     let (digits, rest) = text.split_at(number);
@@ -91,21 +91,21 @@ pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFa
             match close {
                 Some(close) if unit.dimension != Dimension::None => format!("write `{digits} {close}`"),
                 _ if unit.dimension == Dimension::None => format!("this is a plain number: write {digits}"),
-                _ => format!("a {} is written in {}", unit.dimension.name(), known.join(", ")),
+                _ => format!("{} is written in {}", unit.dimension.with_article(), known.join(", ")),
             },
         ));
     };
     if written.dimension != unit.dimension || unit.dimension == Dimension::None {
         return Err(QuantityFault::new(
             format!(
-                "`{symbol}` is a {}, not a {}",
-                written.dimension.name(),
-                unit.dimension.name()
+                "`{symbol}` is {}, not {}",
+                written.dimension.with_article(),
+                unit.dimension.with_article()
             ),
             if unit.dimension == Dimension::None {
                 format!("this is a plain number: write {digits}")
             } else {
-                format!("write a {} such as {}", unit.dimension.name(), example(unit))
+                format!("write {} such as {}", unit.dimension.with_article(), example(unit))
             },
         ));
     }

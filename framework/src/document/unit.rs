@@ -74,6 +74,17 @@ pub enum Dimension {
 }
 
 impl Dimension {
+    /// Its name with its article, for messages.
+    pub fn with_article(self) -> String {
+        let name = self.name();
+        let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) {
+            "an"
+        } else {
+            "a"
+        };
+        format!("{article} {name}")
+    }
+
     /// What it is called in a sentence.
     pub fn name(self) -> &'static str {
         match self {

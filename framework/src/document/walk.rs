@@ -202,7 +202,7 @@ impl<'a> Walker<'a> {
                 let wanted = if unit.dimension == Dimension::None {
                     "a number".to_owned()
                 } else {
-                    format!("a {} such as `20 {}`", unit.dimension.name(), unit.symbol)
+                    format!("{} such as `20 {}`", unit.dimension.with_article(), unit.symbol)
                 };
                 return self.wrong(node, &wanted);
             }
@@ -328,7 +328,8 @@ impl<'a> Walker<'a> {
             } else {
                 format!("write {least} entries or more")
             };
-            self.report(node, format!("has {} entries", list.len()), mend);
+            let noun = if list.len() == 1 { "entry" } else { "entries" };
+            self.report(node, format!("has {} {noun}", list.len()), mend);
             return None;
         }
         let before = self.findings.len();

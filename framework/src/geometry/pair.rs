@@ -238,7 +238,13 @@ impl Pair {
         // ISO 21771: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2), where z2 of a ring is negative; `teeth` is
         // the magnitude of that sum.
         let distance_of = |sum: f64| {
-            let working = inverse_involute(involute(alpha_t) + 2.0 * alpha_n.tan() * (s * sum) / teeth);
+            let involute = involute(alpha_t) + 2.0 * alpha_n.tan() * (s * sum) / teeth;
+            // Less than none is no angle: even base circles that touch are too far apart for such shifts.
+            let working = if involute > 0.0 {
+                inverse_involute(involute)
+            } else {
+                0.0
+            };
             a * alpha_t.cos() / working.cos()
         };
         let sum_of = |working: f64| s * ((involute(working) - involute(alpha_t)) * teeth / (2.0 * alpha_n.tan()));

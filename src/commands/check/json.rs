@@ -7,6 +7,7 @@ use gearloss_framework::document::{Code, Diagnostic, Severity, Sources, Span};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
+use gearloss_framework::transmission::{GearState, Transmission};
 use serde_json::{Value, json};
 
 use crate::args::{CheckArgs, ChoiceArgs};
@@ -22,6 +23,7 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
     for file in &args.files {
         let is_study = super::is_study(file);
         let checked = if is_study {
+            super::belongs_to_gearboxes(args, file)?;
             study(crate::commands::run::refused(language, file))?
         } else {
             gearbox(language, file, &args.choice, args.resolved).unwrap_or_else(|findings| Checked {
@@ -102,6 +104,8 @@ fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -
     let mut built = serde_json::Map::new();
     built.insert("parts".to_owned(), transmission.parts().len().into());
     built.insert("gear_states".to_owned(), json!(states));
+    built.insert("stages".to_owned(), json!(transmission.stages().collect::<Vec<_>>()));
+    built.insert("ratios".to_owned(), ratios(&transmission));
     built.insert("notes".to_owned(), json!(notes));
     built.insert(
         "weakest_evidence".to_owned(),
@@ -119,6 +123,18 @@ fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -
         weakest: weakest.map(|weak| weak.grade),
         built: Some(built),
     })
+}
+
+/// The ratio from the reference port to every other one, gear by gear.
+fn ratios(t: &Transmission) -> Value {
+    let from = &t.ports()[t.reference_port()].name;
+    let of_gear = |(i, gear): (usize, &GearState)| {
+        let ratios = t.ratios(i).into_iter();
+        ratios
+            .map(|(to, ratio)| json!({ "gear": gear.name, "from": from, "to": t.ports()[to].name, "ratio": ratio }))
+            .collect::<Vec<_>>()
+    };
+    t.states().iter().enumerate().flat_map(of_gear).collect()
 }
 
 /// Findings with file, line and column in place of spans.

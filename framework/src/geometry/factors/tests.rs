@@ -1,7 +1,7 @@
 #![allow(clippy::unwrap_used)]
 use proptest::prelude::*;
 
-use crate::geometry::{LoadSharing, Pair, PairSpec};
+use crate::geometry::{LoadSharing, Pair, PairFault, PairSpec};
 
 /// Relative, for values printed to six digits.
 fn close(value: f64, printed: f64) {
@@ -130,6 +130,19 @@ fn shifts_of_a_ring_have_the_sign_of_iso_21771() {
     near(closed[1], 0.2, 1e-6);
     let closed = ring([None, Some(0.2)], Some(47.366_892_046e-3)).profile_shift;
     near(closed[0], 0.1, 1e-6);
+}
+
+#[test]
+fn shifts_that_no_distance_takes_are_too_close() {
+    let spec = PairSpec {
+        centre_distance: None,
+        profile_shift: [Some(-2.0), Some(-2.0)],
+        tip_diameter: [None, None],
+        ..spec([20, 40], 3.0, 20.0, 0.0, 20.0, 1.0, [0.0, 0.0])
+    };
+    let faults = Pair::new(&spec).unwrap_err();
+    assert!(matches!(faults[..], [PairFault::TooClose { .. }]), "{faults:?}");
+    assert!(!faults[0].to_string().contains("NaN"), "{}", faults[0]);
 }
 
 #[test]

@@ -3,12 +3,13 @@
 use gearloss_framework::analysis::{Note, PointResult, Statistics, bands};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::measured::{Measured, Row, Seen, counted};
-use gearloss_framework::study::{CompareEntry, Data};
+use gearloss_framework::study::{CompareEntry, Data, Difference};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
 use super::super::deviations::{self, Deviation};
 use super::super::map::tidy;
+use super::super::measurable::{is_measurable, note};
 use super::super::rows::Solved;
 use super::super::write::{cell, head, picture, write};
 use super::super::{Built, Runner};
@@ -26,6 +27,8 @@ struct Pair {
     difference: Option<f64>,
     /// The same difference as a loss, in percent of the measured loss.
     of_loss: Option<f64>,
+    /// The measured loss is too small to state a difference in percent of it.
+    omitted: bool,
     /// Accuracy of the measured quantity, where a column tells it.
     accuracy: Option<f64>,
     /// How much the point counts; one where no column says it.
@@ -146,11 +149,17 @@ fn pair(entry: &CompareEntry, measured: &Measured, (i, row, gear): (usize, &Row,
         model,
         difference: saw
             .zip(model)
+            .filter(|(saw, model)| entry.difference == Difference::Points || is_measurable(*saw, *model))
             .and_then(|(saw, model)| entry.quantity.difference(entry.difference, saw, model)),
         of_loss: seen
             .loss
             .zip(point.loss)
-            .and_then(|(saw, model)| (saw != 0.0).then(|| 100.0 * (model - saw) / saw)),
+            .filter(|(saw, model)| is_measurable(*saw, *model))
+            .map(|(saw, model)| 100.0 * (model - saw) / saw),
+        omitted: seen
+            .loss
+            .zip(point.loss)
+            .is_some_and(|(saw, model)| !is_measurable(saw, model)),
         accuracy: seen.accuracy(entry.quantity),
         weight: measured.value(row, "weight").unwrap_or(1.0),
     }
@@ -207,6 +216,10 @@ fn show(
         }
     }
     out.text(&table.render())?;
+    let omitted = c.pairs.iter().filter(|p| p.omitted).count();
+    if omitted > 0 {
+        out.line(note(omitted, "the difference"))?;
+    }
     runner.outside(&c.notes, out);
     out.line("")?;
     Ok(json!({
