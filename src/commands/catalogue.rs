@@ -7,7 +7,7 @@ use crate::args::{CatalogueArg, CatalogueArgs};
 use crate::output::{End, Failure, Out, Table};
 
 pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
-    let language = Language::linked()?;
+    let language = super::language()?;
     let section = match args.of {
         CatalogueArg::Bearings => "bearings",
         CatalogueArg::Oils => LUBRICANTS,
