@@ -317,7 +317,7 @@ fn names_of_devices_are_refused_where_they_become_files() {
 #[test]
 fn texts_of_tables_are_no_formulas() {
     let folder = folder("formulas");
-    let points = "name,speed [rpm],torque [Nm]\n=cmd|' /C calc'!A0,1000,5\n-3,1000,-5\n<!--<script>,1000,5\n";
+    let points = "name,speed [rpm],torque [Nm]\n=cmd|' /C calc'!A0,1000,5\n-3,1000,-5\n-,1000,5\n<!--<script>,1000,5\n";
     fs::write(folder.join("points.csv"), points).unwrap();
     let analysis =
         "analyses: { tests: { type: operating_points, data: { file: points.csv }, write: [csv, json, svg] } }\n";

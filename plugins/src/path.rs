@@ -110,10 +110,12 @@ impl Path {
     /// Runs with space for friction at each point; most paths need little, and zeroing more costs time.
     pub fn with_space<R>(&self, run: impl FnOnce(&mut [f64]) -> R) -> R {
         const SOME: usize = 4 * FEW;
-        match self.len() {
-            0..=FEW => run(&mut [0.0; FEW][..self.len()]),
-            0..=SOME => run(&mut [0.0; SOME][..self.len()]),
-            _ => run(&mut [0.0; Self::MOST][..self.len()]),
+        if self.len() <= FEW {
+            run(&mut [0.0; FEW][..self.len()])
+        } else if self.len() <= SOME {
+            run(&mut [0.0; SOME][..self.len()])
+        } else {
+            run(&mut [0.0; Self::MOST][..self.len()])
         }
     }
 

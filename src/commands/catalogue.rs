@@ -1,6 +1,6 @@
 //! `catalogue`: designations of bearings and oils that a gearbox may name.
 
-use gearloss_framework::language::{LUBRICANTS, Language};
+use gearloss_framework::language::LUBRICANTS;
 use gearloss_framework::resolve::without_suffix;
 
 use crate::args::{CatalogueArg, CatalogueArgs};

@@ -27,7 +27,7 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
             (Some(mechanism), Some(name)) => Some(registry.model_named(mechanism.key, name).map_err(Findings::from)?),
             _ => None,
         };
-        json::run(&language, mechanism, model, out)?;
+        json::run(language, mechanism, model, out)?;
         return Ok(End::Fine);
     }
     match (&args.mechanism, &args.model) {

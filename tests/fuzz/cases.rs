@@ -208,7 +208,7 @@ impl Sound {
                     ("traction.csv", "traction", &oil),
                     ("stribeck.csv", "stribeck", &[]),
                 ]);
-                for _ in 0..1 + random.below(3) {
+                for _ in 0..=random.below(3) {
                     mutate::table(files.get_mut(name).unwrap(), random);
                 }
                 words(&[&["fit", law, name], more].concat())
@@ -229,7 +229,7 @@ impl Sound {
                         "catalogues",
                         Tree::read("{ bearings: bearings.csv, lubricants: lubricants.csv }"),
                     );
-                    for _ in 0..1 + random.below(3) {
+                    for _ in 0..=random.below(3) {
                         let table = *random.one(&["bearings.csv", "lubricants.csv"]);
                         mutate::table(files.get_mut(table).unwrap(), random);
                     }
@@ -256,7 +256,7 @@ impl Sound {
         let Some(Tree::Map(all)) = study.get("analyses").cloned() else {
             unreachable!()
         };
-        let some: Vec<(String, Tree)> = (0..1 + random.below(2)).map(|_| random.one(&all).clone()).collect();
+        let some: Vec<(String, Tree)> = (0..=random.below(2)).map(|_| random.one(&all).clone()).collect();
         let used = |name: &str| {
             some.iter()
                 .any(|(_, entry)| entry.get("gearbox") == Some(&Tree::Scalar(name.to_owned())))
@@ -320,7 +320,7 @@ impl Sound {
     fn changed(&self, tree: &mut Tree, random: &mut Random) {
         // Mostly one change: what is wrong in several places is refused for the first.
         let most = if random.once_in(3) { 4 } else { 1 };
-        for _ in 0..1 + random.below(most) {
+        for _ in 0..=random.below(most) {
             mutate::document(tree, &self.words, random);
         }
     }

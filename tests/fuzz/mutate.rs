@@ -359,7 +359,7 @@ pub fn table(csv: &mut String, random: &mut Random) {
             // A whole column.
             for cells in &mut lines {
                 if let Some(cell) = cells.get_mut(column).filter(|cell| number(cell).is_some()) {
-                    *cell = (*random.one(&NUMBERS)).to_owned();
+                    (*random.one(&NUMBERS)).clone_into(cell);
                 }
             }
         }

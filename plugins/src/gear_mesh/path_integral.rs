@@ -220,21 +220,18 @@ impl GearMeshModel for Integral {
             .map(|(node, weight)| {
                 let sum_speed = node.sum_speed * speed;
                 let (w, modulus) = (node.share * line_load, at.part.modulus);
-                let power = match self.rolling {
-                    Rolling::Crook => {
-                        let u = at.eta * 0.5 * sum_speed / (modulus * node.radius);
-                        let h = node.radius * dowson_higginson(u, at.alpha * modulus, w / (modulus * node.radius));
-                        crook(h) * sum_speed * self.rolling_speed
-                    }
-                    _ => {
-                        let force = goksem_hargreaves(w, node.radius, at.eta, 0.5 * sum_speed, at.alpha, modulus);
-                        let heated = if self.rolling_thermal {
-                            inlet_heating(at, path.contact(node).pressure, node.slide_roll, 0.5 * sum_speed)
-                        } else {
-                            1.0
-                        };
-                        heated * force * sum_speed
-                    }
+                let power = if self.rolling == Rolling::Crook {
+                    let u = at.eta * 0.5 * sum_speed / (modulus * node.radius);
+                    let h = node.radius * dowson_higginson(u, at.alpha * modulus, w / (modulus * node.radius));
+                    crook(h) * sum_speed * self.rolling_speed
+                } else {
+                    let force = goksem_hargreaves(w, node.radius, at.eta, 0.5 * sum_speed, at.alpha, modulus);
+                    let heated = if self.rolling_thermal {
+                        inlet_heating(at, path.contact(node).pressure, node.slide_roll, 0.5 * sum_speed)
+                    } else {
+                        1.0
+                    };
+                    heated * force * sum_speed
                 };
                 weight * power * pair.facewidth
             })

@@ -40,11 +40,9 @@ impl Held {
                 .truncate(false)
                 .open(&mark);
             let mut file = opened.map_err(|e| cannot(&mark, &e))?;
-            match file.try_lock() {
-                Ok(()) => {}
-                Err(TryLockError::WouldBlock) => return Err(busy(folder, &mark)),
-                // A file system without locks: files still have names of their own while they are written.
-                Err(TryLockError::Error(_)) => {}
+            // On a file system without locks files still have names of their own while they are written.
+            if let Err(TryLockError::WouldBlock) = file.try_lock() {
+                return Err(busy(folder, &mark));
             }
             let token = token();
             let marked = file.set_len(0).and_then(|()| file.rewind());

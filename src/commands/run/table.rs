@@ -109,10 +109,10 @@ impl Lines {
 }
 
 /// A text as a spreadsheet takes for one: what would begin a formula there stands behind an apostrophe, which spreadsheets read
-/// as the sign of a text. Numbers keep their sign.
+/// as the sign of a text. Numbers keep their sign, and a sign alone, such as the unit `-`, is no formula.
 fn inert(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
-    if !is_formula || text.parse().is_ok_and(f64::is_finite) {
+    if !is_formula || text.len() == 1 || text.parse().is_ok_and(f64::is_finite) {
         Cow::Borrowed(text)
     } else {
         Cow::Owned(format!("'{text}"))
