@@ -232,6 +232,15 @@ pub fn fixed(x: f64, digits: usize) -> String {
     )
 }
 
+/// Where a value is that left a range; one end of the range may be open.
+pub fn beyond(least: f64, greatest: f64) -> String {
+    match (least.is_finite(), greatest.is_finite()) {
+        (true, false) => format!("below {}", significant(least)),
+        (false, true) => format!("above {}", significant(greatest)),
+        _ => format!("outside of {} to {}", significant(least), significant(greatest)),
+    }
+}
+
 /// A number in six significant digits.
 pub fn significant(x: f64) -> String {
     figures(x, 6)

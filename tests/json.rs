@@ -110,6 +110,33 @@ fn every_finding_has_its_code_place_and_help() {
     assert!(!of("duplicate_key")["related"].as_array().unwrap().is_empty());
 }
 
+/// A gearbox whose bearings are too small for its rating, and whose faces hardly meet.
+const DOUBTFUL: &str = "extends: ../../tests/cases/fine/input.yaml\nrating: { torque: 2000 Nm, speed: 1000 rpm }\n\
+                        set: { gears.pinion.at: 42 mm }\n";
+
+#[test]
+fn warnings_of_a_gearbox_are_those_of_its_study() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("doubtful");
+    std::fs::create_dir_all(&folder).unwrap();
+    let fine = common::file("tests/cases/fine/input.yaml");
+    let gearbox = DOUBTFUL.replace("../../tests/cases/fine/input.yaml", fine.to_str().unwrap());
+    std::fs::write(folder.join("gearbox.yaml"), format!("gearloss: gearbox/1\n{gearbox}")).unwrap();
+    let study = "gearloss: study/1\ngearboxes: { ours: gearbox.yaml }\ngrids: { few: { torque: 10 Nm, speed: 1000 rpm } }\n\
+                 analyses: { map: { type: map, grid: few } }\n";
+    std::fs::write(folder.join("study.yaml"), study).unwrap();
+    let [own, of_study] = ["gearbox.yaml", "study.yaml"].map(|name| {
+        let (value, code) = check(&[folder.join(name).to_str().unwrap()]);
+        assert_eq!(code, 0, "{value:#}");
+        value["files"][0]["findings"].as_array().unwrap().clone()
+    });
+    let has = |list: &[Value], words: &str| list.iter().any(|f| f["message"].as_str().unwrap().contains(words));
+    assert!(has(&own, "S0 = C0/P0"), "{own:#?}");
+    assert!(
+        has(&own, "share only") && has(&of_study, "share only"),
+        "{own:#?} {of_study:#?}"
+    );
+}
+
 #[test]
 fn options_of_gearboxes_are_refused_for_studies() {
     for option in [

@@ -109,6 +109,12 @@ fn what_contradicts_is_refused_by_name() {
     ] {
         assert!(text.contains(part), "{part} in {text}");
     }
+    // Neither contradicts the other, but the density that follows is none.
+    let text = refused("mean_friction", "{ nu: 1000 mm2/s, eta: 8 mPa s }");
+    assert!(
+        text.contains("`rho` of 8 kg/m3 (eta = nu rho), which is outside"),
+        "{text}"
+    );
     let text = refused("tooth_friction", "{ sliding: 12 m/s, sum_speed: 3 m/s }");
     assert!(
         text.contains("at.sliding") && text.contains("`sum_speed` of 3 m/s"),

@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, Span, read_yaml};
 use crate::files::{LONGEST_TEXT, read_text};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
-use crate::resolve::{Came, Choice, Resolved, meets, resolve};
+use crate::resolve::{Came, Choice, Resolved, expand_set, meets, resolve, sets_of};
 use crate::transmission::Transmission;
 
 /// The most files that may extend each other.
@@ -63,17 +63,18 @@ impl Findings {
                 shown.insert(rendered);
             }
         }
-        if again > 0 {
-            text.push_str(&format!(
-                "{again} of the errors are those above, in a file that several include\n"
-            ));
-        }
         if self.list.len() > MOST_SHOWN {
             text.push_str(&format!("... and {} more\n", self.list.len() - MOST_SHOWN));
         }
         let errors = self.list.iter().filter(|d| d.severity == Severity::Error).count();
         let plural = if errors == 1 { "" } else { "s" };
-        text.push_str(&format!("{errors} error{plural}\n"));
+        text.push_str(&format!("{errors} error{plural}"));
+        if again > 0 {
+            text.push_str(&format!(
+                ", {again} of them printed above: a file that several extend has them"
+            ));
+        }
+        text.push('\n');
         text
     }
 }
@@ -188,6 +189,27 @@ impl Gearbox {
                     .collect(),
             )
         })
+    }
+
+    /// Reads every model set of the document, also those that nothing chooses.
+    ///
+    /// # Errors
+    /// If a set extends one that does not exist, or itself.
+    pub fn check_sets(&self, language: &Language) -> Result<(), Findings> {
+        let sets = sets_of(language, &self.value, &Map::new());
+        let own = self.value.get("model_sets").and_then(Value::as_object);
+        let names = own.into_iter().flatten().map(|(name, _)| name);
+        let mut found: Vec<Diagnostic> = Vec::new();
+        for error in names.filter_map(|name| expand_set(&sets, name).err()) {
+            if found.iter().all(|other| other.path != error.path) {
+                found.push(error.code(Code::Choice));
+            }
+        }
+        if found.is_empty() {
+            Ok(())
+        } else {
+            Err(self.findings(found))
+        }
     }
 
     /// A finding about a path that the document's own `set` changes is told there.

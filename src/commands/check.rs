@@ -34,11 +34,19 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     for file in &args.files {
         if is_study(file) {
             belongs_to_gearboxes(args, file)?;
-            let refused = super::run::refused(language, file);
-            if refused.is_empty() {
+            let looked = super::run::look_over(language, file);
+            for findings in &looked.warnings {
+                for warning in &findings.list {
+                    out.text(&format!("{}\n\n", findings.sources.render(warning)))?;
+                }
+            }
+            if looked.refused.is_empty() {
                 out.line(format!("{}: fine", file.display()))?;
             }
-            for failure in refused {
+            for note in &looked.notes {
+                out.line(format!("  note: {note}"))?;
+            }
+            for failure in looked.refused {
                 match failure.text() {
                     Some(text) => wrong.push_str(&text),
                     None => return Err(failure),
@@ -134,6 +142,7 @@ fn gearbox(
     print: bool,
 ) -> Result<(String, Option<Evidence>), Findings> {
     let gearbox = Gearbox::read(language, file)?;
+    gearbox.check_sets(language)?;
     let resolved = set::resolve(language, &gearbox, choice)?;
     let transmission = gearbox.build(language, &resolved)?;
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));

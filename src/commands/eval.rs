@@ -9,7 +9,7 @@ use gearloss_framework::loss::Step;
 use serde_json::json;
 
 use crate::args::{EvalArgs, Format};
-use crate::output::{End, Failure, Out, significant};
+use crate::output::{End, Failure, Out, beyond, significant};
 
 pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
@@ -88,7 +88,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     }
     for (path, limit, extent) in evaluated.limits.iter().filter(|(_, _, e)| e.outside > 0) {
         out.line(format!(
-            "outside: {path}: {} {} {} is outside of {} to {} ({})",
+            "outside: {path}: {} {} {} is {} ({})",
             limit.name,
             significant(if extent.least < limit.least {
                 extent.least
@@ -96,8 +96,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
                 extent.greatest
             }),
             limit.unit,
-            significant(limit.least),
-            significant(limit.greatest),
+            beyond(limit.least, limit.greatest),
             limit.origin
         ))?;
     }

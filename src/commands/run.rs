@@ -47,6 +47,7 @@ use self::runner::{Built, Runner};
 
 use std::path::{Path, PathBuf};
 
+use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::study::{Analysis, Study};
 use gearloss_framework::transmission::Transmission;
@@ -71,11 +72,27 @@ pub(super) fn read(language: &Language, file: &Path) -> Result<Study, Failure> {
     Ok(study)
 }
 
-/// What `run` would refuse of a study before it computes anything, analysis by analysis; each text once.
-pub(super) fn refused(language: &Language, file: &Path) -> Vec<Failure> {
+/// What there is to say of a study before it runs.
+#[derive(Default)]
+pub(super) struct Looked {
+    /// What `run` would refuse before it computes anything, analysis by analysis; each text once.
+    pub refused: Vec<Failure>,
+    /// Warnings of its gearboxes.
+    pub warnings: Vec<Findings>,
+    /// What of its gearboxes has no model.
+    pub notes: Vec<String>,
+}
+
+/// Looks a study over as `run` would read it.
+pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
     let study = match read(language, file) {
         Ok(study) => study,
-        Err(failure) => return vec![failure],
+        Err(failure) => {
+            return Looked {
+                refused: vec![failure],
+                ..Looked::default()
+            };
+        }
     };
     let runner = Runner::for_check(language, &study);
     let mut refused: Vec<Failure> = Vec::new();
@@ -87,7 +104,37 @@ pub(super) fn refused(language: &Language, file: &Path) -> Vec<Failure> {
             }
         }
     }
-    refused
+    let (warnings, notes) = warnings(language, &study);
+    Looked {
+        refused,
+        warnings,
+        notes,
+    }
+}
+
+/// Warnings and notes of the gearboxes of a study, under its conditions and with their own models.
+fn warnings(language: &Language, study: &Study) -> (Vec<Findings>, Vec<String>) {
+    let (mut warnings, mut notes) = (Vec::new(), Vec::new());
+    for (name, gearbox) in &study.gearboxes {
+        // What cannot be built so is refused by the analyses that need it.
+        let Ok((resolved, t)) = study.built(language, gearbox, &study.choice(None), &[]) else {
+            continue;
+        };
+        if !t.warnings.is_empty() {
+            warnings.push(Findings {
+                list: t.warnings,
+                sources: gearbox.sources.clone(),
+            });
+        }
+        notes.extend(
+            resolved
+                .unreached
+                .iter()
+                .chain(&resolved.without)
+                .map(|line| format!("{name}: {line}")),
+        );
+    }
+    (warnings, notes)
 }
 
 /// All analyses and the report; what shards have computed is taken from them.
@@ -113,6 +160,15 @@ pub(super) fn all(
         out.line("")?;
     }
     overridden(study, out)?;
+    let (warnings, notes) = warnings(language, study);
+    for findings in &warnings {
+        for warning in &findings.list {
+            Out::error().line(format!("{}\n", findings.sources.render(warning)))?;
+        }
+    }
+    for note in notes {
+        Out::error().line(format!("note: {note}"))?;
+    }
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {

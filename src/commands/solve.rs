@@ -16,7 +16,7 @@ use super::point::{Prepared, prepare};
 use super::run::tidy;
 use super::{locking, set, warn};
 use crate::args::{Format, SolveArgs};
-use crate::output::{End, Failure, Out, Table, fixed, number, significant};
+use crate::output::{End, Failure, Out, Table, beyond, fixed, number, significant};
 
 /// rad/s in 1/min.
 pub const RPM: f64 = 30.0 / std::f64::consts::PI;
@@ -383,15 +383,7 @@ pub fn outside(notes: &[Note]) -> String {
         let paths: Vec<&str> = group.iter().map(|n| n.path.as_str()).collect();
         let outside: u32 = group.iter().map(|n| n.outside).sum();
         let points: u32 = group.iter().map(|n| n.points).sum();
-        let range = if stated.greatest.is_finite() {
-            format!(
-                "outside of {} to {}",
-                significant(stated.least),
-                significant(stated.greatest)
-            )
-        } else {
-            format!("below {}", significant(stated.least))
-        };
+        let range = beyond(stated.least, stated.greatest);
         text.push_str(&format!(
             "outside: {}: {} {} to {}{unit} is {range} at {outside} of {points} points ({})\n",
             paths.join(", "),

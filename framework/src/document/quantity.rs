@@ -65,10 +65,21 @@ pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFa
         ));
     }
     let (digits, rest) = text.split_at(number);
-    if rest.starts_with(',') {
+    if let Some(behind) = rest.strip_prefix(',') {
+        let point = text.replacen(',', ".", 1);
+        // Three digits may be thousands as well.
+        let thousands = behind.bytes().take_while(u8::is_ascii_digit).count() == 3;
         return Err(QuantityFault::new(
-            "a decimal comma",
-            format!("write `{}`", text.replacen(',', ".", 1)),
+            if thousands {
+                "a comma in a number"
+            } else {
+                "a decimal comma"
+            },
+            if thousands {
+                format!("write `{}` or `{point}`, whichever is meant", text.replacen(',', "", 1))
+            } else {
+                format!("write `{point}`")
+            },
         ));
     }
     let value: f64 = digits.parse().unwrap_or(f64::NAN);

@@ -95,6 +95,16 @@ fn found(list: Vec<Diagnostic>) -> Vec<Diagnostic> {
 /// Name of the `type` of a record, with all types that it could have.
 type Tag<'a> = (&'a str, &'a [(String, Shape)]);
 
+/// A bare number and a quantity with its unit, with nothing but a comma between them: both halves, and where the second one is.
+fn split_number(pair: &[Node]) -> Option<(String, &str, &Node)> {
+    let [first, second] = pair else { return None };
+    let (Content::Number(whole), Some(text)) = (&first.content, second.text()) else {
+        return None;
+    };
+    let touch = first.span.source == second.span.source && first.span.end + 1 == second.span.start;
+    (touch && text.starts_with(|c: char| c.is_ascii_digit())).then(|| (tidy(*whole), text, second))
+}
+
 struct Walker<'a> {
     schema: &'a Schema,
     findings: Vec<Diagnostic>,
@@ -313,6 +323,14 @@ impl<'a> Walker<'a> {
             let entries = vec![written; least.clamp(1, 8)].join(", ");
             return self.expected(node, "a list in brackets", format!("write `[{entries}]`"));
         };
+        if let Some((whole, text, rest)) = list.windows(2).find_map(split_number) {
+            self.report(
+                rest,
+                "a decimal comma splits the number before it",
+                format!("write `{whole}.{text}`, or a space behind the comma if these are two values"),
+            );
+            return None;
+        }
         if list.len() < least || list.len() > most {
             let commas = list.len() > most
                 && list.windows(2).any(|pair| {
@@ -684,8 +702,12 @@ impl<'a> Walker<'a> {
     }
 }
 
-/// A number without the noise of conversions.
+/// A number without the noise of conversions, with a power of ten where it has many digits.
 fn tidy(x: f64) -> String {
     let rounded: f64 = format!("{x:.9e}").parse().unwrap_or(x);
-    format!("{rounded}")
+    if x != 0.0 && !(1e-9..1e15).contains(&x.abs()) {
+        format!("{rounded:e}")
+    } else {
+        format!("{rounded}")
+    }
 }

@@ -94,9 +94,11 @@ impl std::fmt::Display for PairFault {
                 sum,
             } => write!(
                 f,
-                "the centre distance is {:.4} mm, but the profile shifts give {:.4} mm; it needs a sum x1 + x2 of {sum:.4}",
+                "the centre distance is {:.4} mm, but the profile shifts give {:.4} mm; it needs a sum x1 + x2 of {:.4}",
                 centre_distance * 1e3,
-                from_shifts * 1e3
+                from_shifts * 1e3,
+                // No negative zero.
+                (sum * 1e4).round() / 1e4 + 0.0
             ),
             Self::TooClose { centre_distance, least } => write!(
                 f,

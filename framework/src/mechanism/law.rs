@@ -55,6 +55,14 @@ pub fn settle<M: Mechanism>(
         };
         let value = follows(at);
         if let Some(quantity) = named::<M>(name).filter(|_| value.is_finite()) {
+            if law.always
+                && law
+                    .quantities
+                    .iter()
+                    .all(|(other, _)| other == name || bound.contains(other))
+            {
+                within(law, quantity, value)?;
+            }
             (quantity.set)(at, value);
             if law.quantities.iter().any(|(name, _)| bound.contains(name)) {
                 bound.push(name);
@@ -68,6 +76,43 @@ pub fn settle<M: Mechanism>(
 
 fn named<M: Mechanism>(name: &str) -> Option<&'static Quantity<M>> {
     M::QUANTITIES.iter().find(|q| q.name == name)
+}
+
+/// Refuses what follows from stated values alone and is none that the quantity may have.
+fn within<M: Mechanism>(law: &Law<M>, quantity: &Quantity<M>, value: f64) -> Result<(), Diagnostic> {
+    let unit = quantity.unit();
+    let shown = unit.from_si(value);
+    let rounding = ROUNDED * shown.abs();
+    if shown >= quantity.least - rounding && shown <= quantity.greatest + rounding {
+        return Ok(());
+    }
+    let from: Vec<String> = law
+        .quantities
+        .iter()
+        .filter(|(other, _)| *other != quantity.name)
+        .map(|(other, _)| format!("`{other}`"))
+        .collect();
+    Err(Diagnostic::error(
+        format!(
+            "at.{}",
+            law.quantities
+                .iter()
+                .map(|(other, _)| *other)
+                .find(|other| *other != quantity.name)
+                .unwrap_or(quantity.name)
+        ),
+        format!(
+            "from {} follows `{}` of {} {} ({}), which is outside {} to {}",
+            from.join(" and "),
+            quantity.name,
+            significant(shown),
+            unit.symbol,
+            law.text,
+            quantity.least,
+            quantity.greatest
+        ),
+    )
+    .mend(format!("change {}", from.join(" or "))))
 }
 
 /// Refuses a law whose quantities contradict each other.

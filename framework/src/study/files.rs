@@ -293,7 +293,16 @@ impl Study {
     /// # Errors
     /// Everything that is wrong.
     pub fn check(&self, language: &Language) -> Result<(), Findings> {
-        let mut found = Vec::new();
+        let mut found: Vec<Diagnostic> = Vec::new();
+        for (_, gearbox) in &self.gearboxes {
+            gearbox.check_sets(language)?;
+            let at_hand = sets_of(language, &gearbox.value, &self.sets);
+            for error in self.sets.keys().filter_map(|name| expand_set(&at_hand, name).err()) {
+                if found.iter().all(|other| other.path != error.path) {
+                    found.push(error);
+                }
+            }
+        }
         let grids: Vec<&str> = self.entry.grids.ids().collect();
         for (name, analysis) in self.entry.analyses.iter() {
             let path = format!("analyses.{name}");
@@ -329,6 +338,8 @@ impl Study {
                 let (gearbox, set) = self.reference(&path, set, gearbox)?;
                 let at_hand = sets_of(language, &gearbox.value, &self.sets);
                 match set.map(|set| expand_set(&at_hand, set)) {
+                    // A set that is wrong in itself is reported where it is.
+                    Some(Err(error)) if error.path != "model_sets" => {}
                     Some(Err(error)) => found.push(Diagnostic {
                         path: path.clone(),
                         ..error

@@ -6,7 +6,7 @@ use super::members::Members;
 use super::plausible;
 use crate::attach::dangling;
 use crate::description::{
-    GearEntry, GearKind, GearboxEntry, MeshEntry, PlanetarySetEntry, gears::Hand, gears::ShiftSign,
+    GearEntry, GearKind, GearboxEntry, MeshEntry, PlanetarySetEntry, gears::Hand, gears::Mounting, gears::ShiftSign,
 };
 use crate::document::Diagnostic;
 use crate::geometry::{Pair, PairFault, PairSpec};
@@ -95,6 +95,19 @@ pub fn gearing(
         })
         .collect();
     warnings.extend(entry.gears.iter().filter_map(|(id, gear)| unsigned_shift(id, gear)));
+    for (id, gear) in entry.gears.iter() {
+        if gear.bearings.is_some() && gear.mounted == Mounting::Fixed {
+            let message = "a gear that is fixed to its shaft has no bearings of its own";
+            found.push(
+                Diagnostic::error(format!("gears.{id}.bearings"), message)
+                    .mend("write `bearings: none` at the shaft, or `mounted: loose` here"),
+            );
+        }
+        if gear.profile_shift_sign.is_some() && gear.kind == GearKind::External {
+            let message = "only a ring has two signs of its profile shift";
+            found.push(Diagnostic::error(format!("gears.{id}.profile_shift_sign"), message).mend("remove it"));
+        }
+    }
     let mut hands: Vec<Option<f64>> = entry
         .gears
         .iter()

@@ -61,11 +61,11 @@ fn mu(slope: f64, alpha: f64, p_mean: f64, eta_p: f64, sliding: f64, film: f64) 
 
 impl ToothFrictionModel for Eyring {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        at.check(&SUM_SPEED, at.sum_speed);
         if at.sliding == 0.0 || at.line_load == 0.0 || at.pressure == 0.0 {
             at.branch("no sliding or no load: no friction");
             return Ok(at.observe(&MU, 0.0));
         }
-        at.check(&SUM_SPEED, at.sum_speed);
         let h = contact::film(at, self.film, self.thermal);
         at.observe(&THICKNESS, h.um());
         if h == 0.0 {

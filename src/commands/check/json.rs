@@ -11,8 +11,9 @@ use gearloss_framework::transmission::{GearState, Transmission};
 use serde_json::{Value, json};
 
 use crate::args::{CheckArgs, ChoiceArgs};
+use crate::commands::run::Looked;
 use crate::commands::set;
-use crate::output::{End, Failure, Out};
+use crate::output::{End, Failure, Out, significant};
 
 /// Prints one document for all files. Wrong files are told by what it says and by how the program ends, not by what is printed
 /// beside it.
@@ -24,7 +25,7 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
         let is_study = super::is_study(file);
         let checked = if is_study {
             super::belongs_to_gearboxes(args, file)?;
-            study(crate::commands::run::refused(language, file))?
+            study(crate::commands::run::look_over(language, file))?
         } else {
             gearbox(language, file, &args.choice, args.resolved).unwrap_or_else(|findings| Checked {
                 findings: found(&findings.list, &findings.sources),
@@ -43,6 +44,9 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
             "fine": !checked.wrong,
             "findings": checked.findings,
         });
+        if is_study && let Some(value) = value.as_object_mut() {
+            value.insert("notes".to_owned(), json!(checked.notes));
+        }
         if let (Some(value), Some(built)) = (value.as_object_mut(), checked.built) {
             value.extend(built);
             value.insert("denied".to_owned(), denied.into());
@@ -67,6 +71,8 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
 #[derive(Default)]
 struct Checked {
     findings: Vec<Value>,
+    /// What of the gearboxes of a study has no model.
+    notes: Vec<String>,
     /// It cannot be used.
     wrong: bool,
     /// What is said of a gearbox that was built.
@@ -74,13 +80,13 @@ struct Checked {
     weakest: Option<Evidence>,
 }
 
-/// What `run` would refuse of a study.
-fn study(refused: Vec<Failure>) -> Result<Checked, Failure> {
+/// What `run` would refuse of a study, and what it would warn of.
+fn study(looked: Looked) -> Result<Checked, Failure> {
     let mut checked = Checked {
-        wrong: !refused.is_empty(),
+        wrong: !looked.refused.is_empty(),
         ..Checked::default()
     };
-    for failure in refused {
+    for failure in looked.refused {
         match failure {
             Failure::Found(findings) => checked.findings.extend(found(&findings.list, &findings.sources)),
             Failure::Input(text) => {
@@ -90,11 +96,16 @@ fn study(refused: Vec<Failure>) -> Result<Checked, Failure> {
             Failure::Interrupted => return Err(Failure::Interrupted),
         }
     }
+    for warnings in &looked.warnings {
+        checked.findings.extend(found(&warnings.list, &warnings.sources));
+    }
+    checked.notes = looked.notes;
     Ok(checked)
 }
 
 fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -> Result<Checked, Findings> {
     let gearbox = Gearbox::read(language, file)?;
+    gearbox.check_sets(language)?;
     let resolved = set::resolve(language, &gearbox, choice)?;
     let transmission = gearbox.build(language, &resolved)?;
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
@@ -117,11 +128,25 @@ fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -
     if print {
         built.insert("resolved".to_owned(), resolved.value.clone());
     }
+    let overloaded = super::overloaded(&transmission).into_iter().map(|note| {
+        let message = format!(
+            "{} {} at the rated torque is below 1",
+            note.name,
+            significant(note.least)
+        );
+        gearbox.places.place(
+            Diagnostic::warning(note.path, message)
+                .mend("choose a larger bearing, or check the rating")
+                .code(Code::Gearbox),
+        )
+    });
+    let warnings: Vec<Diagnostic> = transmission.warnings.iter().cloned().chain(overloaded).collect();
     Ok(Checked {
-        findings: found(&transmission.warnings, &gearbox.sources),
+        findings: found(&warnings, &gearbox.sources),
         wrong: false,
         weakest: weakest.map(|weak| weak.grade),
         built: Some(built),
+        ..Checked::default()
     })
 }
 

@@ -1,6 +1,5 @@
 //! The folder of a run: held by one run at a time, and known for the run's own as long as it is not finished.
 
-use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -40,8 +39,8 @@ impl Held {
                 .truncate(false)
                 .open(&mark);
             let mut file = opened.map_err(|e| cannot(&mark, &e))?;
-            // On a file system without locks files still have names of their own while they are written.
-            if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            let locked = file.try_lock();
+            if let Err(TryLockError::WouldBlock) = locked {
                 return Err(busy(folder, &mark));
             }
             let token = token();
@@ -54,7 +53,8 @@ impl Held {
                 Ok(text) if text != token => {}
                 Err(e) if e.kind() == ErrorKind::NotFound => {}
                 _ => {
-                    if left {
+                    // On a file system without locks the other run may still write, into files with names of its own.
+                    if left && locked.is_ok() {
                         clear(folder);
                     }
                     return Ok((Self { mark, _file: file }, left));
@@ -141,14 +141,24 @@ pub fn temporary(path: &Path) -> io::Result<(PathBuf, File)> {
     Err(ErrorKind::AlreadyExists.into())
 }
 
-/// Takes away what a run that was broken off has not written whole.
+/// Removes what an interrupted run has not written whole; other files of that ending belong to the user.
 fn clear(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
-        if path.extension() == Some(OsStr::new(PART)) && own(&path).is_ok_and(|is| is) {
+        let name = entry.file_name();
+        if name.to_str().is_some_and(is_temporary) && own(&path).is_ok_and(|is| is) {
             let _ = fs::remove_file(path);
         }
     }
+}
+
+/// Whether [`temporary`] makes names like this: `NAME.PROCESS-NUMBER.part`.
+fn is_temporary(name: &str) -> bool {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    name.strip_suffix(&format!(".{PART}"))
+        .and_then(|rest| rest.rsplit_once('.'))
+        .and_then(|(_, run)| run.split_once('-'))
+        .is_some_and(|(process, number)| is_number(process) && is_number(number))
 }
 
 #[cfg(test)]
@@ -194,6 +204,22 @@ mod tests {
         fs::create_dir_all(&folder).unwrap();
         let parts = [(); 3].map(|()| temporary(&folder.join("map.csv")).unwrap().0);
         assert!(parts[0] != parts[1] && parts[1] != parts[2] && parts[0] != parts[2]);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn an_interrupted_run_leaves_only_its_own_pieces_to_be_removed() {
+        let folder = folder("pieces");
+        fs::create_dir_all(&folder).unwrap();
+        for name in [MARK, "thesis.part", "film.1-a.part", "map.csv.123-0.part"] {
+            fs::write(folder.join(name), "").unwrap();
+        }
+        let (held, left) = Held::take(&folder).unwrap();
+        assert!(left);
+        held.finish();
+        let mut names: Vec<_> = fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["film.1-a.part", "thesis.part"]);
         fs::remove_dir_all(&folder).unwrap();
     }
 

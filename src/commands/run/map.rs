@@ -58,6 +58,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
             for plan in &planned {
                 runner.checked(&plan.built, &plan.points)?;
             }
+            export::check(runner, name, entry, &planned)?;
             on_grid(runner, name, entry, &planned)?
         }
     };

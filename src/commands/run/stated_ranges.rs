@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::solve;
 use super::Runner;
-use crate::output::{Failure, Out, significant};
+use crate::output::{Failure, Out, beyond, significant};
 
 /// Beginning of each line about a range that was left.
 const OUTSIDE: &str = "outside: ";
@@ -31,10 +31,7 @@ impl Values {
             points: note.points.into(),
             outside: note.outside.into(),
             unit: note.unit.to_owned(),
-            range: (
-                format!("{} to {}", significant(stated.least), significant(stated.greatest)),
-                stated.origin.to_owned(),
-            ),
+            range: (beyond(stated.least, stated.greatest), stated.origin.to_owned()),
         })
     }
 
@@ -127,7 +124,7 @@ fn line(group: &[&Left]) -> String {
     };
     let (range, origin) = &all.range;
     format!(
-        "{OUTSIDE}{paths}: {name} {} to {}{unit} is outside of {range} at {} of {} points ({origin}); in {analyses}",
+        "{OUTSIDE}{paths}: {name} {} to {}{unit} is {range} at {} of {} points ({origin}); in {analyses}",
         significant(all.least),
         significant(all.greatest),
         all.outside,
@@ -194,7 +191,7 @@ mod tests {
                 points: 10,
                 outside: 4,
                 unit: "-".to_owned(),
-                range: ("0 to 5".to_owned(), "catalogue".to_owned()),
+                range: ("outside of 0 to 5".to_owned(), "catalogue".to_owned()),
             }),
             analyses: vec![analysis.to_owned()],
         }

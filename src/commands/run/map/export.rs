@@ -10,7 +10,8 @@ use super::super::super::solve::RPM;
 use super::super::Runner;
 use super::super::write::keep;
 use super::kept::Whole;
-use super::{Map, tidy};
+use super::plan::Planned;
+use super::{Axes, Map, tidy};
 use crate::output::Failure;
 
 /// Writes the tables, and says in lines what a reader has to know.
@@ -22,6 +23,53 @@ pub fn write(runner: &Runner<'_>, name: &str, entry: &MapEntry, maps: &[Map<'_>]
     Ok(lines)
 }
 
+/// Refuses, before anything is computed, grids that a table cannot hold.
+pub fn check(runner: &Runner<'_>, name: &str, entry: &MapEntry, planned: &[Planned<'_>]) -> Result<(), Failure> {
+    let path = format!("analyses.{name}.export");
+    let conditions = &runner.study.entry.conditions;
+    for export in &entry.export {
+        for plan in planned {
+            let t = &plan.built.transmission;
+            let reference = &t.ports()[t.reference_port()].name;
+            if [&conditions.torque_at, &conditions.speed_at] != [reference, reference] {
+                let message = format!("a table for another program gives torque and speed at `{reference}`");
+                let mend = format!("write `torque_at: {reference}` and `speed_at: {reference}` under `conditions`");
+                return Err(runner.wrong(&path, message, &mend));
+            }
+            fits(*export, &plan.axes).map_err(|(message, mend)| runner.wrong(&path, message, mend))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a table can have these axes; else what is wrong and what helps.
+fn fits(export: Export, axes: &Axes) -> Result<(), (&'static str, &'static str)> {
+    let Axes { torques, speeds, .. } = axes;
+    let rising = |list: &[f64]| list.windows(2).all(|w| w[0] < w[1]);
+    if !rising(torques) || !rising(speeds) {
+        return Err((
+            "a table for another program needs torques and speeds that rise",
+            "sort the axes of the grid",
+        ));
+    }
+    let drives = torques.iter().any(|torque| *torque > 0.0);
+    match export {
+        Export::Vecto if !(drives && torques.contains(&0.0) && torques.iter().any(|t| *t < 0.0)) => Err((
+            "VECTO needs rows below, at and above zero torque",
+            "let the torques of the grid run from below zero, through zero, to above",
+        )),
+        Export::Matlab if torques.len() < 2 || speeds.len() < 2 => Err((
+            "a table needs two torques and two speeds at least",
+            "give the grid more points",
+        )),
+        Export::LossyGear if !drives || speeds.iter().all(|speed| *speed <= 0.0) => Err((
+            "`LossyGear` needs torques and speeds above zero",
+            "give the grid speeds and torques above zero",
+        )),
+        Export::Vecto | Export::Matlab | Export::LossyGear => Ok(()),
+    }
+}
+
 fn write_one(
     runner: &Runner<'_>,
     name: &str,
@@ -30,23 +78,9 @@ fn write_one(
     maps: &[Map<'_>],
 ) -> Result<Vec<String>, Failure> {
     let path = format!("analyses.{name}.export");
-    let conditions = &runner.study.entry.conditions;
     let mut lines = Vec::new();
     for (i, map) in maps.iter().enumerate() {
-        let t = &map.built.transmission;
-        let reference = &t.ports()[t.reference_port()].name;
-        if [&conditions.torque_at, &conditions.speed_at] != [reference, reference] {
-            let message = format!("a table for another program gives torque and speed at `{reference}`");
-            let mend = format!("write `torque_at: {reference}` and `speed_at: {reference}` under `conditions`");
-            return Err(runner.wrong(&path, message, &mend));
-        }
         let Some(whole) = &map.kept.whole else { continue };
-        let axes = &whole.axes;
-        let rising = |list: &[f64]| list.windows(2).all(|w| w[0] < w[1]);
-        if !rising(&axes.torques) || !rising(&axes.speeds) {
-            let message = "a table for another program needs torques and speeds that rise";
-            return Err(runner.wrong(&path, message, "sort the axes of the grid"));
-        }
         if export == Export::Matlab && whole.has_gaps() {
             let message = "an efficiency over a grid with an envelope would be zero beyond it";
             return Err(runner.wrong(&path, message, "give a grid without envelope"));
@@ -139,12 +173,6 @@ impl Table<'_> {
     /// Loss torque over speed and torque, both at the side of the engine.
     fn vecto(&self) -> Written {
         let torques = &self.whole.axes.torques;
-        if !(torques.iter().any(|t| *t < 0.0) && torques.contains(&0.0) && torques.iter().any(|t| *t > 0.0)) {
-            return Err((
-                "VECTO needs rows below, at and above zero torque".to_owned(),
-                "let the torques of the grid run from below zero, through zero, to above".to_owned(),
-            ));
-        }
         let mut text = "Input Speed [rpm],Input Torque [Nm],Torque Loss [Nm]\n".to_owned();
         let (mut rows, mut left) = (0, 0);
         for w in 0..self.whole.axes.speeds.len() {
@@ -396,10 +424,16 @@ fn matlab(maps: &[&Map<'_>]) -> Written {
     let Some(Whole { axes, .. }) = &slabs[0].1.kept.whole else {
         return Err(("the map has no grid".to_owned(), "give `grid`".to_owned()));
     };
-    if axes.speeds.len() < 2 || axes.torques.len() < 2 {
+    // Where nothing turns there is no loss torque: a table cannot have that speed.
+    let turns = |w: &usize| {
+        let mut wholes = slabs.iter().filter_map(|(_, map)| map.kept.whole.as_ref());
+        wholes.any(|whole| (0..axes.torques.len()).any(|t| whole.loss_torque(t, *w).is_some()))
+    };
+    let columns: Vec<usize> = (0..axes.speeds.len()).filter(turns).collect();
+    if columns.len() < 2 {
         return Err((
-            "a table needs two torques and two speeds at least".to_owned(),
-            "give the grid more points".to_owned(),
+            "a table needs two speeds with a loss torque at least".to_owned(),
+            "give the grid more speeds above zero".to_owned(),
         ));
     }
     let list = |values: &mut dyn Iterator<Item = f64>| values.map(|x| format!("{x}")).collect::<Vec<_>>().join(" ");
@@ -415,8 +449,8 @@ fn matlab(maps: &[&Map<'_>]) -> Written {
             };
             text.push_str(&format!("{name}{slab} = [\n"));
             for t in 0..whole.axes.torques.len() {
-                let row = (0..whole.axes.speeds.len()).map(|w| {
-                    let value = value(whole, t, w);
+                let row = columns.iter().map(|w| {
+                    let value = value(whole, t, *w);
                     missing += usize::from(value.is_none());
                     value.map_or_else(|| empty.to_owned(), |x| format!("{x}"))
                 });
@@ -427,8 +461,18 @@ fn matlab(maps: &[&Map<'_>]) -> Written {
         (text, missing)
     };
     let (eta, without_output) = table("eta_tbl", "0", Whole::efficiency);
-    let (loss, without_loss) = table("loss_tbl", "NaN", Whole::loss_torque);
-    let mut said = format!("{} torques, {} speeds, ", axes.torques.len(), axes.speeds.len());
+    let (loss, without_loss) = table("loss_tbl", "", Whole::loss_torque);
+    if without_loss > 0 {
+        return Err((
+            format!("{without_loss} points of the grid have no loss torque, and a table has no holes"),
+            "omit torques and speeds at which the transmission locks itself or a loss is undefined".to_owned(),
+        ));
+    }
+    let mut said = format!("{} torques, {} speeds, ", axes.torques.len(), columns.len());
+    let omitted = axes.speeds.len() - columns.len();
+    if omitted > 0 {
+        said.push_str(&format!("{omitted} speed without a loss torque omitted, "));
+    }
     said.push_str(&match slabs[0].0 {
         _ if several => format!("{} oil temperatures", slabs.len()),
         Some(oil) => format!("no axis of temperature: all at {} degC", tidy(oil)),
@@ -438,9 +482,6 @@ fn matlab(maps: &[&Map<'_>]) -> Written {
         said.push_str(&format!(
             "; efficiency zero at {without_output} points at which no power comes out"
         ));
-    }
-    if without_loss > 0 {
-        said.push_str(&format!("; loss torque NaN at {without_loss} points without one"));
     }
     let temperatures = if several {
         let kelvin = &mut slabs.iter().filter_map(|(oil, _)| Some((*oil)? + 273.15));
@@ -454,7 +495,7 @@ fn matlab(maps: &[&Map<'_>]) -> Written {
         maps[0].gear,
         env!("CARGO_PKG_VERSION"),
         list(&mut axes.torques.iter().copied()),
-        list(&mut axes.speeds.iter().copied()),
+        list(&mut columns.iter().map(|w| axes.speeds[*w])),
     );
     Ok((text, said))
 }
