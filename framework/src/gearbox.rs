@@ -185,7 +185,7 @@ impl Gearbox {
         resolve(language, &self.files, &self.value, choice).map_err(|list| {
             self.findings(
                 list.into_iter()
-                    .map(|d| self.in_own_set(d).code(Code::Choice))
+                    .map(|d| self.in_own_set(language, choice, d).code(Code::Choice))
                     .collect(),
             )
         })
@@ -212,8 +212,21 @@ impl Gearbox {
         }
     }
 
-    /// A finding about a path that the document's own `set` changes is told there.
-    fn in_own_set(&self, finding: Diagnostic) -> Diagnostic {
+    /// A finding about a path that a set of models, or the document's own `set`, changes is told there.
+    fn in_own_set(&self, language: &Language, choice: &Choice, finding: Diagnostic) -> Diagnostic {
+        let set = choice.set.as_ref().and_then(|name| {
+            let sets = sets_of(language, &self.value, &choice.sets);
+            expand_set(&sets, name).ok()
+        });
+        let of_set = set.and_then(|set| {
+            set.changes
+                .into_iter()
+                .rev()
+                .find(|(path, ..)| meets(path, &finding.path))
+        });
+        if let Some((path, _, name)) = of_set {
+            return finding.moved(format!("model_sets.{name}.set"), &path);
+        }
         let changes = self.value.get("set").and_then(Value::as_object);
         let own = changes
             .into_iter()

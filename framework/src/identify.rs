@@ -6,11 +6,13 @@
 mod fit;
 mod next;
 mod parameter;
+mod posterior;
 mod problem;
 mod shares;
 
 pub use fit::{Fitted, Profiled, Settings};
 pub use next::{Candidate, NextPlan};
 pub use parameter::{Identified, RigQuantity, Target};
+pub use posterior::Posterior;
 pub use problem::{Calculated, Faults, Identification, Observation, Pair};
 pub use shares::ShareBands;

@@ -4,6 +4,7 @@
 //! a function that refits.
 
 mod derived;
+mod ensemble;
 mod factors;
 mod fit;
 mod folds;
@@ -25,6 +26,7 @@ mod verdict;
 mod words;
 
 pub use derived::{Breakdown, Derived, hull};
+pub use ensemble::{Draws, Ensemble, Marginal};
 pub use fit::{Accuracy, Fit};
 pub use folds::{FOLDS, Fold, Validation, folds};
 pub use interval::Interval;

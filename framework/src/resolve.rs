@@ -90,8 +90,14 @@ pub fn resolve(
     let mut came = BTreeMap::new();
     let mut unreached = Vec::new();
 
+    let set = match &choice.set {
+        Some(name) => choice::find(language, &value, &choice.sets, name, &mut found).map(|set| (name.clone(), set)),
+        None => None,
+    };
+    let of_set = set.iter().flat_map(|(_, set)| &set.changes);
     let (first, later): (Vec<_>, Vec<_>) = own_overrides(&value)
         .into_iter()
+        .chain(of_set.map(|(path, value, _)| (path.clone(), value.clone())))
         .chain(choice.overrides.iter().cloned())
         .partition(|(path, _)| path.ends_with(".designation"));
     apply(language, &mut value, &first, &mut came, &mut found);
@@ -99,10 +105,6 @@ pub fn resolve(
     surfaces(&mut value, &mut came);
 
     let own = value.get("models").cloned().unwrap_or(Value::Null);
-    let set = match &choice.set {
-        Some(name) => choice::find(language, &value, &choice.sets, name, &mut found).map(|set| (name.clone(), set)),
-        None => None,
-    };
     let without = give_models(language, &mut value, &own, set.as_ref(), &mut came, &mut unreached);
     if let Some(document) = value.as_object_mut() {
         for key in ["models", "model_sets", "extends", "set"] {

@@ -11,11 +11,13 @@ mod identify;
 mod map;
 mod names;
 mod operating_points;
+mod parameters;
 mod range;
 mod rms_surface;
 mod sensitivity;
 mod sweep;
 mod temperature;
+mod then;
 mod tournament;
 mod uncertainty;
 mod write;
@@ -32,7 +34,8 @@ pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
 pub use data::Data;
 pub use files::Study;
 pub use identify::{
-    IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
+    IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry, PosteriorEntry, PriorEntry, RobustEntry, RobustLoss,
+    RuleEntry, ScaleEntry,
 };
 pub use map::MapEntry;
 pub use names::is_device;
@@ -73,6 +76,9 @@ pub struct StudyEntry {
     /// Measured points by name, for all analyses that use them.
     #[serde(default)]
     pub measurements: Ordered<MeasuredEntry>,
+    /// Parameters by name, for all analyses that take them over: `parameters: [viscosity, roughness]`.
+    #[serde(default)]
+    pub parameters: Ordered<IdentifiedEntry>,
     /// Duties by name: shipped driving cycles, recorded series, load spectra.
     #[serde(default)]
     pub cycles: Ordered<CycleEntry>,

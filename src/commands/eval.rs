@@ -28,6 +28,12 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     };
     let source = args.input.as_deref().unwrap_or(Path::new("")).display().to_string();
     let evaluated = eval::ask(language, &args.model, &source, &text, &folder)?;
+    if !evaluated.total.is_finite() {
+        return Err(Failure::input(
+            format!("{source}: {} answers with no finite number at these values", args.model),
+            "give quantities of the size that a transmission has",
+        ));
+    }
     if args.format == Format::Json {
         let value = json!({
             "format": "gearloss-eval/1",

@@ -179,6 +179,15 @@ fn sets(registry: &Registry) -> Value {
             "additionalProperties": true,
         }),
     );
+    fields.insert(
+        "set".to_owned(),
+        json!({
+            "type": "object",
+            "description": "Values that belong to the set: resolved path to value. Those of the study's conditions win.",
+            "x-keys": "path",
+            "additionalProperties": true,
+        }),
+    );
     let set = models(
         registry,
         &mut fields,

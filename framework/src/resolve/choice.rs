@@ -42,6 +42,8 @@ pub struct ModelSet {
     pub models: Map<String, Value>,
     /// Models of single components, by path pattern.
     pub components: Vec<(String, Value)>,
+    /// Path patterns and values that belong to the set, in the order in which they are applied, each with the set that states it.
+    pub changes: Vec<(String, Value, String)>,
 }
 
 impl ModelSet {
@@ -131,6 +133,12 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
                             .flatten()
                             .map(|(k, v)| (k.clone(), v.clone())),
                     );
+                }
+                "set" => {
+                    let changes = value.as_object().into_iter().flatten();
+                    whole
+                        .changes
+                        .extend(changes.map(|(path, value)| (path.clone(), value.clone(), (*name).to_owned())));
                 }
                 _ if value.is_null() => {}
                 _ => {

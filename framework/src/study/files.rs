@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value};
 
 use super::names::devices;
-use super::{Data, Grid, StudyEntry, Uses};
+use super::parameters::replace_names;
+use super::then::PromisedSets;
+use super::{Analysis, Data, Grid, StudyEntry, Uses};
 use crate::analysis::{Field, OilTemperature, Points, Rows};
 use crate::attach::dangling;
 use crate::description::Ordered;
@@ -31,6 +33,7 @@ pub struct Study {
     pub folder: PathBuf,
     places: Places,
     sources: Sources,
+    promised: PromisedSets,
 }
 
 impl Study {
@@ -73,25 +76,36 @@ impl Study {
                 sources,
             });
         }
-        let walked = language.walk_study(&read.node);
+        let mut walked = language.walk_study(&read.node);
         if !walked.findings.is_empty() {
             return Err(Findings {
                 list: walked.findings,
                 sources,
             });
         }
+        if let Err(list) = replace_names(&mut walked.value) {
+            let list = list.into_iter().map(|d| walked.places.place(d).code(Code::Study));
+            return Err(Findings {
+                list: list.collect(),
+                sources,
+            });
+        }
         let bug = |e: serde_json::Error| Findings::from(vec![Diagnostic::error("", e.to_string())]);
-        let sets = walked
+        let mut sets = walked
             .value
             .get("model_sets")
             .and_then(Value::as_object)
             .cloned()
             .unwrap_or_default();
         let entry: StudyEntry = serde_json::from_value(walked.value).map_err(bug)?;
-        let unwritable = devices(&entry);
-        if !unwritable.is_empty() {
+        let mut unusable = devices(&entry);
+        let promised = PromisedSets::new(&entry, &mut sets).unwrap_or_else(|found| {
+            unusable.extend(found);
+            PromisedSets::default()
+        });
+        if !unusable.is_empty() {
             return Err(Findings {
-                list: unwritable.into_iter().map(|d| walked.places.place(d)).collect(),
+                list: unusable.into_iter().map(|d| walked.places.place(d)).collect(),
                 sources,
             });
         }
@@ -107,6 +121,7 @@ impl Study {
             folder,
             places: walked.places,
             sources,
+            promised,
         })
     }
 
@@ -170,9 +185,11 @@ impl Study {
             .set
             .iter()
             .map(|(path, value)| (path.to_owned(), value.clone()));
+        let mut sets = self.sets.clone();
+        self.promised.fill(&mut sets);
         Choice {
             set: set.map(str::to_owned),
-            sets: self.sets.clone(),
+            sets,
             overrides: wheels.chain(changes).collect(),
         }
     }
@@ -199,6 +216,16 @@ impl Study {
                 let changed = changes.iter().find(|(path, _)| meets(path, &finding.path));
                 let set = self.entry.conditions.set.ids().find(|path| meets(path, &finding.path));
                 let wheels = finding.path == WHEELS || finding.path.starts_with("wheels.");
+                let in_own_set = self
+                    .sets
+                    .keys()
+                    .any(|name| finding.path == format!("model_sets.{name}.set"));
+                if in_own_set {
+                    return Some(Diagnostic {
+                        spans: Vec::new(),
+                        ..finding.clone()
+                    });
+                }
                 match (changed, set) {
                     (Some((path, place)), _) => Some(finding.clone().moved(place, path)),
                     (None, Some(path)) => Some(finding.clone().moved("conditions.set", path)),
@@ -213,6 +240,20 @@ impl Study {
             let own: Option<Vec<Diagnostic>> = findings.list.iter().map(own).collect();
             own.map_or(findings, |list| self.findings(list))
         })
+    }
+
+    /// Gives the set that `then` of an analysis names its values, resolved path to value, for all that choose it from now on.
+    pub fn keep_found(&self, set: &str, values: impl IntoIterator<Item = (String, Value)>) {
+        self.promised.keep(set, values.into_iter().collect());
+    }
+
+    /// The first set of an analysis whose values another analysis has still to find, with that analysis.
+    pub fn pending(&self, analysis: &Analysis) -> Option<(String, String)> {
+        let sets = analysis.uses().sets;
+        let name = |set: &&String| set.rsplit('/').next().unwrap_or(set).to_owned();
+        let set = sets.iter().map(name).find(|set| self.promised.is_pending(set))?;
+        let by = self.promised.promised_by(&set)?;
+        Some((set, by))
     }
 
     /// Points under the conditions.
@@ -334,6 +375,15 @@ impl Study {
             }
             let (_, gearbox) = self.gearbox(&path, gearbox)?;
             let mut built = Vec::new();
+            for set in &sets {
+                let promised_by = self.promised.promised_by(set.rsplit('/').next().unwrap_or(set));
+                let Some(by) = promised_by else { continue };
+                let order = |analysis: &str| self.entry.analyses.index(analysis);
+                if order(name) <= order(&by) {
+                    let message = format!("the set `{set}` has no values before the analysis `{by}`");
+                    found.push(Diagnostic::error(&path, message).mend(format!("write this analysis below `{by}`")));
+                }
+            }
             for set in sets {
                 let (gearbox, set) = self.reference(&path, set, gearbox)?;
                 let at_hand = sets_of(language, &gearbox.value, &self.sets);

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::parameters::NamesOrParameters;
 use super::{Data, Quantity, Write};
 use crate::description::Ordered;
 use crate::varied::Tie;
@@ -28,7 +29,8 @@ pub struct IdentifyEntry {
     #[serde(default = "residuals")]
     #[schemars(length(min = 1))]
     pub residuals: Vec<Quantity>,
-    /// The parameters by name.
+    /// The parameters by name, or names of those that the study states under `parameters`.
+    #[schemars(with = "NamesOrParameters")]
     pub parameters: Ordered<IdentifiedEntry>,
     /// A loss by which outliers pull less.
     pub robust: Option<RobustEntry>,
@@ -42,6 +44,8 @@ pub struct IdentifyEntry {
     /// Whether intervals are also found by profile: fits with one parameter held, until the misfit has grown too much.
     #[serde(default = "yes")]
     pub profiles: bool,
+    /// Draws from the posterior: intervals that keep every shape, beside those of the fit and of the profiles.
+    pub posterior: Option<PosteriorEntry>,
     /// Groups of neighbouring torques of which each is predicted from the others; 0, none. [-]
     #[serde(default = "folds")]
     #[schemars(range(min = 0, max = 20))]
@@ -52,6 +56,8 @@ pub struct IdentifyEntry {
     pub stack_at: Option<f64>,
     /// What to measure next.
     pub next: Option<NextEntry>,
+    /// Name of a set of models for the analyses after this one: the fitted set with the values that were found.
+    pub then: Option<String>,
     /// Formats to write; absent, CSV, JSON and SVG.
     #[serde(default = "Write::all")]
     pub write: Vec<Write>,
@@ -173,6 +179,31 @@ pub enum RobustLoss {
     Cauchy,
     /// Bounded: far points do not pull at all.
     Arctan,
+}
+
+/// How the posterior of the parameters is drawn: every value of a range counts alike before, of a logarithmic parameter every
+/// ratio, and a `prior` beside.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+pub struct PosteriorEntry {
+    /// Steps of each walker; the first third is thrown away. [-]
+    #[serde(default = "steps")]
+    #[schemars(range(min = 30, max = 100000))]
+    pub steps: u32,
+    /// Walkers, at least two for each parameter; absent, four for each and at least 16. [-]
+    #[schemars(range(min = 4, max = 1000))]
+    pub walkers: Option<u32>,
+    /// Number that the draws follow from. [-]
+    #[serde(default = "seed")]
+    #[schemars(range(min = 0, max = 4294967295_u32))]
+    pub seed: u32,
+}
+
+fn steps() -> u32 {
+    1500
+}
+
+fn seed() -> u32 {
+    1
 }
 
 /// What to measure next: points of a grid, ranked by what they tell about the parameters.

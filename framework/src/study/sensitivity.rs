@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::parameters::NameOr;
 use super::{RangeEntry, Write};
 
 /// What the losses over a grid depend on: the mean loss, that of every mechanism and term, and the mean efficiency.
@@ -16,8 +17,8 @@ pub struct SensitivityEntry {
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// The quantities that are varied. `local` starts from the value of the gearbox: of the first where a path meets several
-    /// that differ.
-    #[schemars(length(min = 1, max = 32))]
+    /// that differ. A name takes over a parameter of the study.
+    #[schemars(length(min = 1, max = 32), with = "Vec<NameOr<RangeEntry>>")]
     pub parameters: Vec<RangeEntry>,
     /// What is done; absent, all.
     #[serde(default = "Method::all")]

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::parameters::NameOr;
 use super::{RangeEntry, Write};
 
 /// What uncertain inputs do to efficiency, loss and temperature over a grid: every input is drawn from its distribution.
@@ -15,8 +16,8 @@ pub struct UncertaintyEntry {
     /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// The uncertain inputs.
-    #[schemars(length(min = 1))]
+    /// The uncertain inputs. A name takes over a parameter of the study, evenly distributed.
+    #[schemars(length(min = 1), with = "Vec<NameOr<ToleranceEntry>>")]
     pub inputs: Vec<ToleranceEntry>,
     /// Number of samples; powers of two fill the ranges most evenly. [-]
     #[serde(default = "samples")]

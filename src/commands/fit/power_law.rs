@@ -52,6 +52,12 @@ pub fn run(path: &Path, out: &mut Out) -> Result<End, Failure> {
             "give every axis two values and every point a moment above zero",
         )
     })?;
+    if !fit.rms().is_finite() {
+        return Err(Failure::input(
+            format!("{file}: its moments are too large, or too far apart, to be fitted"),
+            "check their unit",
+        ));
+    }
     let mut words = vec![
         "type: power_law".to_owned(),
         format!("moment: {} Nm", significant(fit.factor)),

@@ -5,11 +5,12 @@ mod lines;
 mod next;
 mod outcome;
 mod pictures;
+mod posterior;
 mod results;
 mod show;
 mod tables;
 
-use gearloss_framework::identify::{Faults, Identification, Observation, Settings};
+use gearloss_framework::identify::{Faults, Identification, Identified, Observation, Settings};
 use gearloss_framework::inference::{Accuracy, Comparison, FittedModel, akaike, ranking};
 use gearloss_framework::least_squares::{Fault, Loss};
 use gearloss_framework::study::{IdentifyEntry, RobustLoss};
@@ -89,6 +90,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
             let mend = "state the accuracies, or leave it out";
             return Err(runner.wrong(&format!("{path}.accuracy_factors"), message, mend));
         }
+        posterior::check(runner, &path, entry, &identification)?;
         let candidates = entry.next.as_ref().map(|next| next::candidates(runner, name, next, b));
         let candidates = candidates.transpose()?;
         if runner.only_checks {
@@ -134,6 +136,12 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     write_json(runner, name, &entry.write, &value)?;
     for outcome in &outcomes {
         pictures::write(runner, name, entry, outcome)?;
+    }
+    if let (Some(set), [outcome]) = (&entry.then, &outcomes[..]) {
+        let parameters = outcome.identification.parameters();
+        runner
+            .study
+            .keep_found(set, Identified::overrides(parameters, outcome.fitted.theta()));
     }
     Ok(())
 }

@@ -108,6 +108,11 @@ impl Runner<'_> {
         for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
             gearbox.files.forget_all_but(known);
         }
+        if let Some((set, by)) = self.study.pending(analysis).filter(|_| !self.only_checks) {
+            let message = format!("the set `{set}` has no values: the analysis `{by}` found none");
+            let mend = format!("correct `{by}`, or choose another set");
+            return Err(self.wrong(&format!("analyses.{name}"), message, &mend));
+        }
         out.begin_copy();
         let done = match analysis {
             Analysis::Map(entry) => map::run(self, name, entry, out),

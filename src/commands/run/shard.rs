@@ -5,6 +5,7 @@ use std::fs;
 use std::str::FromStr;
 
 use gearloss_framework::analysis::Bits;
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::language::Language;
 use gearloss_framework::study::{Analysis, Study};
 use serde::{Deserialize, Serialize};
@@ -138,6 +139,21 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
             .join(format!("{}-of-{}", shard.number, shard.of))
     };
     let folder = args.results.output.clone().unwrap_or_else(own);
+    // A shard does not know what an analysis of another one finds.
+    if let Some((name, (set, by))) = study
+        .entry
+        .analyses
+        .iter()
+        .find_map(|(name, a)| Some((name, study.pending(a)?)))
+    {
+        let message = format!(
+            "`{name}` uses the set `{set}`, whose values `{by}` finds, and the two may fall into different shards"
+        );
+        let mend = format!("run `{by}` first, and write what it finds under `model_sets`; or run the study as a whole");
+        return Err(study
+            .findings(vec![Diagnostic::error(format!("analyses.{name}"), message).mend(mend)])
+            .into());
+    }
     let held = Manifest::of(language, study, shard).claim(&folder)?;
     interrupt::listen();
     let runner = Runner::new(language, study, folder, None);

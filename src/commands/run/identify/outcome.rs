@@ -1,7 +1,9 @@
 //! All that is found for one set of models.
 
 use gearloss_framework::analysis::{Note, notes};
-use gearloss_framework::identify::{Calculated, Fitted, Identification, Pair, Profiled, Settings, ShareBands};
+use gearloss_framework::identify::{
+    Calculated, Fitted, Identification, Pair, Posterior, Profiled, Settings, ShareBands,
+};
 use gearloss_framework::inference::{Fold, Succession, Validation};
 use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
 
@@ -9,6 +11,7 @@ use super::super::{Built, Runner};
 use super::checks::Checks;
 use super::lines::{Sheet, sheets};
 use super::next::{self, Candidates, Next};
+use super::posterior;
 use crate::interrupt;
 use crate::output::Failure;
 
@@ -24,6 +27,8 @@ pub struct Outcome<'a> {
     pub calculated: [Calculated; 2],
     /// Intervals by profile.
     pub profiles: Vec<Option<Profiled>>,
+    /// Draws from the posterior, where they were asked for.
+    pub posterior: Option<Result<Posterior, String>>,
     /// Errors of predictions.
     pub folds: Option<Result<(Vec<Fold>, Validation), String>>,
     pub checks: Checks,
@@ -60,6 +65,13 @@ impl<'a> Outcome<'a> {
         } else {
             vec![None; identification.parameters().len()]
         };
+        let posterior = entry.posterior.map(|entry| {
+            identification.posterior(
+                &fitted,
+                &posterior::ensemble(entry, &identification),
+                settings.interrupt,
+            )
+        });
         let folds = (entry.folds > 1).then(|| identification.validate(&fitted, entry.folds as usize, settings));
         if interrupt::pressed() {
             return Err(Failure::Interrupted);
@@ -80,6 +92,7 @@ impl<'a> Outcome<'a> {
             identification,
             fitted,
             profiles,
+            posterior,
             folds,
             shares,
             sheets,

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::super::super::solve::RPM;
 use super::super::map::tidy;
 use super::outcome::Outcome;
+use super::posterior;
 use super::show::RESOLVED;
 
 /// All that was found for one set.
@@ -32,6 +33,7 @@ pub fn of(o: &Outcome<'_>) -> Value {
         "condition": inference.condition(),
         "singular_values_of_ranges": ranged,
         "resolved_combinations": ranged.iter().filter(|value| **value > RESOLVED).count(),
+        "posterior": posterior::value(o),
         "checks": checks(o),
         "folds": folds(o),
         "points": points(o),

@@ -7,6 +7,7 @@ use gearloss_framework::study::{Difference, IdentifyEntry, RuleEntry};
 use super::super::super::solve::RPM;
 use super::super::Runner;
 use super::outcome::Outcome;
+use super::posterior;
 use crate::output::{Failure, Out, Table, figures, fixed};
 
 /// Condition of unit columns from which on it is told, and from which on it is a warning.
@@ -31,11 +32,11 @@ pub fn verdict(verdict: Verdict) -> String {
     }
 }
 
-fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     figures(x, 4)
 }
 
-fn span(ends: [f64; 2]) -> String {
+pub fn span(ends: [f64; 2]) -> String {
     format!("{} to {}", short(ends[0]), short(ends[1]))
 }
 
@@ -49,6 +50,7 @@ pub fn show(
     search(name, o, out)?;
     misfit(runner, name, o, out)?;
     parameters(o, out)?;
+    posterior::show(runner, name, o, out)?;
     let inference = &o.fitted.inference;
     for (k, parameter) in inference.parameters().iter().enumerate() {
         let found = inference.determination_widened(k, o.widening().unwrap_or(1.0));

@@ -12,6 +12,7 @@ use super::super::map::tidy;
 use super::super::table::TableFile;
 use super::super::write::{cell, keep};
 use super::outcome::Outcome;
+use super::posterior;
 use super::show::verdict;
 use crate::output::Failure;
 
@@ -23,6 +24,9 @@ pub fn write(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outc
     points(runner, name, entry, all)?;
     shares(runner, name, entry, all)?;
     parameters(runner, name, entry, all)?;
+    if entry.posterior.is_some() {
+        posterior::write(runner, name, entry, all)?;
+    }
     if entry.next.is_some() {
         next(runner, name, entry, all)?;
     }
