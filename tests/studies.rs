@@ -567,3 +567,99 @@ fn an_interruption_keeps_what_is_finished() {
     let report = std::fs::read_to_string(folder.join("results/report.html")).unwrap();
     assert!(report.contains("id=\"quick\"") && !report.contains("id=\"long\""));
 }
+
+/// Points of a map as a file of measured losses.
+fn measured(map: &Value) -> String {
+    let mut text = "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n".to_owned();
+    for point in points(&map["maps"][0]) {
+        let [torque, speed, loss] = ["torque_nm", "speed_rpm", "loss_w"].map(|key| number(&point[key]));
+        text.push_str(&format!("{torque},{speed},{loss},{}\n", 0.01 * loss));
+    }
+    text
+}
+
+/// Parameters stated once serve several analyses; what is found is a set of models for those that come later; a set holds values.
+#[test]
+fn what_is_found_serves_later_analyses() {
+    let truth = "model_sets:
+  joint:
+    gear_mesh: { type: path_integral, load_sharing: rigid, tooth_friction: { type: xu } }
+    bearing: { type: skf }
+    seal: none
+    synchronizer: none
+  thick: { extends: joint, set: { lubricants.sump.viscosity.factor: 1.3 } }
+";
+    let made = format!("{PLAIN}analyses: {{ map: {{ type: map, grid: few, model_sets: [thick], write: [json] }} }}\n");
+    let folder = written("made", &made, &[]);
+    let study = std::fs::read_to_string(folder.join("study.yaml")).unwrap();
+    std::fs::write(folder.join("study.yaml"), study.replace(SETS, truth)).unwrap();
+    let (results, text) = solved(&folder.join("study.yaml"));
+    let rig = measured(&json(&results, "map"));
+    assert!(!rig.is_empty(), "{text}");
+    let study = format!(
+        "parameters:
+  viscosity: {{ path: lubricants.sump.viscosity.factor, from: 0.5, to: 2, scale: log }}
+{PLAIN}measurements: {{ rig: {{ file: rig.csv }} }}
+analyses:
+  found:
+    type: identify
+    data: rig
+    model_sets: [joint]
+    residuals: [loss]
+    parameters: [viscosity]
+    starts: 1
+    folds: 0
+    posterior: {{ steps: 300, walkers: 8 }}
+    then: fitted
+    write: [csv, json]
+  gap: {{ type: compare, data: rig, against: [joint, fitted], quantity: loss, write: [json] }}
+  band: {{ type: uncertainty, grid: few, model_sets: [joint], inputs: [viscosity], samples: 8, write: [json] }}
+"
+    );
+    let folder = written("found", &study, &[("rig.csv", &rig)]);
+    let text = std::fs::read_to_string(folder.join("study.yaml")).unwrap();
+    std::fs::write(folder.join("study.yaml"), text.replace(SETS, truth)).unwrap();
+    let (results, text) = solved(&folder.join("study.yaml"));
+    let found = &json(&results, "found")["identifications"][0];
+    let fitted = number(&found["parameters"][0]["value"]);
+    same(fitted, 1.3, 1e-4);
+    // The misfit is zero there, so the accuracies alone make the posterior: the linearised interval but for its curvature.
+    let posterior = &found["posterior"]["parameters"][0];
+    let interval = [0, 1].map(|end| number(&posterior["interval"][end]));
+    assert!(interval[0] < 1.3 && 1.3 < interval[1], "{posterior}");
+    let linear = [0, 1].map(|end| number(&found["parameters"][0]["interval"][end]));
+    let [drawn, linear] = [interval, linear].map(|ends| ends[1] - ends[0]);
+    same(drawn, linear, 0.2);
+    let gap = json(&results, "gap");
+    let rms = |set: usize| number(&gap["comparisons"][set]["difference"]["rms"]);
+    assert!(rms(1) < 1e-3 * rms(0), "{text}");
+    assert!(results.join("band.json").exists(), "{text}");
+    assert!(results.join("found-posterior.csv").exists(), "{text}");
+}
+
+/// What finds no values leaves nothing to later analyses, and says so.
+#[test]
+fn an_analysis_without_the_values_it_waits_for_fails() {
+    let study = format!(
+        "{PLAIN}measurements: {{ rig: {{ file: rig.csv }} }}
+analyses:
+  found: {{ type: identify, data: rig, model_sets: [joint], parameters: {{ x: {{ path: \"meshes.*.loss_factor\", from: 0.5, to: 2 }} }}, robust: {{ loss: huber }}, posterior: {{}}, then: fitted }}
+  map: {{ type: map, grid: few, model_sets: [fitted] }}
+"
+    );
+    let rig = "torque [Nm],speed [rpm],loss [W]\n5,2000,10\n10,2000,20\n20,2000,30\n";
+    let folder = written("waits", &study, &[("rig.csv", rig)]);
+    let (_, text) = solved(&folder.join("study.yaml"));
+    assert!(text.contains("a robust loss is no density"), "{text}");
+    assert!(
+        text.contains("the set `fitted` has no values: the analysis `found` found none"),
+        "{text}"
+    );
+    let shard = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .args(["run", "--shard", "1/2"])
+        .arg(folder.join("study.yaml"))
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&shard.stderr);
+    assert!(!shard.status.success() && text.contains("different shards"), "{text}");
+}

@@ -47,18 +47,6 @@ impl Identified {
 }
 
 impl Identification<'_> {
-    /// Whether a posterior can be drawn: every parameter needs a range on both sides.
-    ///
-    /// # Errors
-    /// The name of the first parameter without one.
-    pub fn has_ranges(&self) -> Result<(), String> {
-        let open = |p: &&Identified| p.bounds.iter().any(|bound| !bound.is_finite());
-        match self.parameters.iter().find(open) {
-            Some(parameter) => Err(parameter.base_name().to_owned()),
-            None => Ok(()),
-        }
-    }
-
     /// Number of walkers where it is not stated.
     pub fn walkers(&self) -> usize {
         WALKERS[1].max(WALKERS[0] * self.parameters.len())
@@ -67,15 +55,13 @@ impl Identification<'_> {
     /// Draws from the posterior, beginning about a fit.
     ///
     /// # Errors
-    /// If a parameter has no range, none is free, or the draws were broken off.
+    /// If no parameter is free, or the draws were broken off.
     pub fn posterior(
         &self,
         fitted: &Fitted,
         ensemble: &Ensemble,
         interrupt: Option<&(dyn Fn() -> bool + Sync)>,
     ) -> Result<Posterior, String> {
-        self.has_ranges()
-            .map_err(|name| format!("`{name}` has no range on both sides"))?;
         let is_free = |k: &usize| self.parameters[*k].bounds[0] < self.parameters[*k].bounds[1];
         let free: Vec<usize> = (0..self.parameters.len()).filter(is_free).collect();
         if free.is_empty() {

@@ -30,10 +30,6 @@ pub fn check(
         let message = "a robust loss is no density, so nothing can be drawn from it";
         return Err(runner.wrong(&place, message, "leave `robust` or `posterior` out"));
     }
-    if let Err(name) = identification.has_ranges() {
-        let message = format!("`{name}` has no range on both sides, and a posterior begins with the ranges");
-        return Err(runner.wrong(&place, message, &format!("give `{name}` both `from` and `to`")));
-    }
     let ensemble = ensemble(posterior, identification);
     let draws = ensemble.steps * ensemble.walkers;
     if draws > MOST_DRAWS {
