@@ -2,6 +2,7 @@
 //!
 //! What a file looks like is recognised and told, or stated; a unit that stands nowhere is an error, not a guess.
 
+mod condition;
 mod rig;
 mod seen;
 pub(crate) mod text;
@@ -10,8 +11,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::description::Ordered;
-use crate::document::Unit;
+use crate::document::{Dimension, Unit};
 
+pub use condition::{Condition, ConditionFault};
 pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportLossEntry, TorqueMeterEntry};
 pub use seen::{Seen, counted};
 pub use text::{Decimal, Encoding, Separator};
@@ -115,6 +117,19 @@ pub struct Row {
     pub values: Vec<Option<f64>>,
     /// Bound values as written, with their units.
     pub bound: Vec<String>,
+    /// All cells of the row by the places of [`Measured::columns`], numbers with a decimal point.
+    pub cells: Vec<String>,
+}
+
+/// A column of a file as its header states it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct FileColumn {
+    /// Name in the header.
+    pub header: String,
+    /// Name under which it is bound, where it is.
+    pub bound: Option<String>,
+    /// Symbol of its unit, where header, row of units or `units` state one.
+    pub unit: Option<String>,
 }
 
 /// What was read.
@@ -122,6 +137,8 @@ pub struct Row {
 pub struct Measured {
     /// Names of the numeric quantities that the file holds.
     pub quantities: Vec<&'static str>,
+    /// All columns of the file.
+    pub columns: Vec<FileColumn>,
     /// The points.
     pub rows: Vec<Row>,
     /// How the file was understood, and which rows were left out, in sentences.
@@ -141,6 +158,12 @@ impl Measured {
     pub fn value(&self, row: &Row, quantity: &str) -> Option<f64> {
         let place = self.quantities.iter().position(|q| *q == quantity)?;
         row.values.get(place).copied().flatten()
+    }
+
+    /// Place of a column by the name under which it is bound, or by its header.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        let bound = self.columns.iter().position(|c| c.bound.as_deref() == Some(name));
+        bound.or_else(|| self.columns.iter().position(|c| c.header == name))
     }
 
     /// True where the file holds a quantity.
@@ -202,6 +225,7 @@ impl MeasuredEntry {
                 .filter(|c| c.unit.is_some())
                 .map(|c| KNOWN[c.known].name)
                 .collect(),
+            columns: self.file_columns(&table, &bound, bind),
             rows: Vec::new(),
             notes,
             divisor: self.divisor(),
@@ -235,6 +259,25 @@ impl MeasuredEntry {
             ));
         }
         Ok(measured)
+    }
+
+    /// All columns as the header states them.
+    fn file_columns(&self, table: &text::Table, bound: &[(Column, String)], bind: &[&str]) -> Vec<FileColumn> {
+        let column = |(place, header): (usize, &String)| {
+            let own = bound.iter().position(|(column, _)| column.place == place);
+            let name = own.and_then(|i| bind.get(i)).map(|name| (*name).to_owned());
+            let stated = name.as_ref().and_then(|name| self.units.get(name)).cloned();
+            let unit = stated.or_else(|| table.units[place].clone());
+            // What stands in brackets need not be a unit.
+            let has_dimension =
+                |unit: &String| unit == "%" || Unit::of_symbol(unit).is_some_and(|u| u.dimension != Dimension::None);
+            FileColumn {
+                header: header.clone(),
+                unit: unit.filter(has_dimension),
+                bound: name,
+            }
+        };
+        table.names.iter().enumerate().map(column).collect()
     }
 
     /// The columns that hold quantities, and those that are bound, with their units.
@@ -403,6 +446,11 @@ fn row(
             (None, _) => row.name = text(),
         }
     }
+    let plain = |cell: &String| match decimal {
+        Decimal::Comma if decimal.number(cell).is_some() => cell.replace(',', "."),
+        _ => cell.clone(),
+    };
+    row.cells = cells.iter().map(plain).collect();
     for (column, unit) in bound {
         row.bound.push(format!("{} {unit}", number(column)?).trim().to_owned());
     }
@@ -410,11 +458,11 @@ fn row(
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    fn entry(columns: &[(&str, &str)], units: &[(&str, &str)]) -> MeasuredEntry {
+    pub(crate) fn entry(columns: &[(&str, &str)], units: &[(&str, &str)]) -> MeasuredEntry {
         let list =
             |pairs: &[(&str, &str)]| Ordered(pairs.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect());
         MeasuredEntry {
