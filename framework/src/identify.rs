@@ -1,18 +1,23 @@
 //! Identification: parameters of a gearbox and its rig that bring the summed losses to what was measured.
 //!
 //! [`Identification`] joins measured points, a gearbox and parameters to a least-squares problem; [`Identification::fit`]
-//! solves it and says what the points tell; [`Identification::next`] ranks points that would tell more.
+//! solves it and says what the points tell; [`Identification::predict`] predicts rows that were not
+//! fitted; [`Identification::next`] ranks points that would tell more.
 
 mod fit;
+mod hold_out;
 mod next;
 mod parameter;
 mod posterior;
+mod predict;
 mod problem;
 mod shares;
 
 pub use fit::{Fitted, Profiled, Settings};
+pub use hold_out::{HoldOut, group_words};
 pub use next::{Candidate, NextPlan};
 pub use parameter::{Identified, RigQuantity, Target};
 pub use posterior::Posterior;
+pub use predict::{CONFIDENCE, PredictedNumber, Predictions};
 pub use problem::{Calculated, Faults, Identification, Observation, Pair};
 pub use shares::ShareBands;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Identification;
-use crate::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation, folds};
+use crate::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation};
 use crate::least_squares::{
     Differences, Fault, Loss, Minima, Noise, Options, Problem, Reason, SINGULAR, Scale, Status, multistart, solve,
 };
@@ -344,22 +344,15 @@ impl Identification<'_> {
         })
     }
 
-    /// Errors of each fold of neighbouring torques, predicted with the parameters that the others give.
+    /// Errors of each fold, predicted with the parameters that the others give. The folds are those of
+    /// [`Identification::groups`].
     ///
     /// # Errors
-    /// If there are fewer than two torques, or a fit fails.
-    pub fn validate(
-        &self,
-        fitted: &Fitted,
-        count: usize,
-        settings: &Settings<'_>,
-    ) -> Result<(Vec<Fold>, Validation), String> {
-        let rows = &self.rows.measured;
-        let torque = |o: &super::Observation| rows.value(&rows.rows[o.row], "torque").unwrap_or(0.0);
-        let torques: Vec<f64> = self.observations.iter().map(torque).collect();
-        let folds = folds(&torques, count)?;
+    /// If a fit fails.
+    pub fn validate(&self, fitted: &Fitted, folds: &[Fold], settings: &Settings<'_>) -> Result<Validation, String> {
+        let count = self.observations.len();
         let leave_out = |fold: &Fold| -> Result<Vec<(usize, f64)>, String> {
-            let others: Vec<usize> = (0..torques.len()).filter(|i| !fold.points.contains(i)).collect();
+            let others: Vec<usize> = (0..count).filter(|i| !fold.points.contains(i)).collect();
             let problem = self.problem_from(fitted.theta(), None);
             let partial = |theta: &[f64]| {
                 let all = problem.residual(theta)?;
@@ -379,11 +372,10 @@ impl Identification<'_> {
             .with_max_len(1)
             .map(leave_out)
             .collect::<Result<_, _>>()?;
-        let mut errors = vec![0.0; torques.len()];
+        let mut errors = vec![0.0; count];
         for (i, error) in found.into_iter().flatten() {
             errors[i] = error;
         }
-        let validation = Validation::new(&folds, &errors).ok_or("a fold has no points")?;
-        Ok((folds, validation))
+        Validation::new(folds, &errors).ok_or_else(|| "a fold has no points".to_owned())
     }
 }

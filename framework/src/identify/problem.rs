@@ -24,6 +24,14 @@ pub struct Observation {
     pub deviation: f64,
 }
 
+impl Observation {
+    /// Whether another of the fitted quantities counts a point whose efficiency says nothing.
+    pub(super) fn is_counted_by(&self, asked: Quantity, residuals: &[Quantity]) -> bool {
+        let other = |q: &Quantity| matches!(q, Quantity::Loss | Quantity::LossTorque);
+        self.quantity != asked && residuals.iter().any(other)
+    }
+}
+
 /// A measured number beside the calculated one; efficiencies as shares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
@@ -297,6 +305,33 @@ impl<'a> Identification<'a> {
         Ok(())
     }
 
+    /// What a row gives to be fitted by a quantity, with the accuracy that is stated of it; absent where it gives nothing. An
+    /// efficiency at hardly any torque counts by its loss torque.
+    pub(super) fn observable(
+        &self,
+        row: usize,
+        quantity: Quantity,
+        calculated: &Calculated,
+    ) -> Option<(Observation, Option<f64>)> {
+        let measured = self.rows.measured;
+        let own = &measured.rows[row];
+        let seen = Seen::on(&calculated.rig, measured, own, calculated.point(row));
+        let weight = measured.value(own, "weight").unwrap_or(1.0);
+        let drowns = quantity == Quantity::Efficiency && seen.is_drowned();
+        let quantity = if drowns { Quantity::LossTorque } else { quantity };
+        if seen.quantity(quantity).is_none() || weight <= 0.0 {
+            return None;
+        }
+        let unit = if quantity == Quantity::Efficiency { 0.01 } else { 1.0 };
+        let accuracy = seen.accuracy(quantity);
+        let observation = Observation {
+            row,
+            quantity,
+            deviation: accuracy.unwrap_or(unit) / weight.sqrt(),
+        };
+        Some((observation, accuracy))
+    }
+
     /// Chooses what is fitted, with its standard deviations at the start.
     fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
         let data = |message: String, mend: &str| vec![Diagnostic::error("data", message).mend(mend)];
@@ -309,24 +344,13 @@ impl<'a> Identification<'a> {
             let before = found.len();
             let mut drowned = 0;
             for (i, row) in measured.rows.iter().enumerate() {
-                let seen = Seen::on(&start.rig, measured, row, start.point(i));
-                let weight = measured.value(row, "weight").unwrap_or(1.0);
-                let drowns = *quantity == Quantity::Efficiency && seen.is_drowned();
-                let quantity = if drowns { Quantity::LossTorque } else { *quantity };
-                if seen.quantity(quantity).is_none() || weight <= 0.0 {
+                let Some((observation, accuracy)) = self.observable(i, *quantity, &start) else {
+                    continue;
+                };
+                drowned += usize::from(observation.quantity != *quantity);
+                if observation.is_counted_by(*quantity, residuals) {
                     continue;
                 }
-                drowned += usize::from(drowns);
-                if drowns
-                    && residuals
-                        .iter()
-                        .any(|q| matches!(q, Quantity::Loss | Quantity::LossTorque))
-                {
-                    // The other quantity counts the point already.
-                    continue;
-                }
-                let unit = if quantity == Quantity::Efficiency { 0.01 } else { 1.0 };
-                let accuracy = seen.accuracy(quantity);
                 if accuracy == Some(0.0) {
                     let message = format!("line {}: an accuracy of zero", row.line);
                     return Err(data(
@@ -334,11 +358,6 @@ impl<'a> Identification<'a> {
                         "state how accurate the instruments are, or leave all accuracies out",
                     ));
                 }
-                let observation = Observation {
-                    row: i,
-                    quantity,
-                    deviation: accuracy.unwrap_or(unit) / weight.sqrt(),
-                };
                 found.push((observation, accuracy));
             }
             let what = quantity.words(crate::study::Difference::Points).0;

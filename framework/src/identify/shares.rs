@@ -76,18 +76,7 @@ impl Identification<'_> {
             .iter()
             .map(|b| b.parts.iter().chain([&b.total]).map(|d| d.band(DEVIATIONS)).collect())
             .collect();
-        // A parameter on its bound has no part in the covariance: the other end of its interval shows what it would do.
-        for (k, profile) in profiles.iter().enumerate() {
-            let active = matches!(fitted.inference.parameters()[k].standing, Standing::Active(_));
-            let Some(Ok(interval)) = profile.as_ref().filter(|_| active) else {
-                continue;
-            };
-            let far = interval.ends.iter().find(|end| end.reach == Reach::Limit);
-            let Some(far) = far else { continue };
-            let from: Vec<f64> = fitted.inference.parameters().iter().map(|p| p.u).collect();
-            let there = self.refit(fitted, (k, far.u), &from, None)?;
-            let parameters = fitted.inference.parameters().iter();
-            let theta: Vec<f64> = parameters.zip(&there.u).map(|(p, u)| p.scale.theta(*u)).collect();
+        for theta in self.far_ends(fitted, profiles)? {
             let moved = outputs(&theta)?;
             for (i, bands) in bands.iter_mut().enumerate() {
                 let own = &moved[i * width..(i + 1) * width];
@@ -102,6 +91,31 @@ impl Identification<'_> {
             rows: breakdowns,
             bands,
         })
+    }
+}
+
+impl Identification<'_> {
+    /// Parameters at the far end of the interval by profile of each parameter that is on a bound, the others following. Such a
+    /// parameter has no part in the covariance: there it shows what it would do.
+    pub(super) fn far_ends(
+        &self,
+        fitted: &Fitted,
+        profiles: &[Option<Result<ProfileInterval, String>>],
+    ) -> Result<Vec<Vec<f64>>, String> {
+        let mut ends = Vec::new();
+        for (k, profile) in profiles.iter().enumerate() {
+            let active = matches!(fitted.inference.parameters()[k].standing, Standing::Active(_));
+            let Some(Ok(interval)) = profile.as_ref().filter(|_| active) else {
+                continue;
+            };
+            let far = interval.ends.iter().find(|end| end.reach == Reach::Limit);
+            let Some(far) = far else { continue };
+            let from: Vec<f64> = fitted.inference.parameters().iter().map(|p| p.u).collect();
+            let there = self.refit(fitted, (k, far.u), &from, None)?;
+            let parameters = fitted.inference.parameters().iter();
+            ends.push(parameters.zip(&there.u).map(|(p, u)| p.scale.theta(*u)).collect());
+        }
+        Ok(ends)
     }
 }
 

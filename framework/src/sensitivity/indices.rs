@@ -7,9 +7,9 @@
 
 use rayon::prelude::*;
 
-use super::resample::{Generator, quantile};
+use super::resample::quantile;
 use super::run::outputs;
-use crate::sampling::Sobol;
+use crate::sampling::{Generator, Sobol};
 
 /// Sum of the first shares below which interactions matter.
 const ALONE: f64 = 0.9;

@@ -1,5 +1,7 @@
 //! Uncertain parameters, found from measured points.
 
+mod hold_out;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -8,6 +10,8 @@ use super::parameters::NamesOrParameters;
 use super::{Data, Quantity, Write};
 use crate::description::Ordered;
 use crate::varied::Tie;
+
+pub use hold_out::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
 
 /// Uncertain parameters of the gearbox and the rig, found by bounded least squares from measured points, with what the points say
 /// about each of them.
@@ -46,10 +50,13 @@ pub struct IdentifyEntry {
     pub profiles: bool,
     /// Draws from the posterior: intervals that keep every shape, beside those of the fit and of the profiles.
     pub posterior: Option<PosteriorEntry>,
-    /// Groups of neighbouring torques of which each is predicted from the others; 0, none. [-]
+    /// Rows that are not fitted and are predicted afterwards, with bands: a condition such as `torque > 1000 Nm`, or one of
+    /// `column`, `where`, `every` and `random`.
+    pub hold_out: Option<HoldOutEntry>,
+    /// Groups of rows of which each is predicted from the others: a number of groups of neighbouring torques, 0 for none, or
+    /// `{ by: speed, count: 5 }`.
     #[serde(default = "folds")]
-    #[schemars(range(min = 0, max = 20))]
-    pub folds: u32,
+    pub folds: FoldsEntry,
     /// Torque of the points whose losses are stacked beside the measured total; absent, those nearest to half of the
     /// greatest. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
@@ -75,8 +82,8 @@ fn yes() -> bool {
     true
 }
 
-fn folds() -> u32 {
-    5
+fn folds() -> FoldsEntry {
+    FoldsEntry::Torques(5)
 }
 
 /// One parameter.

@@ -34,7 +34,7 @@ fn near(x: f64, y: f64) {
 fn check_7_4_folds() {
     let torque: Vec<f64> = points().iter().map(|p| p.torque).collect();
     let folds = folds(&torque, FOLDS).unwrap();
-    let bands: Vec<[f64; 2]> = folds.iter().map(|f| f.band).collect();
+    let bands: Vec<[f64; 2]> = folds.iter().filter_map(|f| f.band).collect();
     assert_eq!(
         bands,
         [[2.0, 4.0], [6.0, 8.0], [10.0, 12.0], [14.0, 16.0], [18.0, 20.0]]

@@ -1,6 +1,7 @@
 //! Uncertain parameters, found from measured points, with what the points say about each.
 
 mod checks;
+mod hold_out;
 mod lines;
 mod next;
 mod outcome;
@@ -10,10 +11,12 @@ mod results;
 mod show;
 mod tables;
 
-use gearloss_framework::identify::{Faults, Identification, Identified, Observation, Settings};
-use gearloss_framework::inference::{Accuracy, Comparison, FittedModel, akaike, ranking};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::identify::{Faults, HoldOut, Identification, Identified, Observation, Settings};
+use gearloss_framework::inference::{Accuracy, Comparison, FittedModel, Fold, akaike, ranking};
 use gearloss_framework::least_squares::{Fault, Loss};
-use gearloss_framework::study::{IdentifyEntry, RobustLoss};
+use gearloss_framework::measured::Measured;
+use gearloss_framework::study::{FoldsEntry, IdentifiedEntry, IdentifyEntry, RobustLoss};
 use serde_json::Value;
 
 use self::outcome::Outcome;
@@ -33,7 +36,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     for note in &measured.notes {
         out.line(format!("{name}: {file}: {note}"))?;
     }
-    if entry.folds == 1 {
+    if entry.folds == FoldsEntry::Torques(1) {
         let message = "one group of torques cannot be predicted from others";
         return Err(runner.wrong(&format!("{path}.folds"), message, "write 2 or more, or 0 for none"));
     }
@@ -41,19 +44,21 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
         let message = "a robust loss takes far points as such, a factor of the accuracy takes them as scatter";
         return Err(runner.wrong(&format!("{path}.accuracy_factors"), message, "leave one of them out"));
     }
+    let held_out = held_out(runner, name, entry, &measured, out)?;
+    let to_fit = held_out.as_ref().map_or(&measured, |choice| &choice.fitted);
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let built = runner.built(gearbox, &entry.model_sets)?;
     let mut outcomes: Vec<Outcome<'_>> = Vec::new();
     let mut moved: Vec<String> = Vec::new();
     for b in &built {
-        let rows = runner.study.rows(&measured, &entry.bind, entry.gear.as_deref(), false);
+        let rows_of = |measured| runner.study.rows(measured, &entry.bind, entry.gear.as_deref(), false);
         let choice = runner.study.choice(b.set());
-        runner.rows_fit(&rows, b.gearbox, &choice)?;
+        runner.rows_fit(&rows_of(&measured), b.gearbox, &choice)?;
         let made = Identification::new(
             runner.language,
             b.gearbox,
             choice,
-            rows,
+            rows_of(to_fit),
             entry.parameters.iter(),
             &entry.residuals,
         );
@@ -91,6 +96,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
             return Err(runner.wrong(&format!("{path}.accuracy_factors"), message, mend));
         }
         posterior::check(runner, &path, entry, &identification)?;
+        let groups = groups(runner, &path, entry, &identification)?;
         let candidates = entry.next.as_ref().map(|next| next::candidates(runner, name, next, b));
         let candidates = candidates.transpose()?;
         if runner.only_checks {
@@ -114,14 +120,21 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
             Err(fault) => return Err(of_search(runner, &path, &fault)),
         };
         let gear = gear_of(entry.gear.as_deref(), &b.transmission);
-        let outcome = Outcome::new(
+        let mut outcome = Outcome::new(
             runner,
             (name, entry),
             &settings,
             gear,
             (b, identification, fitted),
-            candidates,
+            (candidates, groups),
         )?;
+        let predicted = held_out
+            .as_ref()
+            .map(|choice| hold_out::predict(choice, &entry.residuals, &outcome));
+        outcome.held_out = predicted.transpose().map_err(|reason| {
+            let mend = "hold out rows in which what is fitted was measured and the gearbox has a value";
+            runner.wrong(&format!("{path}.hold_out"), reason, mend)
+        })?;
         show::show(runner, name, entry, &outcome, out)?;
         outcomes.push(outcome);
     }
@@ -132,7 +145,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     tables::write(runner, name, entry, &outcomes)?;
     let mut value = head(runner, name, &built.iter().collect::<Vec<&Built<'_>>>());
     value["data"] = serde_json::json!({ "file": file, "points": measured.rows.len(), "notes": measured.notes });
-    value["identifications"] = Value::Array(outcomes.iter().map(results::of).collect());
+    value["identifications"] = Value::Array(outcomes.iter().map(|o| results::of(o, entry)).collect());
     write_json(runner, name, &entry.write, &value)?;
     for outcome in &outcomes {
         pictures::write(runner, name, entry, outcome)?;
@@ -144,6 +157,64 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
             .keep_found(set, Identified::overrides(parameters, outcome.fitted.theta()));
     }
     Ok(())
+}
+
+/// A finding of the study below an analysis.
+fn below(runner: &Runner<'_>, path: &str, found: Diagnostic) -> Failure {
+    let path = format!("{path}.{}", found.path);
+    runner.study.findings(vec![Diagnostic { path, ..found }]).into()
+}
+
+/// The rows that are held out, where there are any.
+fn held_out(
+    runner: &Runner<'_>,
+    name: &str,
+    entry: &IdentifyEntry,
+    measured: &Measured,
+    out: &mut Out,
+) -> Result<Option<HoldOut>, Failure> {
+    let Some(asked) = &entry.hold_out else {
+        return Ok(None);
+    };
+    let wrong = |found| below(runner, &format!("analyses.{name}"), found);
+    let choice = HoldOut::choose(asked, measured).map_err(wrong)?;
+    // Parameters between equal bounds are held.
+    let entries = entry.parameters.iter().map(|(_, parameter)| parameter);
+    let free: Vec<_> = entries.filter(|p| p.from.is_none() || p.from != p.to).collect();
+    let of_entry = |p: &&IdentifiedEntry| p.over.as_ref().map_or(1, |over| over.torques.len());
+    let count = free.iter().map(of_entry).sum();
+    let priors = free.iter().filter(|p| p.prior.is_some()).count();
+    choice.leaves_enough(count, priors).map_err(wrong)?;
+    out.line(format!(
+        "{name}: {} of {} rows are held out ({})",
+        choice.held_out.rows.len(),
+        measured.rows.len(),
+        choice.words
+    ))?;
+    if choice.undecided > 0 {
+        out.line(format!(
+            "{name}: {} rows lack what the condition asks for, and are fitted",
+            choice.undecided
+        ))?;
+    }
+    Ok(Some(choice))
+}
+
+/// Groups of which each is predicted from the others; the reason where torques make none, and nothing where none are asked for.
+fn groups(
+    runner: &Runner<'_>,
+    path: &str,
+    entry: &IdentifyEntry,
+    identification: &Identification<'_>,
+) -> Result<Option<Result<Vec<Fold>, String>>, Failure> {
+    match (&entry.folds, identification.groups(&entry.folds)) {
+        (FoldsEntry::Torques(0), _) => Ok(None),
+        // Files of one torque are fitted all the same.
+        (FoldsEntry::Torques(_), found) => Ok(Some(found.map_err(|found| found.message))),
+        (FoldsEntry::By(_), found) => found
+            .map(|folds| Some(Ok(folds)))
+            .map_err(|found| below(runner, path, found)),
+    }
 }
 
 /// The loss of an entry.

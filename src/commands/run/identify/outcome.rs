@@ -4,11 +4,12 @@ use gearloss_framework::analysis::{Note, notes};
 use gearloss_framework::identify::{
     Calculated, Fitted, Identification, Pair, Posterior, Profiled, Settings, ShareBands,
 };
-use gearloss_framework::inference::{Fold, Succession, Validation};
+use gearloss_framework::inference::{Fold, Validation, Widening};
 use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
 
 use super::super::{Built, Runner};
 use super::checks::Checks;
+use super::hold_out::HeldOut;
 use super::lines::{Sheet, sheets};
 use super::next::{self, Candidates, Next};
 use super::posterior;
@@ -32,6 +33,8 @@ pub struct Outcome<'a> {
     /// Errors of predictions.
     pub folds: Option<Result<(Vec<Fold>, Validation), String>>,
     pub checks: Checks,
+    /// Predictions of rows that were held out.
+    pub held_out: Option<HeldOut<'a>>,
     /// Losses by mechanism at all rows.
     pub shares: Result<ShareBands, String>,
     /// Rows that belong together.
@@ -48,7 +51,7 @@ impl<'a> Outcome<'a> {
         settings: &Settings<'_>,
         gear: &str,
         (built, identification, fitted): (&Built<'_>, Identification<'a>, Fitted),
-        candidates: Option<Candidates>,
+        (candidates, groups): (Option<Candidates>, Option<Result<Vec<Fold>, String>>),
     ) -> Result<Self, Failure> {
         let path = format!("analyses.{name}");
         let failed = |reason: String| runner.wrong(&path, reason, "begin with other values, or narrow the bounds");
@@ -72,7 +75,11 @@ impl<'a> Outcome<'a> {
                 settings.interrupt,
             )
         });
-        let folds = (entry.folds > 1).then(|| identification.validate(&fitted, entry.folds as usize, settings));
+        let folds = groups.map(|groups| {
+            let groups = groups?;
+            let validation = identification.validate(&fitted, &groups, settings)?;
+            Ok((groups, validation))
+        });
         if interrupt::pressed() {
             return Err(Failure::Interrupted);
         }
@@ -96,6 +103,7 @@ impl<'a> Outcome<'a> {
             folds,
             shares,
             sheets,
+            held_out: None,
         })
     }
 
@@ -136,19 +144,14 @@ impl<'a> Outcome<'a> {
         list
     }
 
-    /// Factor by which intervals are too small, where the model does not reproduce the points or neighbours err together: the
-    /// greater of the two.
+    /// Factors by which intervals and bands are too small, where the model does not reproduce the points or neighbours err
+    /// together.
+    pub fn intervals_widened(&self) -> Widening {
+        Widening::from_checks(self.checks.lack.as_ref(), self.checks.succession.as_ref())
+    }
+
+    /// Factor by which intervals of parameters are too small, the greater of the two; absent where they are not.
     pub fn widening(&self) -> Option<f64> {
-        let lack = self.checks.lack.and_then(|lack| lack.widening());
-        let together = self
-            .checks
-            .succession
-            .filter(Succession::is_suspect)
-            .map(|s| s.widening());
-        [lack, together]
-            .into_iter()
-            .flatten()
-            .filter(|w| *w > 1.0)
-            .reduce(f64::max)
+        Some(self.intervals_widened().parameters).filter(|widening| *widening > 1.0)
     }
 }

@@ -11,6 +11,7 @@ use super::super::compare::histograms;
 use super::super::deviations::{self, Deviation};
 use super::super::map::tidy;
 use super::super::write::picture;
+use super::hold_out;
 use super::lines::Sheet;
 use super::outcome::Outcome;
 use super::tables::losses_by;
@@ -43,6 +44,9 @@ pub fn write(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, o: &Outcome
     for (what, figure) in residuals(name, o) {
         put(what, figure)?;
     }
+    for (what, figure) in hold_out::pictures(name, o) {
+        put(&what, figure)?;
+    }
     put("correlations", correlations(name, o))?;
     for (what, figure) in joint(name, o) {
         put(&what, figure)?;
@@ -53,7 +57,7 @@ pub fn write(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, o: &Outcome
     Ok(())
 }
 
-fn slug(quantity: Quantity) -> &'static str {
+pub fn slug(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Efficiency => "efficiency",
         Quantity::Loss => "loss",

@@ -1,17 +1,18 @@
 //! Identifications as JSON.
 
 use gearloss_framework::inference::{Accuracy, BandMean, Reach, Standing, Verdict};
-use gearloss_framework::study::Difference;
+use gearloss_framework::study::{Difference, FoldsEntry, IdentifyEntry};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
 use super::super::map::tidy;
+use super::hold_out;
 use super::outcome::Outcome;
 use super::posterior;
-use super::show::RESOLVED;
+use super::show::{RESOLVED, fold_name, fold_unit};
 
 /// All that was found for one set.
-pub fn of(o: &Outcome<'_>) -> Value {
+pub fn of(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {
     let inference = &o.fitted.inference;
     let count = inference.parameters().len();
     let correlations: Vec<Vec<Option<f64>>> = (0..count)
@@ -35,7 +36,8 @@ pub fn of(o: &Outcome<'_>) -> Value {
         "resolved_combinations": ranged.iter().filter(|value| **value > RESOLVED).count(),
         "posterior": posterior::value(o),
         "checks": checks(o),
-        "folds": folds(o),
+        "folds": folds(o, entry),
+        "hold_out": hold_out::json_of(o),
         "points": points(o),
         "next": next(o),
         "outside": o.notes,
@@ -180,13 +182,24 @@ fn checks(o: &Outcome<'_>) -> Value {
     })
 }
 
-fn folds(o: &Outcome<'_>) -> Value {
+fn folds(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {
     match &o.folds {
         None | Some(Err(_)) => Value::Null,
         Some(Ok((folds, validation))) => {
             let rms = validation.fold_rms();
-            let fold = |(fold, rms): (&gearloss_framework::inference::Fold, f64)| json!({ "from_nm": fold.band[0], "to_nm": fold.band[1], "points": fold.points.len(), "rms": rms });
-            json!({ "rms": validation.rms, "bands": folds.iter().zip(rms).map(fold).collect::<Vec<_>>() })
+            let by_torque = fold_unit(&entry.folds) == "Nm";
+            let fold = |(fold, rms): (&gearloss_framework::inference::Fold, f64)| {
+                let end = |place: usize| fold.band.filter(|_| by_torque).map(|band| band[place]);
+                json!({
+                    "name": fold_name(fold, &entry.folds), "from_nm": end(0), "to_nm": end(1),
+                    "points": fold.points.len(), "rms": rms,
+                })
+            };
+            let by = match &entry.folds {
+                FoldsEntry::Torques(_) => "torque",
+                FoldsEntry::By(by) => by.by.as_str(),
+            };
+            json!({ "by": by, "rms": validation.rms, "bands": folds.iter().zip(rms).map(fold).collect::<Vec<_>>() })
         }
     }
 }

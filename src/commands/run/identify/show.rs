@@ -1,11 +1,13 @@
 //! A fit on the terminal: a table of the parameters, and what the points say in sentences.
 
-use gearloss_framework::inference::{Accuracy, Reach, Verdict};
+use gearloss_framework::identify::group_words;
+use gearloss_framework::inference::{Accuracy, Fold, Reach, Verdict};
 use gearloss_framework::least_squares::{Reason, Status};
-use gearloss_framework::study::{Difference, IdentifyEntry, RuleEntry};
+use gearloss_framework::study::{Difference, FoldsEntry, IdentifyEntry, RuleEntry};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
+use super::hold_out;
 use super::outcome::Outcome;
 use super::posterior;
 use crate::output::{Failure, Out, Table, figures, fixed};
@@ -62,7 +64,8 @@ pub fn show(
     for words in o.checks.words(&o.identification) {
         runner.verdict(format!("{name}: {words}"), out)?;
     }
-    folds(name, o, out)?;
+    folds(name, entry, o, out)?;
+    hold_out::show(runner, name, o, out)?;
     if let Err(reason) = &o.shares {
         out.line(format!("no bands on the losses: {reason}"))?;
     }
@@ -261,23 +264,56 @@ fn parameters(o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
     Ok(())
 }
 
-fn folds(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
+/// Unit of the bands by which rows are grouped; empty where they are groups, not bands, or of a column.
+pub fn fold_unit(entry: &FoldsEntry) -> &'static str {
+    match entry {
+        FoldsEntry::Torques(_) => "Nm",
+        FoldsEntry::By(by) => match by.by.as_str() {
+            "torque" => "Nm",
+            "speed" => "rpm",
+            "oil_temperature" => "degC",
+            _ => "",
+        },
+    }
+}
+
+/// A group in words.
+pub fn fold_name(fold: &Fold, entry: &FoldsEntry) -> String {
+    let [from, to] = match (&fold.label, fold.band) {
+        (Some(label), _) => return label.clone(),
+        (None, Some(band)) => band,
+        (None, None) => return String::new(),
+    };
+    match fold_unit(entry) {
+        "rpm" => format!("{:.0} to {:.0} rpm", from * RPM, to * RPM),
+        "" => format!("{from:.1} to {to:.1}"),
+        unit => format!("{from:.1} to {to:.1} {unit}"),
+    }
+}
+
+fn folds(name: &str, entry: &IdentifyEntry, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
     let inference = &o.fitted.inference;
     match &o.folds {
         None => {}
         Some(Err(reason)) => out.line(format!("no cross-validation: {reason}"))?,
         Some(Ok((folds, validation))) => {
             let inside = (inference.chi_square() / inference.residuals().len() as f64).sqrt();
+            let groups = if folds.iter().all(|fold| fold.band.is_some()) {
+                "bands"
+            } else {
+                "groups"
+            };
             out.line(format!(
-                "predicted without its own band of torque a residual is {:.3} rms over {} bands, fitted {inside:.3}",
+                "predicted without its own {} a residual is {:.3} rms over {} {groups}, fitted {inside:.3}",
+                group_words(&entry.folds),
                 validation.rms,
                 folds.len()
             ))?;
             let strange = validation.strange(inside).into_iter();
             for place in strange.filter(|_| validation.rms > ROUNDING) {
-                let [from, to] = folds[place].band;
                 out.line(format!(
-                    "{name}: the model does not extrapolate to {from:.1} to {to:.1} Nm: {:.3} rms there",
+                    "{name}: the model does not extrapolate to {}: {:.3} rms there",
+                    fold_name(&folds[place], &entry.folds),
                     validation.fold_rms()[place]
                 ))?;
             }

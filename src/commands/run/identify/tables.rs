@@ -11,6 +11,7 @@ use super::super::Runner;
 use super::super::map::tidy;
 use super::super::table::TableFile;
 use super::super::write::{cell, keep};
+use super::hold_out;
 use super::outcome::Outcome;
 use super::posterior;
 use super::show::verdict;
@@ -26,6 +27,9 @@ pub fn write(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outc
     parameters(runner, name, entry, all)?;
     if entry.posterior.is_some() {
         posterior::write(runner, name, entry, all)?;
+    }
+    if entry.hold_out.is_some() {
+        hold_out::table(runner, name, entry, all)?;
     }
     if entry.next.is_some() {
         next(runner, name, entry, all)?;

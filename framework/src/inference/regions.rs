@@ -1,0 +1,213 @@
+//! Errors of calculated values, summed up as a whole and region by region: bands of torque, speed and temperature, driving and braking.
+
+use crate::analysis::bands;
+
+/// An error, calculated less measured, and where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedError {
+    /// Line in the file.
+    pub line: u64,
+    /// \[Nm\]
+    pub torque: f64,
+    /// \[rpm\]
+    pub speed: f64,
+    /// \[degC\]
+    pub oil: Option<f64>,
+    /// Calculated less measured, in any one unit.
+    pub error: f64,
+    /// The measured value in the same unit.
+    pub measured: f64,
+    /// Standard deviation of the measurement in the same unit, where it was stated.
+    pub accuracy: Option<f64>,
+    /// Whether the row was held out of the fit.
+    pub is_held_out: bool,
+}
+
+/// Errors summed up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorSummary {
+    /// Number of errors.
+    pub count: usize,
+    /// Root of the mean square.
+    pub rms: f64,
+    /// Mean: the bias of the calculation.
+    pub mean: f64,
+    /// The error of the greatest magnitude.
+    pub greatest: PlacedError,
+    /// Root of the mean square, mean and greatest in standard deviations of the measurements; absent unless all state them.
+    pub in_accuracies: Option<[f64; 3]>,
+    /// Root of the mean square, mean and greatest in percent of the measured values; absent unless all of these have one sign and
+    /// are not zero.
+    pub in_percent: Option<[f64; 3]>,
+}
+
+/// Root of the mean square, mean and the value of the greatest magnitude; absent for an empty list or what is not finite.
+fn figures(list: &[f64]) -> Option<[f64; 3]> {
+    let count = list.len() as f64;
+    let rms = (list.iter().map(|x| x * x).sum::<f64>() / count).sqrt();
+    let greatest = list.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    rms.is_finite()
+        .then_some([rms, list.iter().sum::<f64>() / count, greatest])
+}
+
+impl ErrorSummary {
+    /// Sums up a list; absent where it is empty.
+    pub fn summarise<'e>(errors: impl IntoIterator<Item = &'e PlacedError>) -> Option<Self> {
+        let list: Vec<&PlacedError> = errors.into_iter().collect();
+        let greatest = list.iter().max_by(|a, b| a.error.abs().total_cmp(&b.error.abs()))?;
+        let all = |value: &dyn Fn(&PlacedError) -> Option<f64>| -> Option<[f64; 3]> {
+            figures(&list.iter().map(|e| value(e)).collect::<Option<Vec<f64>>>()?)
+        };
+        let [rms, mean, _] = all(&|e| Some(e.error))?;
+        let sign = list[0].measured.signum();
+        Some(Self {
+            count: list.len(),
+            rms,
+            mean,
+            greatest: **greatest,
+            in_accuracies: all(&|e| e.accuracy.map(|a| e.error / a)),
+            in_percent: all(&|e| (e.measured * sign > 0.0).then(|| 100.0 * e.error / e.measured.abs())),
+        })
+    }
+}
+
+/// Errors in one region, of rows that were fitted and of rows that were held out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// What is divided: `torque`, `speed`, `oil_temperature` or `direction`.
+    pub over: &'static str,
+    /// Lower and upper end in Nm, rpm or degC; absent for directions.
+    pub band: Option<[f64; 2]>,
+    /// The region in words.
+    pub name: String,
+    /// Rows that were fitted.
+    pub fitted: Option<ErrorSummary>,
+    /// Rows that were held out.
+    pub held_out: Option<ErrorSummary>,
+}
+
+/// Errors over bands of torque, of speed and of the oil's temperature, and in both directions of power; without the divisions that
+/// have one region only. Bands belong to fitted rows and rows held out together.
+pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
+    let region = |over: &'static str, band: Option<[f64; 2]>, name: String, own: &[usize]| {
+        let of_kind = |held: bool| {
+            let own = own.iter().map(|i| &errors[*i]);
+            ErrorSummary::summarise(own.filter(|e| e.is_held_out == held))
+        };
+        Region {
+            over,
+            band,
+            name,
+            fitted: of_kind(false),
+            held_out: of_kind(true),
+        }
+    };
+    let mut all: Vec<Region> = Vec::new();
+    let coordinates: [(&'static str, &str, &dyn Fn(&PlacedError) -> Option<f64>); 3] = [
+        ("torque", "Nm", &|e| Some(e.torque)),
+        ("speed", "rpm", &|e| Some(e.speed)),
+        ("oil_temperature", "degC", &|e| e.oil),
+    ];
+    for (over, unit, coordinate) in coordinates {
+        let Some(list) = errors.iter().map(coordinate).collect::<Option<Vec<f64>>>() else {
+            continue;
+        };
+        let found = bands(&list);
+        if found.len() > 1 {
+            all.extend(found.into_iter().map(|(band, own)| {
+                let name = format!("{} {unit}", span(band));
+                region(over, Some(band), name, &own)
+            }));
+        }
+    }
+    let driving = |e: &PlacedError| e.torque * e.speed >= 0.0;
+    let (forth, back): (Vec<usize>, Vec<usize>) = (0..errors.len()).partition(|i| driving(&errors[*i]));
+    if !forth.is_empty() && !back.is_empty() {
+        for (name, own) in [("driving", forth), ("braking", back)] {
+            all.push(region("direction", None, name.to_owned(), &own));
+        }
+    }
+    all
+}
+
+/// A band in words, to four digits.
+fn span([low, high]: [f64; 2]) -> String {
+    let digits = |x: f64| {
+        let size = x.abs().max(high.abs()).max(low.abs());
+        let places = (3.0 - size.max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
+        let text = format!("{x:.places$}");
+        let short = if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            &text
+        };
+        short.to_owned()
+    };
+    let [low, high] = [low, high].map(digits);
+    if low == high { low } else { format!("{low} to {high}") }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn at(line: u64, torque: f64, speed: f64, error: f64, is_held_out: bool) -> PlacedError {
+        PlacedError {
+            line,
+            torque,
+            speed,
+            oil: Some(80.0),
+            error,
+            measured: 50.0,
+            accuracy: Some(2.0),
+            is_held_out,
+        }
+    }
+
+    #[test]
+    fn errors_are_summed_up_in_three_units() {
+        let found = ErrorSummary::summarise(&[at(1, 1.0, 1.0, 3.0, true), at(2, 1.0, 1.0, -4.0, true)]).unwrap();
+        assert_eq!((found.count, found.mean, found.greatest.line), (2, -0.5, 2));
+        assert!((found.rms - 12.5_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(found.in_accuracies.unwrap()[1..], [-0.25, -2.0]);
+        assert_eq!(found.in_percent.unwrap()[1..], [-1.0, -8.0]);
+        let mut bare = [at(1, 1.0, 1.0, 3.0, true), at(2, 1.0, 1.0, -4.0, true)];
+        (bare[0].accuracy, bare[1].measured) = (None, -1.0);
+        let found = ErrorSummary::summarise(&bare).unwrap();
+        assert_eq!((found.in_accuracies, found.in_percent), (None, None));
+        assert_eq!(ErrorSummary::summarise(&[]), None);
+    }
+
+    #[test]
+    fn regions_set_both_kinds_side_by_side() {
+        let errors = [
+            at(1, 10.0, 1000.0, 1.0, false),
+            at(2, 10.0, 2000.0, 2.0, true),
+            at(3, -10.0, 1000.0, 3.0, true),
+            at(4, -10.0, 2000.0, 5.0, true),
+        ];
+        let found = regions(&errors);
+        let names: Vec<(&str, &str)> = found.iter().map(|r| (r.over, r.name.as_str())).collect();
+        let expected = [
+            ("torque", "-10 Nm"),
+            ("torque", "10 Nm"),
+            ("speed", "1000 rpm"),
+            ("speed", "2000 rpm"),
+            ("direction", "driving"),
+            ("direction", "braking"),
+        ];
+        assert_eq!(names, expected);
+        assert_eq!(found[0].held_out.unwrap().mean, 4.0);
+        assert!(found[0].fitted.is_none() && found[1].fitted.unwrap().count == 1);
+        assert!(regions(&[]).is_empty());
+    }
+
+    #[test]
+    fn bands_are_written_short() {
+        assert_eq!(span([1000.0, 2000.4]), "1000 to 2000");
+        assert_eq!(span([0.25, 0.5]), "0.25 to 0.5");
+        assert_eq!(span([79.98, 80.02]), "79.98 to 80.02");
+        assert_eq!(span([-20.0, -20.0]), "-20");
+    }
+}
