@@ -309,6 +309,11 @@ fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, 
     }
     let at = column_place(measured, name).map_err(|found| {
         let words = "torque, speed, oil_temperature, sign, random";
+        if words.split(", ").any(|word| word == name) {
+            return Diagnostic::error("folds.by", format!("the data hold no `{name}`")).mend(format!(
+                "name its column under `columns: {{ {name}: ... }}`, or group by another quantity"
+            ));
+        }
         let mend = match did_you_mean(name, words.split(", ")) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!(

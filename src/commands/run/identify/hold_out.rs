@@ -99,17 +99,18 @@ impl HeldOutQuantity {
     pub fn verdict(&self, choice: &str) -> Option<String> {
         let held = self.held_out?;
         let (what, unit) = self.quantity.words(Difference::Points);
-        let relative = held.in_percent.filter(|_| self.is_relative());
-        let fitted = self
-            .fitted
-            .map(|fitted| match fitted.in_percent.filter(|_| relative.is_some()) {
-                Some([rms, ..]) => rms,
-                None => fitted.rms,
-            });
+        let in_percent = |s: ErrorSummary| s.in_percent.filter(|_| self.is_relative());
+        let relative = in_percent(held).filter(|_| self.fitted.is_none_or(|fitted| in_percent(fitted).is_some()));
         let ([rms, mean], own) = match relative {
             Some([rms, mean, _]) => ([rms, mean], "%"),
             None => ([held.rms, held.mean], unit),
         };
+        let fitted = self
+            .fitted
+            .map(|fitted| match in_percent(fitted).filter(|_| relative.is_some()) {
+                Some([rms, ..]) => rms,
+                None => fitted.rms,
+            });
         let at = held.greatest;
         let points = if held.count == 1 { "point" } else { "points" };
         let beside = fitted.map_or_else(String::new, |rms| format!(" (fitted ones {})", short(rms)));
@@ -133,7 +134,7 @@ impl HeldOutQuantity {
                 ""
             };
             words += &format!(
-                "; {} of {} ({} %, {} to {} % by chance) lie inside of their 95 % bands{judged}",
+                "; {} of {} lie inside their 95 % bands ({} %, 95 % interval {} to {} %){judged}",
                 coverage.inside,
                 coverage.count,
                 percent(coverage.share()),
