@@ -2,6 +2,11 @@
 
 use crate::analysis::bands;
 
+/// Temperatures of the oil that are farther apart belong to different levels. \[K\]
+const APART: f64 = 3.0;
+/// Levels of temperature at most; where there are more, they are bands of about as many points each.
+const LEVELS: usize = 8;
+
 /// An error, calculated less measured, and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedError {
@@ -112,7 +117,11 @@ pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
         let Some(list) = errors.iter().map(coordinate).collect::<Option<Vec<f64>>>() else {
             continue;
         };
-        let found = bands(&list);
+        let found = if over == "oil_temperature" {
+            temperature_levels(&list)
+        } else {
+            bands(&list)
+        };
         if found.len() > 1 {
             all.extend(found.into_iter().map(|(band, own)| {
                 let name = format!("{} {unit}", span(band));
@@ -128,6 +137,21 @@ pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
         }
     }
     all
+}
+
+/// Levels that a rig held but for its scatter: lower and upper end, and the places in each.
+fn temperature_levels(list: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
+    let mut order: Vec<usize> = (0..list.len()).collect();
+    order.sort_by(|a, b| list[*a].total_cmp(&list[*b]));
+    let levels: Vec<Vec<usize>> = order
+        .chunk_by(|a, b| list[*b] - list[*a] <= APART)
+        .map(<[usize]>::to_vec)
+        .collect();
+    if levels.len() > LEVELS {
+        return bands(list);
+    }
+    let with_ends = |level: Vec<usize>| ([list[level[0]], list[level[level.len() - 1]]], level);
+    levels.into_iter().map(with_ends).collect()
 }
 
 /// A band in words, to four digits.
@@ -201,6 +225,16 @@ mod tests {
         assert_eq!(found[0].held_out.unwrap().mean, 4.0);
         assert!(found[0].fitted.is_none() && found[1].fitted.unwrap().count == 1);
         assert!(regions(&[]).is_empty());
+    }
+
+    #[test]
+    fn temperatures_that_scatter_are_one_level() {
+        let mut errors: Vec<PlacedError> = (1..=6).map(|line| at(line, 10.0, 1000.0, 1.0, line > 3)).collect();
+        for (error, oil) in errors.iter_mut().zip([39.2, 40.9, 40.1, 99.0, 101.0, 100.2]) {
+            error.oil = Some(oil);
+        }
+        let names: Vec<String> = regions(&errors).into_iter().map(|r| r.name).collect();
+        assert_eq!(names, ["39.2 to 40.9 degC", "99 to 101 degC"]);
     }
 
     #[test]

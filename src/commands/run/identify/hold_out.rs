@@ -105,17 +105,19 @@ impl HeldOutQuantity {
             Some([rms, mean, _]) => ([rms, mean], "%"),
             None => ([held.rms, held.mean], unit),
         };
-        let fitted = self
-            .fitted
-            .map(|fitted| match in_percent(fitted).filter(|_| relative.is_some()) {
-                Some([rms, ..]) => rms,
-                None => fitted.rms,
-            });
+        let over_accuracy = |s: ErrorSummary| s.in_accuracies.map(|[rms, ..]| short(rms));
+        let held_over = over_accuracy(held).map_or_else(String::new, |x| format!(", {x} times the stated accuracy"));
+        let beside = self.fitted.map_or_else(String::new, |fitted| {
+            let rms = in_percent(fitted)
+                .filter(|_| relative.is_some())
+                .map_or(fitted.rms, |[rms, ..]| rms);
+            let over = over_accuracy(fitted).map_or_else(String::new, |x| format!(", {x} times"));
+            format!(" (fitted points {}{over})", short(rms))
+        });
         let at = held.greatest;
         let points = if held.count == 1 { "point" } else { "points" };
-        let beside = fitted.map_or_else(String::new, |rms| format!(" (fitted ones {})", short(rms)));
         let mut words = format!(
-            "predicts the {what} of the {} {points} held out ({choice}) to {} {own} rms{beside}, bias {} {own}, worst {} {unit} at \
+            "predicts the {what} of the {} {points} held out ({choice}) to {} {own} rms{held_over}{beside}, bias {} {own}, worst {} {unit} at \
              {} Nm and {} rpm (line {})",
             held.count,
             short(rms),
@@ -180,13 +182,13 @@ pub fn show(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> 
     Ok(())
 }
 
-fn summaries(own: &HeldOutQuantity, unit: &str) -> String {
+fn summaries(own: &HeldOutQuantity) -> String {
     let both = [("fitted", &own.fitted), ("held out", &own.held_out)];
     let all = |has: &dyn Fn(&ErrorSummary) -> bool| both.iter().all(|(_, summary)| summary.as_ref().is_none_or(has));
     let in_percent = own.is_relative() && all(&|s| s.in_percent.is_some());
     let in_accuracies = all(&|s| s.in_accuracies.is_some());
     let mut head = vec!["rows".to_owned(), "points".to_owned()];
-    head.extend(["rms", "bias", "greatest"].map(|figure| format!("{figure} {unit}")));
+    head.extend(["rms", "bias", "greatest"].map(str::to_owned));
     head.extend(["line", "torque Nm", "speed rpm"].map(|what| format!("its {what}")));
     let units = [(in_percent, "%"), (in_accuracies, "/ accuracy")];
     for (_, unit) in units.iter().filter(|(shown, _)| *shown) {
@@ -214,17 +216,8 @@ fn summaries(own: &HeldOutQuantity, unit: &str) -> String {
     table.render()
 }
 
-fn by_region(own: &HeldOutQuantity, unit: &str) -> String {
-    let head = [
-        "region".to_owned(),
-        "held out".to_owned(),
-        format!("rms {unit}"),
-        "bias".to_owned(),
-        "fitted".to_owned(),
-        format!("rms {unit}"),
-        "bias".to_owned(),
-    ];
-    let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
+fn by_region(own: &HeldOutQuantity) -> String {
+    let mut table = Table::new(&["region", "held out", "rms", "bias", "fitted", "rms", "bias"]);
     for region in own.regions.iter().filter(|r| r.held_out.is_some()) {
         let cells = |summary: &Option<ErrorSummary>| match summary {
             Some(s) => [s.count.to_string(), short(s.rms), short(s.mean)],
