@@ -6,6 +6,7 @@ mod common;
 
 use std::fmt::Write as _;
 
+use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::records_by_type;
 use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::registry::{Entry, Files, MechanismEntry};
@@ -111,7 +112,7 @@ fn parameters(out: &mut String, language: &Language, entry: &Entry) {
         .and_then(|v| v["properties"].as_object())
         .into_iter()
         .flatten()
-        .filter(|(name, _)| *name != "type")
+        .filter(|(name, _)| !["type", COEFFICIENTS].contains(&name.as_str()))
         .collect();
     if fields.is_empty() {
         out.push_str("No parameters.\n\n");
@@ -147,6 +148,25 @@ fn parameters(out: &mut String, language: &Language, entry: &Entry) {
     out.push('\n');
 }
 
+/// Constants of the formula that a document may change.
+fn coefficients(out: &mut String, entry: &Entry) {
+    let list = entry.coefficients();
+    if list.is_empty() {
+        return;
+    }
+    writeln!(out, "Coefficients of the formula, published by {}:\n", entry.source).unwrap();
+    header(out, &["`coefficients`", "published", "unit", "range", "what it is"]);
+    for own in list {
+        let range = format!("{} to {}", significant(own.least), significant(own.greatest));
+        let published = own.published.to_string();
+        row(
+            out,
+            &[&format!("`{}`", own.name), &published, own.unit, &range, &own.meaning],
+        );
+    }
+    out.push('\n');
+}
+
 fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entry: &Entry) {
     writeln!(out, "## {}\n\n{}\n", entry.name, entry.meaning()).unwrap();
     let head = head_of(entry);
@@ -154,6 +174,7 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
         writeln!(out, "{head}\n").unwrap();
     }
     parameters(out, language, entry);
+    coefficients(out, entry);
     for graded in entry.evidence.iter().filter(|g| g.key.is_empty()) {
         writeln!(out, "Evidence: {} ({}).", graded.grade.name(), graded.because).unwrap();
     }

@@ -20,5 +20,5 @@ pub use publish::publish;
 pub use quantity::{QuantityFault, number_length, parse_quantity};
 pub use schema::{Field, Schema, Shape, Unsupported};
 pub use unit::{Dimension, Unit};
-pub use walk::{Walked, walk, walk_at};
+pub use walk::{Walked, walk, walk_at, walk_shape};
 pub use yaml::{Read, read_yaml};

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, read_yaml, walk, walk_at};
+use crate::coefficients::COEFFICIENTS;
+use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, read_yaml, walk, walk_at, walk_shape};
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
@@ -158,6 +159,20 @@ impl Language {
         fine(walk_at(&Node::from_json(value), &self.gearbox, path))
     }
 
+    /// As [`Language::checked`], for a path of a document at hand: where a model is on the way, the keys and ranges of its
+    /// `type` count, not those of other models.
+    ///
+    /// # Errors
+    /// What the walk finds.
+    pub fn checked_in(&self, document: &Value, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
+        // A new `type` is one of all, not the one that is there.
+        let shape = self.shape_at(document, path).filter(|_| !path.ends_with(".type"));
+        match shape {
+            Some(shape) => fine(walk_shape(&Node::from_json(value), &self.gearbox, shape, path)),
+            None => self.checked(value, path),
+        }
+    }
+
     /// True where a resolved document has a place for a path: the keys of a model are those of its `type`.
     pub fn has_place(&self, document: &Value, path: &str) -> bool {
         self.shape_at(document, path).is_some()
@@ -191,6 +206,20 @@ impl Language {
             }),
             _ => None,
         }
+    }
+
+    /// The published value of the coefficient of a model's formula that a resolved document has at a path; absent where the
+    /// path is no coefficient.
+    pub fn published_coefficient(&self, document: &Value, path: &str) -> Option<f64> {
+        let (record, name) = path.rsplit_once('.')?;
+        let (_, COEFFICIENTS) = record.rsplit_once('.')? else {
+            return None;
+        };
+        let Shape::Record(fields) = self.shape_at(document, record)? else {
+            return None;
+        };
+        let (_, field) = fields.iter().find(|(own, _)| own == name)?;
+        field.default.as_ref()?.as_f64()
     }
 
     /// A piece of YAML checked against the gearbox schema at a path.

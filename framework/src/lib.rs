@@ -2,6 +2,7 @@
 
 pub mod analysis;
 pub mod attach;
+pub mod coefficients;
 pub mod conformance;
 pub mod description;
 pub mod design;

@@ -30,4 +30,4 @@ pub use crate::registry::{
     Build, Catalogue, Evidence, ModelRef, NamedSlots, ShippedCycle, ShippedSet, Slot, default_of, formula, inventory,
 };
 pub use crate::table::{Interpolation, Outside, Reading};
-pub use crate::{context, origin, register, register_component, register_mechanism};
+pub use crate::{coefficients, context, origin, register, register_component, register_mechanism};

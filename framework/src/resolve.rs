@@ -316,7 +316,7 @@ fn apply(
             continue;
         }
         for path in hits {
-            match language.checked(new, &path) {
+            match language.checked_in(value, new, &path) {
                 Ok(checked) => {
                     if !paths::write(value, &path, checked) {
                         found.push(Diagnostic::error(&path, "cannot be set here").mend("set the key above it"));

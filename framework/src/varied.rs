@@ -32,6 +32,8 @@ pub struct Varied {
     pub range: [f64; 2],
     /// How several move.
     pub tie: Tie,
+    /// Published value of each that is a coefficient of a model's formula.
+    pub published: Vec<Option<f64>>,
 }
 
 impl Varied {
@@ -63,6 +65,7 @@ impl Varied {
             base: Vec::new(),
             range: [f64::NEG_INFINITY, f64::INFINITY],
             tie,
+            published: Vec::new(),
         };
         for path in paths {
             let Some((unit, least, greatest)) = language.number_at(&resolved.value, &path) else {
@@ -85,6 +88,9 @@ impl Varied {
                     varied.range = [varied.range[0].max(least), varied.range[1].min(greatest)];
                 }
             }
+            varied
+                .published
+                .push(language.published_coefficient(&resolved.value, &path));
             varied.paths.push(path);
             varied.base.push(base);
         }
@@ -97,6 +103,25 @@ impl Varied {
             Tie::Value => self.base.iter().flatten().next().copied(),
             Tie::Factor => Some(1.0),
         }
+    }
+
+    /// The published value, where it moves coefficients of formulas: of the first where several differ, one for a factor.
+    pub fn published(&self) -> Option<f64> {
+        let first = self.published.iter().flatten().next().copied();
+        match self.tie {
+            Tie::Value => first,
+            Tie::Factor => first.map(|_| 1.0),
+        }
+    }
+
+    /// What a value changes of the source, in words; absent where it changes no coefficient of a formula.
+    pub fn changed_from_source(&self, value: f64) -> Option<String> {
+        self.overrides(value)
+            .zip(&self.published)
+            .find_map(|((_, own), published)| {
+                let (own, published) = (own.as_f64()?, (*published)?);
+                (own != published).then(|| format!("{own} instead of {published}, changed from the source"))
+            })
     }
 
     /// The overrides that write a value to all of them.

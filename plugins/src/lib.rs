@@ -18,6 +18,7 @@ pub mod mean_friction;
 pub mod network;
 pub mod path;
 pub mod planetary_drag;
+mod powers;
 #[cfg(test)]
 mod printed;
 pub mod rotating;

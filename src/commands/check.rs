@@ -5,6 +5,7 @@ mod json;
 use std::collections::BTreeSet;
 
 use gearloss_framework::analysis::{Note, STATIC_SAFETY, evidence, merge, notes};
+use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::document::{Sources, read_yaml};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
@@ -189,6 +190,9 @@ fn gearbox(
     }
     for line in resolved.unreached.iter().chain(&resolved.without) {
         text.push_str(&format!("  note: {line}\n"));
+    }
+    for changed in changed_from_source(&transmission, &resolved) {
+        text.push_str(&format!("  note: {changed}\n"));
     }
     if let Some(weak) = known.first() {
         text.push_str(&format!(

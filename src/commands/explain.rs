@@ -1,5 +1,6 @@
 //! `explain`: every step of the loss of one component, in the source's symbols and units.
 
+use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::{Step, Trace};
@@ -44,6 +45,7 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
         out.text(&of_warmth(&transmission, &warm))?;
         out.line("")?;
     }
+    let changed = changed_from_source(&transmission, &resolved);
     for way in ways {
         let surface = warm.balance.as_ref().and_then(|b| b.surface).unwrap_or(warm.oil);
         explain_way(&transmission, &gearbox, &resolved, way, (warm.oil, surface), out)?;
@@ -95,8 +97,11 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
                 out.line(format!("    {figure}"))?;
             }
         }
-        out.line("  inputs (SI, temperatures in degC):")?;
         let base = base_path(info);
+        for changed in changed.iter().filter_map(|changed| changed.below(base)) {
+            out.line(format!("  note: {changed}"))?;
+        }
+        out.line("  inputs (SI, temperatures in degC):")?;
         if let Some(entry) = lookup(&resolved.value, base) {
             inputs(base, entry, &gearbox, &resolved, out)?;
         }

@@ -2,6 +2,7 @@
 
 mod json;
 
+use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::records_by_type;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
@@ -123,7 +124,8 @@ fn one_model(language: &Language, entry: &Entry, out: &mut Out) -> Result<(), Fa
         .find_map(|(name, record)| (name == entry.name).then_some(record));
     let fields = own.and_then(|v| v["properties"].as_object());
     let mut parameters = Table::new(&["parameter", "default", "range", "what it is"]);
-    for (name, field) in fields.into_iter().flatten().filter(|(name, _)| *name != "type") {
+    let own = |name: &str| !["type", COEFFICIENTS].contains(&name);
+    for (name, field) in fields.into_iter().flatten().filter(|(name, _)| own(name.as_str())) {
         let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
             (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
             _ => String::new(),
@@ -137,6 +139,19 @@ fn one_model(language: &Language, entry: &Entry, out: &mut Out) -> Result<(), Fa
     }
     out.line("")?;
     out.text(&parameters.render())?;
+    let coefficients = entry.coefficients();
+    if !coefficients.is_empty() {
+        out.line(format!(
+            "\n{COEFFICIENTS} of the formula, under the key `{COEFFICIENTS}`; published by {}",
+            entry.source
+        ))?;
+        let mut table = Table::new(&["coefficient", "published", "range", "what it is"]);
+        for own in coefficients {
+            let range = format!("{} to {}", significant(own.least), significant(own.greatest));
+            table.row(vec![own.name, own.published.to_string(), range, own.meaning]);
+        }
+        out.text(&table.render())?;
+    }
     if !entry.terms.is_empty() {
         let words: Vec<String> = entry
             .terms

@@ -47,6 +47,7 @@ use self::runner::{Built, Runner};
 
 use std::path::{Path, PathBuf};
 
+use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::study::{Analysis, Study};
@@ -134,7 +135,36 @@ fn warnings(language: &Language, study: &Study) -> (Vec<Findings>, Vec<String>) 
                 .map(|line| format!("{name}: {line}")),
         );
     }
+    notes.extend(changed_coefficients(language, study));
     (warnings, notes)
+}
+
+/// A line for each coefficient that a gearbox uses with another value than the published one, under its own models or under
+/// a set of the analyses.
+fn changed_coefficients(language: &Language, study: &Study) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for (i, (name, gearbox)) in study.gearboxes.iter().enumerate() {
+        let sets = report::sets(study, name, i == 0);
+        let own_models = std::iter::once(None).chain(sets.iter().map(|set| {
+            let set = set.rsplit('/').next();
+            set.filter(|set| *set != "own")
+        }));
+        let mut told: Vec<String> = Vec::new();
+        for set in own_models {
+            // What cannot be built is refused by the analyses that need it.
+            let Ok((resolved, t)) = study.built(language, gearbox, &study.choice(set), &[]) else {
+                continue;
+            };
+            let under = set.map_or_else(String::new, |set| format!(", models {set}"));
+            for changed in changed_from_source(&t, &resolved).iter().map(ToString::to_string) {
+                if !told.contains(&changed) {
+                    lines.push(format!("{name}{under}: {changed}"));
+                    told.push(changed);
+                }
+            }
+        }
+    }
+    lines
 }
 
 /// All analyses and the report; what shards have computed is taken from them.

@@ -2,6 +2,7 @@
 
 use gearloss_framework::analysis::Found;
 use gearloss_framework::analysis::{Note, SUMS, evidence, notes, sum_of};
+use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loads::SupportLoad;
@@ -42,6 +43,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
         .collect();
     let seen = notes(&transmission, &extents);
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
+    let changed = changed_from_source(&transmission, &resolved);
     match args.format {
         Format::Json => {
             let mut value = as_json(&transmission, &solution, &prepared);
@@ -55,6 +57,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             value["notes"] = json!(seen);
             value["evidence"] = json!(known);
             value["unreached"] = json!(resolved.unreached);
+            value["changed_from_source"] = json!(changed);
             out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
         }
         Format::Table => {
@@ -69,6 +72,9 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             out.text(&outside(&seen))?;
             for line in resolved.unreached.iter().chain(&resolved.without) {
                 out.line(format!("note: {line}"))?;
+            }
+            for changed in &changed {
+                out.line(format!("note: {changed}"))?;
             }
             if let Some(weak) = known.first() {
                 out.line(format!(

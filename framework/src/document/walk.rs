@@ -87,6 +87,22 @@ pub fn walk_at(node: &Node, schema: &Schema, path: &str) -> Walked {
     }
 }
 
+/// Walks a value at a path whose shape is known.
+pub fn walk_shape<'a>(node: &Node, schema: &'a Schema, shape: &'a Shape, path: &str) -> Walked {
+    let mut walker = Walker {
+        schema,
+        findings: Vec::new(),
+        places: Places::default(),
+        path: path.to_owned(),
+    };
+    let value = walker.value(node, shape).unwrap_or(Value::Null);
+    Walked {
+        value,
+        findings: found(walker.findings),
+        places: walker.places,
+    }
+}
+
 /// What a walk has found: where nothing else is said, a value is wrong.
 fn found(list: Vec<Diagnostic>) -> Vec<Diagnostic> {
     list.into_iter().map(|finding| finding.code(Code::Value)).collect()

@@ -301,6 +301,22 @@ impl Identified {
         }
     }
 
+    /// The published value, where it moves coefficients of formulas; one for a factor.
+    pub fn published(&self) -> Option<f64> {
+        match &self.target {
+            Target::Path(varied) => varied.published(),
+            Target::Over { .. } | Target::Rig(_) => None,
+        }
+    }
+
+    /// What a value changes of the source, in words; absent where it changes no coefficient of a formula.
+    pub fn changed_from_source(&self, value: f64) -> Option<String> {
+        match &self.target {
+            Target::Path(varied) => varied.changed_from_source(value),
+            Target::Over { .. } | Target::Rig(_) => None,
+        }
+    }
+
     /// A value with its unit.
     pub fn words(&self, value: f64) -> String {
         words(self.unit, value)

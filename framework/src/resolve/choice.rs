@@ -158,7 +158,16 @@ pub(super) fn find(
     found: &mut Vec<Diagnostic>,
 ) -> Option<ModelSet> {
     match expand_set(&sets_of(language, gearbox, study), name) {
-        Ok(set) => Some(set),
+        Ok(mut set) => {
+            // A walk of the document leaves them as written, because their keys are paths.
+            for (pattern, model) in &mut set.components {
+                match language.checked(model, pattern) {
+                    Ok(checked) => *model = checked,
+                    Err(more) => found.extend(more),
+                }
+            }
+            Some(set)
+        }
         Err(error) => {
             found.push(error);
             None

@@ -12,7 +12,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
+use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
 
 /// Rolling bearings after Harris, in Palmgren's form.
@@ -28,6 +28,8 @@ pub struct Params {
     /// kinds have none. [deg]
     #[schemars(range(min = 1.0, max = 80.0))]
     pub contact_angle: Option<f64>,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 impl Params {
@@ -73,7 +75,7 @@ impl Params {
         };
         law.z = self.z.unwrap_or(law.z);
         let f0 = self.f0.map_or_else(|| rows::f0(part), Ok)?;
-        Palmgren::new(part, F0::Fixed(f0), law, rows::f2(part))
+        Palmgren::new(part, F0::Fixed(f0), law, rows::f2(part), self.coefficients)
     }
 }
 
@@ -127,6 +129,7 @@ mod tests {
     }
 
     const PLAIN: Params = Params {
+        coefficients: Constants::PUBLISHED,
         f0: None,
         z: None,
         contact_angle: None,

@@ -12,7 +12,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
+use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack};
 
 /// Palmgren's form with the load-independent factor by the depth of the oil, as in ISO/TR 14179-1.
@@ -24,6 +24,8 @@ pub struct Params {
     /// Greatest f0, covered; absent, that of an oil jet. [-]
     #[schemars(range(min = 0.0, max = 50.0))]
     pub f0_max: Option<f64>,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 impl Params {
@@ -34,7 +36,13 @@ impl Params {
             most: f0(self.f0_max, Lubrication::Jet)?,
             covered: 2.0 * part.raceway,
         };
-        Palmgren::new(part, f0, rows::load_law(part, 0.55, 3.0, false)?, rows::f2(part))
+        Palmgren::new(
+            part,
+            f0,
+            rows::load_law(part, 0.55, 3.0, false)?,
+            rows::f2(part),
+            self.coefficients,
+        )
     }
 }
 
@@ -90,6 +98,7 @@ mod tests {
     fn f0_rises_with_the_oil_from_mist_to_jet() {
         let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
         let model = Params {
+            coefficients: Constants::PUBLISHED,
             f0_min: None,
             f0_max: None,
         }

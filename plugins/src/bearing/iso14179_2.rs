@@ -14,7 +14,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO, flanged};
+use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO, flanged};
 use super::rows::{self, Lack};
 
 /// Load-dependent and load-independent moment after Palmgren, as in ISO/TR 14179-2.
@@ -37,6 +37,8 @@ pub struct Iso14179 {
     /// Factor of the moment from axial load on cylindrical rollers; absent, by kind and lubrication. [-]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub f2: Option<f64>,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn exponent() -> f64 {
@@ -56,7 +58,13 @@ impl Iso14179 {
             return Err(("f2 belongs to cylindrical roller bearings".to_owned(), mend.to_owned()));
         }
         let f0 = self.f0.map_or_else(|| rows::f0(part), Ok)?;
-        Palmgren::new(part, F0::Fixed(f0), law, self.f2.unwrap_or(rows::f2(part)))
+        Palmgren::new(
+            part,
+            F0::Fixed(f0),
+            law,
+            self.f2.unwrap_or(rows::f2(part)),
+            self.coefficients,
+        )
     }
 }
 
@@ -89,6 +97,7 @@ mod tests {
 
     fn params() -> Iso14179 {
         Iso14179 {
+            coefficients: Constants::PUBLISHED,
             f0: None,
             f1: None,
             exponent: 0.55,

@@ -3,6 +3,7 @@
 //! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is kept); M1 = f1 P1^a dm^b with
 //! f1 = z (P0/C0)^y; M2 = f2 Fa dm of cylindrical rollers under axial load.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, cube_root, each, exp, ln, over, wide};
 use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
@@ -24,8 +25,19 @@ pub const RADIAL_RATIO: Limit = Limit::new(
 );
 pub const P1: Observed = Observed::new(0, "P1", "N", "Load that decides the load-dependent moment.");
 
-/// Where the viscous branch begins. \[mm2/s 1/min\]
-const VISCOUS: f64 = 2000.0;
+coefficients! {
+    /// Constants of the load-independent moment M0 in N mm, from mm2/s, 1/min and mm.
+    pub struct Constants {
+        /// Factor of f0 (nu n)^(2/3) d_m^3 where oil is sheared.
+        viscous_factor = 1e-7, in 0.5e-7..=2e-7;
+        /// Exponent of viscosity times speed there.
+        viscous_exponent = 2.0 / 3.0, in 0.5..=1.0;
+        /// Factor of f0 d_m^3 at low viscosity times speed.
+        constant_factor = 160e-7, in 80e-7..=320e-7;
+        /// Viscosity times speed from which oil is sheared.
+        viscous_from = 2000.0, in 1000.0..=4000.0;
+    }
+}
 
 /// Factor of the load-independent moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +58,7 @@ pub enum F0 {
 /// One bearing, prepared.
 #[derive(Debug)]
 pub struct Palmgren {
+    pub coefficients: Constants,
     pub f0: F0,
     pub f2: f64,
     pub law: LoadLaw,
@@ -66,7 +79,7 @@ impl Palmgren {
     ///
     /// # Errors
     /// Where the load law asks for a rating that is not given.
-    pub fn new(part: &BearingPart, f0: F0, law: LoadLaw, f2: f64) -> Result<Self, Lack> {
+    pub fn new(part: &BearingPart, f0: F0, law: LoadLaw, f2: f64, coefficients: Constants) -> Result<Self, Lack> {
         let c0 = match part.c0 {
             Some(c0) => c0,
             // A constant f1 does not ask for it.
@@ -78,6 +91,7 @@ impl Palmgren {
         };
         let d_m = part.mean_diameter().mm();
         Ok(Self {
+            coefficients,
             f0,
             f2,
             law,
@@ -153,12 +167,18 @@ impl Palmgren {
             }
         };
         let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
-        let m0 = if product >= VISCOUS {
-            at.branch("nu n at least 2000: viscous");
-            1e-7 * f0 * self.cube * cube_root(product).powi(2)
+        let c = &self.coefficients;
+        let m0 = if product >= c.viscous_from {
+            at.branch("nu n at least that of the viscous branch, 2000 as published: viscous");
+            let power = if c.viscous_exponent == 2.0 / 3.0 {
+                cube_root(product).powi(2)
+            } else {
+                product.powf(c.viscous_exponent)
+            };
+            c.viscous_factor * f0 * self.cube * power
         } else {
-            at.branch("nu n below 2000: constant");
-            160e-7 * f0 * self.cube
+            at.branch("nu n below that of the viscous branch, 2000 as published: constant");
+            c.constant_factor * f0 * self.cube
         };
         at.show("f0", "-", f0);
         at.show("M0", "N mm", m0)

@@ -11,7 +11,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::palmgren::{AXIAL_RATIO, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
+use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
 
 /// Rolling bearings after the catalogue of Schaeffler, in Palmgren's form.
@@ -23,6 +23,8 @@ pub struct Params {
     /// Factor z of f1 = z (P0/C0)^y of ball bearings, or f1 itself; absent, by kind and series. [-]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub f1: Option<f64>,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// f0 for grease or mist and for oil, and the load law.
@@ -115,7 +117,7 @@ impl Params {
         row.law.z = self.f1.unwrap_or(row.law.z);
         let oil = matches!(part.lubrication, Lubrication::Bath | Lubrication::Jet);
         let f0 = self.f0.unwrap_or(row.f0[usize::from(oil)]);
-        Palmgren::new(part, F0::Fixed(f0), row.law, rows::f2(part))
+        Palmgren::new(part, F0::Fixed(f0), row.law, rows::f2(part), self.coefficients)
     }
 }
 
@@ -170,7 +172,13 @@ mod tests {
     #[test]
     fn a7_deep_groove_6308() {
         let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
-        let model = Params { f0: None, f1: None }.model(&part).unwrap();
+        let model = Params {
+            coefficients: Constants::PUBLISHED,
+            f0: None,
+            f1: None,
+        }
+        .model(&part)
+        .unwrap();
         let [load, no_load] = moments(&model, &part, 0.0);
         assert!((no_load / 79.9116 - 1.0).abs() < 1e-5, "{no_load}");
         assert!((load / 62.0486 - 1.0).abs() < 1e-5, "{load}");
@@ -182,11 +190,15 @@ mod tests {
     fn kinds_without_a_row_say_what_to_give() {
         let part = part(BearingKind::SphericalRoller, "222", 40.0, 90.0, None);
         assert!(
-            Params { f0: None, f1: None }
-                .model(&part)
-                .unwrap_err()
-                .1
-                .contains("series")
+            Params {
+                coefficients: Constants::PUBLISHED,
+                f0: None,
+                f1: None
+            }
+            .model(&part)
+            .unwrap_err()
+            .1
+            .contains("series")
         );
     }
 

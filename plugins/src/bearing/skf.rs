@@ -22,6 +22,7 @@ mod drag;
 mod rows;
 
 use drag::{Bath, Body, Depth, Drag};
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::lanes::{LaneNotes, LossLanes, count, wide};
 use gearloss_framework::loads::LoadLanes;
@@ -68,9 +69,6 @@ const OUTER: Limit = Limit::new(
 );
 const MU_SL: Observed = Observed::new(0, "mu_sl", "-", "Coefficient of sliding friction.");
 const PHI_BL: Observed = Observed::new(1, "phi_bl", "-", "Weight of boundary friction.");
-
-/// Coefficient of sliding friction at standstill, both editions.
-const MU_START: f64 = 0.15;
 
 /// Speed beyond which the drag follows other laws. \[mm/min\]
 const FASTEST: f64 = 0.5e6;
@@ -119,6 +117,34 @@ fn two() -> u32 {
     2
 }
 
+coefficients! {
+    /// Constants of the factors of the SKF model that all bearings share.
+    struct Constants {
+        /// Factor of the inlet shear heating, phi_ish.
+        inlet_factor = 1.84e-9, in 0.92e-9..=3.68e-9;
+        /// Exponent of n d_m in phi_ish.
+        inlet_speed_exponent = 1.28, in 0.64..=1.92;
+        /// Exponent of the viscosity in phi_ish.
+        inlet_viscosity_exponent = 0.64, in 0.32..=1.28;
+        /// Replenishment constant K_rs in a bath or under a jet of oil.
+        replenishment_oil = 3e-8, in 1.5e-8..=6e-8;
+        /// Replenishment constant K_rs of grease and oil-air.
+        replenishment_grease = 6e-8, in 3e-8..=12e-8;
+        /// Exponent of viscosity times speed in the rolling moment.
+        rolling_exponent = 0.6, in 0.3..=0.9;
+        /// Factor of the weight of boundary friction, phi_bl.
+        mixed_factor = 2.6e-8, in 1.3e-8..=5.2e-8;
+        /// Exponent of viscosity times speed in phi_bl.
+        mixed_exponent = 1.4, in 0.7..=2.1;
+        /// Coefficient of sliding friction at standstill.
+        starting_friction = 0.15, in 0.075..=0.3;
+        /// Factor of the resistance of the oil in the drag of a bath, beside V_M.
+        bath_factor = 1.093e-7, in 0.5465e-7..=2.186e-7;
+        /// Exponent of n d_m^2 f_t over viscosity in the same.
+        bath_exponent = -1.379, in -1.9..=-0.6895;
+    }
+}
+
 /// Rolling, sliding, drag and seal moment after the SKF catalogue, for every kind in its tables.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 pub struct Skf {
@@ -157,11 +183,14 @@ pub struct Skf {
     /// This is not taken from the level.
     #[serde(default)]
     pub full_replenishment: bool,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// One bearing, prepared.
 #[derive(Debug)]
 struct Model {
+    coefficients: Constants,
     /// \[mm\]
     d_m: f64,
     ln_d_m: f64,
@@ -186,14 +215,15 @@ impl Model {
         let row = rows::row(part, params.needle_as_full_complement)?;
         let (d, big_d, d_m) = (part.bore.mm(), part.outside.mm(), part.mean_diameter().mm());
         let k_rs = match part.lubrication {
-            Lubrication::Bath | Lubrication::Jet => 3e-8,
-            Lubrication::Grease | Lubrication::OilAir => 6e-8,
+            Lubrication::Bath | Lubrication::Jet => params.coefficients.replenishment_oil,
+            Lubrication::Grease | Lubrication::OilAir => params.coefficients.replenishment_grease,
         };
         let seals = match &params.seals {
             Some(seals) => SealRow::new(seals.code, big_d, seals.number)?.moment(seals.diameter.mm()),
             None => 0.0,
         };
         Ok(Self {
+            coefficients: params.coefficients,
             d_m,
             ln_d_m: d_m.ln(),
             variables: row.variables,
@@ -271,7 +301,7 @@ fn drag_of(params: &Skf, part: &BearingPart, row: &rows::Row) -> Result<Option<D
         roller,
         rows: row.rows,
     };
-    Ok(Some(Drag::new(&body, bath, v_m)))
+    Ok(Some(Drag::new(&body, bath, v_m, &params.coefficients)))
 }
 
 impl Model {
@@ -297,11 +327,15 @@ impl Model {
         let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(|| {
             let (ln_n, ln_nu) = (n.ln(), nu.ln());
             let drag = self.drag.as_ref();
+            let c = &self.coefficients;
+            let inlet = c.inlet_speed_exponent * (ln_n + self.ln_d_m) + c.inlet_viscosity_exponent * ln_nu;
             [
-                1.0 / (1.0 + 1.84e-9 * (1.28 * (ln_n + self.ln_d_m) + 0.64 * ln_nu).exp()),
+                1.0 / (1.0 + c.inlet_factor * inlet.exp()),
                 (-self.starvation * nu * n).max(-700.0).exp(),
-                (-2.6e-8 * (1.4 * (ln_n + ln_nu)).exp() * self.d_m).max(-700.0).exp(),
-                (0.6 * (ln_n + ln_nu)).exp(),
+                (-c.mixed_factor * (c.mixed_exponent * (ln_n + ln_nu)).exp() * self.d_m)
+                    .max(-700.0)
+                    .exp(),
+                (c.rolling_exponent * (ln_n + ln_nu)).exp(),
                 drag.map_or(0.0, |drag| drag.moment(at.oil_height.mm(), n.min(self.fastest), nu)),
             ]
         });
@@ -344,7 +378,7 @@ impl BearingModel for Model {
         if n == 0.0 {
             at.branch("at rest: starting friction");
             return Ok(Loss::MOMENTS
-                .with(&SLIDING, (MU_START * g_sl).nmm_in_nm())
+                .with(&SLIDING, (self.coefficients.starting_friction * g_sl).nmm_in_nm())
                 .with(&SEAL, seals));
         }
         let moments = self.moments(at, n);

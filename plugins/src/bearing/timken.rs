@@ -6,6 +6,7 @@
 //! program F = f Fr/K with f linear in K Fa/Fr from 0.06 to 2. Single row. Below a least speed of the catalogue the torque stays
 //! nearly constant.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -17,6 +18,24 @@ use serde::Deserialize;
 
 const LOAD: Term = Term::load(0, "load");
 const FORCE: Observed = Observed::new(0, "F_eff", "N", "Load that decides the torque.");
+
+coefficients! {
+    /// Constants of the formula of Timken.
+    struct Constants {
+        /// Factor of the formula, for N m, 1/min, mPa s and N.
+        factor = 2.56e-6, in 1.28e-6..=5.12e-6;
+        /// Exponent of speed times viscosity.
+        speed_exponent = 0.62, in 0.31..=1.24;
+        /// Exponent of the load.
+        load_exponent = 0.3, in 0.15..=0.6;
+        /// K Fa/Fr from which the axial load alone counts.
+        thrust_ratio = 2.0, in 1.0..=4.0;
+        /// K Fa/Fr up to which the radial load alone counts.
+        radial_ratio = 0.47, in 0.235..=0.94;
+        /// Factor of Fr/K there.
+        radial_factor = 0.06, in 0.03..=0.12;
+    }
+}
 
 /// Tapered roller bearings after the Timken catalogue.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -31,9 +50,12 @@ pub struct Params {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub least_speed: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 struct Timken {
+    coefficients: Constants,
     g1: f64,
     k: f64,
     least_speed: f64,
@@ -56,6 +78,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Timken, Diagnostic> {
             .mend("correct `y:` of the bearing, or add `k:` to the model"));
     }
     Ok(Timken {
+        coefficients: params.coefficients,
         g1: params.g1,
         k,
         least_speed: params.least_speed,
@@ -68,18 +91,21 @@ impl Timken {
             return fa;
         }
         let ratio = self.k * fa / fr;
-        if ratio >= 2.0 {
+        let c = &self.coefficients;
+        let (most, least, factor) = (c.thrust_ratio, c.radial_ratio, c.radial_factor);
+        if ratio >= most {
             fa
-        } else if ratio <= 0.47 {
-            0.06 * fr / self.k
+        } else if ratio <= least {
+            factor * fr / self.k
         } else {
-            (0.06 + (2.0 - 0.06) * (ratio - 0.47) / (2.0 - 0.47)) * fr / self.k
+            (factor + (most - factor) * (ratio - least) / (most - least)) * fr / self.k
         }
     }
 
     /// Moment from 1/min, mPa s and N. \[Nm\]
     fn moment(&self, n: f64, mu: f64, force: f64) -> f64 {
-        2.56e-6 * self.g1 * (n * mu).powf(0.62) * force.powf(0.3)
+        let c = &self.coefficients;
+        c.factor * self.g1 * (n * mu).powf(c.speed_exponent) * force.powf(c.load_exponent)
     }
 }
 
@@ -108,6 +134,7 @@ mod tests {
     use super::*;
 
     const MODEL: Timken = Timken {
+        coefficients: Constants::PUBLISHED,
         g1: 20.0,
         k: 1.6,
         least_speed: 0.0,

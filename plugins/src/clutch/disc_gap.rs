@@ -10,6 +10,7 @@
 //! Kitabayashi 2003, Rao 2011 and Iqbal 2013 have the same mechanism; their coefficients are not public, so their names are
 //! not used. Not for plates that touch, for gaps that flutter, or for turbulent flow (rho w r h/eta above about 1000).
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -36,6 +37,16 @@ pub enum Film {
     Full,
 }
 
+coefficients! {
+    /// Constants of the centrifugal pumping C after Hashimoto and others.
+    struct Constants {
+        /// Factor of the square of either speed in C.
+        own_pumping = 0.3, in 0.15..=0.6;
+        /// Factor of the product of both speeds in C.
+        cross_pumping = 0.4, in 0.0..=0.8;
+    }
+}
+
 /// Open wet multi-disc clutch or brake: shear of the oil between the discs.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
@@ -53,9 +64,12 @@ pub struct Params {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub mist_viscosity: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 struct Discs {
+    coefficients: Constants,
     film: Film,
     /// Flow of one gap. \[m3/s\]
     flow: f64,
@@ -100,6 +114,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Discs, Diagnostic> {
         }
     };
     Ok(Discs {
+        coefficients: params.coefficients,
         film: params.film,
         flow,
         faces,
@@ -120,8 +135,12 @@ impl Discs {
     /// Moment of all gaps and the radius of the film, from viscosity, density and both speeds.
     fn moment(&self, eta: f64, rho: f64, w_1: f64, w_2: f64) -> (f64, f64) {
         let (delta, h, q) = ((w_1 - w_2).abs(), self.gap, self.flow);
-        // Never negative: the least of the form lies at opposite speeds.
-        let pumping = 0.3 * w_1 * w_1 + 0.4 * w_1 * w_2 + 0.3 * w_2 * w_2;
+        let Constants {
+            own_pumping,
+            cross_pumping,
+        } = self.coefficients;
+        // The least of the form lies at opposite speeds, and is not negative for published constants.
+        let pumping = own_pumping * w_1 * w_1 + cross_pumping * w_1 * w_2 + own_pumping * w_2 * w_2;
         let feed = 6.0 * eta * q / (std::f64::consts::PI * h.powi(3));
         let (r_i, r_o) = (self.r_i, self.r_o);
         if self.film == Film::Full || pumping <= 0.0 {
@@ -193,6 +212,7 @@ mod tests {
 
     fn discs(film: Film) -> Discs {
         Discs {
+            coefficients: Constants::PUBLISHED,
             film,
             flow: 0.25e-3 / 60.0,
             faces: 12.0,

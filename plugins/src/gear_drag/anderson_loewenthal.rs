@@ -3,6 +3,7 @@
 //! Source: Anderson, Loewenthal, NASA TP-1622 (1980), recalled: P = 2.82e-7 (1 + 2.3 b/R) n^2.8 R^4.6 (0.028 eta + 0.019)^0.2 in kW; n in
 //! 1/min, R and b in m, eta in mPa s. The constants assume a mist; without viscosity only the viscous part falls away.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -15,12 +16,34 @@ use super::WINDAGE;
 
 const TERM: Term = Term::no_load(0, "windage");
 
+coefficients! {
+    /// Constants of the formula of Anderson and Loewenthal.
+    struct Constants {
+        /// Factor of the formula, for kW, 1/min and m.
+        factor = 2.82e-7, in 1.41e-7..=5.64e-7;
+        /// Factor of the face width over the radius.
+        width_factor = 2.3, in 1.15..=4.6;
+        /// Exponent of the speed.
+        speed_exponent = 2.8, in 2.0..=3.5;
+        /// Exponent of the radius.
+        radius_exponent = 4.6, in 3.5..=5.5;
+        /// Factor of the viscosity in mPa s.
+        viscosity_factor = 0.028, in 0.014..=0.056;
+        /// What the air adds to it.
+        air_constant = 0.019, in 0.0095..=0.038;
+        /// Exponent of the sum of both.
+        viscosity_exponent = 0.2, in 0.1..=0.4;
+    }
+}
+
 /// Windage of one gear in air-oil mist after Anderson and Loewenthal.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct AndersonLoewenthal {
     /// Oil mist counts with its viscosity; else air alone.
     #[serde(default = "yes")]
     pub mist: bool,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn yes() -> bool {
@@ -28,8 +51,13 @@ fn yes() -> bool {
 }
 
 /// Power from 1/min, m and mPa s. \[W\]
-fn power(n: f64, r: f64, b: f64, eta: f64) -> f64 {
-    2.82e-7 * (1.0 + 2.3 * b / r) * n.powf(2.8) * r.powf(4.6) * (0.028 * eta + 0.019).powf(0.2) * 1e3
+fn power(c: &Constants, n: f64, r: f64, b: f64, eta: f64) -> f64 {
+    c.factor
+        * (1.0 + c.width_factor * b / r)
+        * n.powf(c.speed_exponent)
+        * r.powf(c.radius_exponent)
+        * (c.viscosity_factor * eta + c.air_constant).powf(c.viscosity_exponent)
+        * 1e3
 }
 
 impl GearDragModel for AndersonLoewenthal {
@@ -40,7 +68,8 @@ impl GearDragModel for AndersonLoewenthal {
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
         let eta = if self.mist { at.eta.mpa_s() } else { 0.0 };
-        let power = power(at.speed.abs().rpm(), 0.5 * gear.working_diameter, gear.facewidth, eta);
+        let (n, r) = (at.speed.abs().rpm(), 0.5 * gear.working_diameter);
+        let power = power(&self.coefficients, n, r, gear.facewidth, eta);
         Ok(Loss::POWERS.with(&TERM, at.show("P", "W", power)))
     }
 }
@@ -61,8 +90,8 @@ mod tests {
     #[test]
     fn c14_published_gears() {
         for (value, printed) in [
-            (power(10000.0, 0.100, 0.030, 20.0), 1700.87),
-            (power(15000.0, 0.060, 0.025, 5.0), 451.821),
+            (power(&Constants::PUBLISHED, 10000.0, 0.100, 0.030, 20.0), 1700.87),
+            (power(&Constants::PUBLISHED, 15000.0, 0.060, 0.025, 5.0), 451.821),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }

@@ -5,6 +5,7 @@
 //! 3.644 (h/D)^0.1 (V/D^3)^-0.35 Fr^-0.88 (b/D)^0.85 above 9000, linear in between.
 //! For narrow gears it lies up to four times above `changenet_2011` at low speed, because it switches on Re alone.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -20,6 +21,36 @@ const TERM: Term = Term::no_load(0, "churning");
 const C_M: Observed = Observed::new(0, "C_m", "-", "Dimensionless churning torque.");
 const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number.");
 
+coefficients! {
+    /// Constants of the formula of Changenet and Velex 2007.
+    struct Constants {
+        /// Factor of C_m at low Reynolds numbers.
+        slow_factor = 1.366, in 0.683..=2.732;
+        /// Exponent of h/D there.
+        slow_dip_exponent = 0.45, in 0.225..=0.9;
+        /// Exponent of V/D^3 there.
+        slow_volume_exponent = 0.1, in 0.05..=0.2;
+        /// Exponent of the Froude number there.
+        slow_froude_exponent = -0.6, in -1.2..=-0.3;
+        /// Exponent of the Reynolds number there.
+        slow_reynolds_exponent = -0.21, in -0.42..=-0.105;
+        /// Factor of C_m at high Reynolds numbers.
+        fast_factor = 3.644, in 1.822..=7.288;
+        /// Exponent of h/D there.
+        fast_dip_exponent = 0.1, in 0.05..=0.2;
+        /// Exponent of V/D^3 there.
+        fast_volume_exponent = -0.35, in -0.7..=-0.175;
+        /// Exponent of the Froude number there.
+        fast_froude_exponent = -0.88, in -1.76..=-0.44;
+        /// Exponent of b/D there.
+        fast_width_exponent = 0.85, in 0.425..=1.7;
+        /// Reynolds number up to which the first form holds.
+        slow_reynolds = 6000.0, in 3000.0..=7400.0;
+        /// Reynolds number from which the second form holds; linear in between.
+        fast_reynolds = 9000.0, in 7500.0..=18000.0;
+    }
+}
+
 /// Churning of one gear by Reynolds number.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
@@ -27,9 +58,12 @@ pub struct Params {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 5.0))]
     pub swell: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 struct Changenet {
+    coefficients: Constants,
     swell: f64,
     volume: f64,
 }
@@ -42,21 +76,34 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Changenet, Diagnostic> 
             .mend("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
     };
     Ok(Changenet {
+        coefficients: params.coefficients,
         swell: params.swell,
         volume,
     })
 }
 
 /// Dimensionless torque from Reynolds and Froude number, h/D, V/D^3 and b/D.
-fn c_m(re: f64, fr: f64, h: f64, v: f64, b: f64) -> f64 {
-    let slow = || 1.366 * h.powf(0.45) * v.powf(0.1) * fr.powf(-0.6) * re.powf(-0.21);
-    let fast = || 3.644 * h.powf(0.1) * v.powf(-0.35) * fr.powf(-0.88) * b.powf(0.85);
-    if re <= 6000.0 {
+fn c_m(c: &Constants, re: f64, fr: f64, h: f64, v: f64, b: f64) -> f64 {
+    let slow = || {
+        c.slow_factor
+            * h.powf(c.slow_dip_exponent)
+            * v.powf(c.slow_volume_exponent)
+            * fr.powf(c.slow_froude_exponent)
+            * re.powf(c.slow_reynolds_exponent)
+    };
+    let fast = || {
+        c.fast_factor
+            * h.powf(c.fast_dip_exponent)
+            * v.powf(c.fast_volume_exponent)
+            * fr.powf(c.fast_froude_exponent)
+            * b.powf(c.fast_width_exponent)
+    };
+    if re <= c.slow_reynolds {
         slow()
-    } else if re >= 9000.0 {
+    } else if re >= c.fast_reynolds {
         fast()
     } else {
-        let t = (re - 6000.0) / 3000.0;
+        let t = (re - c.slow_reynolds) / (c.fast_reynolds - c.slow_reynolds);
         slow() * (1.0 - t) + fast() * t
     }
 }
@@ -74,6 +121,7 @@ impl GearDragModel for Changenet {
         let re = at.observe(&REYNOLDS, gear.omega * gear.radius * body.facewidth / at.nu);
         let fr = at.show("Fr", "-", gear.omega * gear.omega * gear.radius / GRAVITY);
         let c_m = c_m(
+            &self.coefficients,
             re,
             fr,
             gear.dip / diameter,
@@ -102,7 +150,7 @@ mod tests {
     #[test]
     fn c8_dimensionless_torque() {
         for (re, printed) in [(5000.0, 0.00978918), (7500.0, 0.0185169), (12000.0, 0.0280437)] {
-            let value = c_m(re, 60.0, 0.25, 0.5, 0.2);
+            let value = c_m(&Constants::PUBLISHED, re, 60.0, 0.25, 0.5, 0.2);
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }
     }

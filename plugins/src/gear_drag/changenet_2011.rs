@@ -7,6 +7,7 @@
 //! A pair whose gears swell oil towards the mesh loses more; no trustworthy formula is public, so `swell` is the user's own
 //! share, added where the gear's lowest point moves towards its mate.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -28,6 +29,44 @@ const SPEED: Limit = Limit::new(3, "n", "1/min", 0.0, 7000.0, RANGE);
 const C_M: Observed = Observed::new(0, "C_m", "-", "Dimensionless churning torque.");
 const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number.");
 
+coefficients! {
+    /// Constants of the formula of Changenet and others 2011.
+    struct Constants {
+        /// Factor of C_m at a low speed parameter and a low Reynolds number.
+        slow_viscous_factor = 1.366, in 0.683..=2.732;
+        /// Factor of C_m at a low speed parameter and a high Reynolds number.
+        slow_factor = 0.239, in 0.1195..=0.478;
+        /// Exponent of h/D at a low speed parameter.
+        slow_dip_exponent = 0.45, in 0.225..=0.9;
+        /// Exponent of V/D^3 there.
+        slow_volume_exponent = 0.1, in 0.05..=0.2;
+        /// Exponent of the Froude number there.
+        slow_froude_exponent = -0.6, in -1.2..=-0.3;
+        /// Exponent of b/D there.
+        slow_width_exponent = 0.21, in 0.105..=0.42;
+        /// Factor of C_m at a high speed parameter and a low Reynolds number.
+        fast_viscous_factor = 20.797, in 10.3985..=41.594;
+        /// Factor of C_m at a high speed parameter and a high Reynolds number.
+        fast_factor = 3.644, in 1.822..=7.288;
+        /// Exponent of h/D at a high speed parameter.
+        fast_dip_exponent = 0.1, in 0.05..=0.2;
+        /// Exponent of V/D^3 there.
+        fast_volume_exponent = -0.35, in -0.7..=-0.175;
+        /// Exponent of the Froude number there.
+        fast_froude_exponent = -0.88, in -1.76..=-0.44;
+        /// Exponent of b/D there.
+        fast_width_exponent = 0.85, in 0.425..=1.7;
+        /// Exponent of the Reynolds number where it is low.
+        reynolds_exponent = -0.21, in -0.42..=-0.105;
+        /// Reynolds number below which it counts.
+        viscous_reynolds = 4000.0, in 2000.0..=8000.0;
+        /// Speed parameter in m/s2 up to which gears are slow.
+        slow_speed_parameter = 750.0, in 375.0..=900.0;
+        /// Speed parameter in m/s2 from which they are fast; linear in between.
+        fast_speed_parameter = 1250.0, in 1000.0..=2500.0;
+    }
+}
+
 /// Churning of one gear by flow regimes.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Changenet {
@@ -35,10 +74,13 @@ pub struct Changenet {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 5.0))]
     pub swell: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// With the oil volume prepared.
 struct Churning {
+    coefficients: Constants,
     swell: f64,
     volume: f64,
 }
@@ -51,28 +93,42 @@ fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic
             .mend("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
     };
     Ok(Churning {
+        coefficients: params.coefficients,
         swell: params.swell,
         volume,
     })
 }
 
 /// Dimensionless torque from Reynolds number, speed parameter, Froude number, h/D, V/D^3 and b/D.
-fn c_m(re: f64, gamma: f64, fr: f64, h: f64, v: f64, b: f64) -> f64 {
-    let viscous = re < 4000.0;
+fn c_m(c: &Constants, re: f64, gamma: f64, fr: f64, h: f64, v: f64, b: f64) -> f64 {
+    let viscous = re < c.viscous_reynolds;
+    let front = |viscous_factor: f64, factor: f64| {
+        if viscous {
+            viscous_factor * re.powf(c.reynolds_exponent)
+        } else {
+            factor
+        }
+    };
     let slow = || {
-        let front = if viscous { 1.366 * re.powf(-0.21) } else { 0.239 };
-        front * h.powf(0.45) * v.powf(0.1) * fr.powf(-0.6) * b.powf(0.21)
+        front(c.slow_viscous_factor, c.slow_factor)
+            * h.powf(c.slow_dip_exponent)
+            * v.powf(c.slow_volume_exponent)
+            * fr.powf(c.slow_froude_exponent)
+            * b.powf(c.slow_width_exponent)
     };
     let fast = || {
-        let front = if viscous { 20.797 * re.powf(-0.21) } else { 3.644 };
-        front * h.powf(0.1) * v.powf(-0.35) * fr.powf(-0.88) * b.powf(0.85)
+        front(c.fast_viscous_factor, c.fast_factor)
+            * h.powf(c.fast_dip_exponent)
+            * v.powf(c.fast_volume_exponent)
+            * fr.powf(c.fast_froude_exponent)
+            * b.powf(c.fast_width_exponent)
     };
-    if gamma <= 750.0 {
+    if gamma <= c.slow_speed_parameter {
         slow()
-    } else if gamma >= 1250.0 {
+    } else if gamma >= c.fast_speed_parameter {
         fast()
     } else {
-        let t = (gamma - 750.0) / 500.0;
+        let t = (gamma - c.slow_speed_parameter) / (c.fast_speed_parameter - c.slow_speed_parameter);
         slow() * (1.0 - t) + fast() * t
     }
 }
@@ -103,6 +159,7 @@ impl GearDragModel for Churning {
         let c_m = at.observe(
             &C_M,
             c_m(
+                &self.coefficients,
                 re,
                 gamma,
                 fr,
@@ -149,7 +206,7 @@ mod tests {
             (6000.0, 2000.0, 0.0280437),
             (6000.0, 1000.0, 0.017675),
         ] {
-            let value = c_m(re, gamma, 60.0, 0.25, 0.5, 0.2);
+            let value = c_m(&Constants::PUBLISHED, re, gamma, 60.0, 0.25, 0.5, 0.2);
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }
     }
@@ -191,6 +248,7 @@ mod tests {
             to.towards_mesh = 0.0;
         });
         let model = Churning {
+            coefficients: Constants::PUBLISHED,
             swell: 0.3,
             volume: 1.3e-3,
         };
@@ -211,6 +269,7 @@ mod tests {
     fn deeper_than_covered_changes_nothing() {
         let part = wheel();
         let model = Churning {
+            coefficients: Constants::PUBLISHED,
             swell: 0.0,
             volume: 1.3e-3,
         };

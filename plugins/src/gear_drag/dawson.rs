@@ -4,6 +4,7 @@
 //! P = 1e-20 n^2.9 (0.16 D^3.9 + D^2.9 b^0.75 m^1.15) Phi lambda in kW; n in 1/min, D root diameter, b and m in mm.
 //! Phi is 1 in air and more in oil mist; lambda is 1 for a free gear, 0.7 in a loose and 0.5 to 0.6 in a tight case.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -16,6 +17,26 @@ use super::WINDAGE;
 
 const TERM: Term = Term::no_load(0, "windage");
 
+coefficients! {
+    /// Constants of the formula of Dawson.
+    struct Constants {
+        /// Factor of the formula, for kW, 1/min and mm.
+        factor = 1e-20, in 0.5e-20..=2e-20;
+        /// Exponent of the speed.
+        speed_exponent = 2.9, in 2.0..=3.5;
+        /// Factor of the faces against the teeth.
+        faces_factor = 0.16, in 0.08..=0.32;
+        /// Exponent of the root diameter at the faces.
+        faces_diameter_exponent = 3.9, in 3.0..=4.5;
+        /// Exponent of the root diameter at the teeth.
+        teeth_diameter_exponent = 2.9, in 2.0..=3.5;
+        /// Exponent of the face width.
+        width_exponent = 0.75, in 0.375..=1.5;
+        /// Exponent of the module.
+        module_exponent = 1.15, in 0.575..=2.3;
+    }
+}
+
 /// Windage of one gear after Dawson.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Dawson {
@@ -27,6 +48,8 @@ pub struct Dawson {
     #[serde(default = "one")]
     #[schemars(range(min = 0.1, max = 1.0))]
     pub lambda: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn one() -> f64 {
@@ -36,9 +59,11 @@ fn one() -> f64 {
 impl Dawson {
     /// Power from shop units. \[W\]
     fn power(&self, n: f64, d: f64, b: f64, m: f64) -> f64 {
-        1e-20
-            * n.powf(2.9)
-            * (0.16 * d.powf(3.9) + d.powf(2.9) * b.powf(0.75) * m.powf(1.15))
+        let c = &self.coefficients;
+        let teeth = d.powf(c.teeth_diameter_exponent) * b.powf(c.width_exponent) * m.powf(c.module_exponent);
+        c.factor
+            * n.powf(c.speed_exponent)
+            * (c.faces_factor * d.powf(c.faces_diameter_exponent) + teeth)
             * self.phi
             * self.lambda
             * 1e3
@@ -74,7 +99,14 @@ mod tests {
 
     #[test]
     fn c12_large_and_small() {
-        let power = |lambda, n, d, b, m| Dawson { phi: 1.0, lambda }.power(n, d, b, m);
+        let power = |lambda, n, d, b, m| {
+            Dawson {
+                coefficients: Constants::PUBLISHED,
+                phi: 1.0,
+                lambda,
+            }
+            .power(n, d, b, m)
+        };
         for (value, printed) in [
             (power(1.0, 3000.0, 1000.0, 200.0, 10.0), 55370.6),
             (power(0.6, 12000.0, 180.0, 30.0, 3.0), 1042.68),

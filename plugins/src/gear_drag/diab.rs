@@ -7,6 +7,7 @@
 //! m2 0.2, Re* = 3e5; teeth C_l = xi z/4 (b/R) (r_a/R)^4 (1 - cos phi)(1 + cos phi)^3, phi = pi/z - 2 (inv alpha_p - inv alpha_A).
 //! The medium is air at the temperature of the oil, with a share of oil by volume for mist.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::involute;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -33,6 +34,32 @@ pub enum Form {
     Analytical,
 }
 
+coefficients! {
+    /// Constants of both laws of Diab.
+    pub struct Constants {
+        /// Factor of C_t of the dimensional law.
+        factor = 60.0, in 30.0..=120.0;
+        /// Exponent of the Reynolds number in C_t.
+        reynolds_exponent = -0.25, in -0.5..=-0.125;
+        /// Exponent of b/R in C_t.
+        width_exponent = 0.8, in 0.4..=1.6;
+        /// Exponent of the number of teeth in C_t.
+        teeth_exponent = -0.4, in -0.8..=-0.2;
+        /// Exponent of the distances of flanges over R in C_t.
+        flange_exponent = 0.56, in 0.28..=1.12;
+        /// Factor n1 of the laminar flow at the faces, of the analytical law.
+        laminar_factor = 1.293, in 0.6465..=2.586;
+        /// Exponent m1 of the Reynolds number there.
+        laminar_exponent = 0.5, in 0.25..=1.0;
+        /// Factor n2 of the turbulent flow at the faces.
+        turbulent_factor = 0.074, in 0.037..=0.148;
+        /// Exponent m2 of the Reynolds number there.
+        turbulent_exponent = 0.2, in 0.1..=0.4;
+        /// Reynolds number Re* at which the flow at the faces becomes turbulent.
+        critical_reynolds = 3e5, in 1.5e5..=6e5;
+    }
+}
+
 /// Windage of one gear after Diab, by dimensional analysis or from faces and teeth.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Diab {
@@ -50,6 +77,8 @@ pub struct Diab {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 0.5))]
     pub oil_fraction: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn one() -> f64 {
@@ -73,13 +102,18 @@ fn air(temperature: f64) -> Medium {
 }
 
 /// C_t of the dimensional law.
-fn dimensional(re: f64, b: f64, z: f64, flanges: [f64; 2]) -> f64 {
-    60.0 * re.powf(-0.25) * b.powf(0.8) * z.powf(-0.4) * (flanges[0].powf(0.56) + flanges[1].powf(0.56))
+fn dimensional(c: &Constants, re: f64, b: f64, z: f64, flanges: [f64; 2]) -> f64 {
+    c.factor
+        * re.powf(c.reynolds_exponent)
+        * b.powf(c.width_exponent)
+        * z.powf(c.teeth_exponent)
+        * (flanges[0].powf(c.flange_exponent) + flanges[1].powf(c.flange_exponent))
 }
 
 /// C_f of both faces of a disc.
-pub(crate) fn faces(re: f64) -> f64 {
-    let (n_1, m_1, n_2, m_2, critical) = (1.293, 0.5, 0.074, 0.2, 3e5_f64);
+pub(crate) fn faces(c: &Constants, re: f64) -> f64 {
+    let (n_1, m_1) = (c.laminar_factor, c.laminar_exponent);
+    let (n_2, m_2, critical) = (c.turbulent_factor, c.turbulent_exponent, c.critical_reynolds);
     if re < critical {
         return 2.0 * n_1 * PI / (5.0 - 2.0 * m_1) * re.powf(-m_1);
     }
@@ -117,12 +151,12 @@ impl GearDragModel for Diab {
         let c = match self.form {
             Form::Dimensional => {
                 let flanges = self.flanges.map_or([0.5; 2], |h| h.map(|h| h / r));
-                dimensional(re, gear.facewidth / r, z, flanges)
+                dimensional(&self.coefficients, re, gear.facewidth / r, z, flanges)
             }
             Form::Analytical => {
                 let transverse = (gear.pressure_angle.tan() / gear.helix_angle.cos()).atan();
                 let r_b = r * transverse.cos();
-                faces(re) + teeth(self.xi, z, r, 0.5 * gear.tip_diameter, r_b, gear.facewidth)
+                faces(&self.coefficients, re) + teeth(self.xi, z, r, 0.5 * gear.tip_diameter, r_b, gear.facewidth)
             }
         };
         let power = 0.5 * at.show("C", "-", c) * rho * omega.powi(3) * r.powi(5);
@@ -168,11 +202,11 @@ mod tests {
     fn c15_dimensional() {
         let re = 1.2 * 1000.0 * 0.144 * 0.144 / 1.8e-5;
         close(re, 1.3824e6);
-        let c_t = dimensional(re, 30.0 / 144.0, 72.0, [0.5; 2]);
+        let c_t = dimensional(&Constants::PUBLISHED, re, 30.0 / 144.0, 72.0, [0.5; 2]);
         close(c_t, 0.122326);
         close(0.5 * c_t * 1.2 * 1e9 * 0.144_f64.powi(5), 4544.48);
         let re = 1.2 * 1500.0 * 0.06 * 0.06 / 1.8e-5;
-        let c_t = dimensional(re, 25.0 / 60.0, 40.0, [10.0 / 60.0; 2]);
+        let c_t = dimensional(&Constants::PUBLISHED, re, 25.0 / 60.0, 40.0, [10.0 / 60.0; 2]);
         close(c_t, 0.203867);
         close(0.5 * c_t * 1.2 * 1500.0_f64.powi(3) * 0.06_f64.powi(5), 321.018);
     }
@@ -183,7 +217,7 @@ mod tests {
         let c_l = teeth(1.0, 72.0, 0.144, 0.148, r_b, 0.030);
         close(c_l, 0.0721945);
         for (omega, c_f, power) in [(1000.0, 0.00588094, 2900.54), (100.0, 0.00546263, 2.885)] {
-            let own = faces(1.2 * omega * 0.144 * 0.144 / 1.8e-5);
+            let own = faces(&Constants::PUBLISHED, 1.2 * omega * 0.144 * 0.144 / 1.8e-5);
             close(own, c_f);
             close(0.5 * (own + c_l) * 1.2 * f64::powi(omega, 3) * 0.144_f64.powi(5), power);
         }
@@ -191,6 +225,8 @@ mod tests {
 
     #[test]
     fn both_branches_of_the_faces_meet() {
-        assert!((faces(2.999_999e5) / faces(3.000_001e5) - 1.0).abs() < 1e-5);
+        assert!(
+            (faces(&Constants::PUBLISHED, 2.999_999e5) / faces(&Constants::PUBLISHED, 3.000_001e5) - 1.0).abs() < 1e-5
+        );
     }
 }

@@ -9,6 +9,7 @@
 //! It grows with viscosity and the cube of speed: far below other laws for a thin oil, far above for a thick one at speed.
 //! For industrial units; R_f is held at zero for transverse modules below 0.586 mm.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -18,9 +19,30 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
+use crate::powers::power;
 
 const SIDES: Term = Term::no_load(0, "sides");
 const TEETH: Term = Term::no_load(1, "teeth");
+
+coefficients! {
+    /// Constants of the formulas of ISO/TR 14179-1.
+    struct Constants {
+        /// Factor of the sides, times 1e-26, for kW, mm2/s, 1/min and mm.
+        sides_factor = 1.474, in 0.737..=2.948;
+        /// Factor of the tooth surface, times 1e-26.
+        teeth_factor = 7.37, in 3.685..=14.74;
+        /// Exponent of the speed.
+        speed_exponent = 3.0, in 2.0..=3.5;
+        /// Exponent of the outer diameter at the sides.
+        sides_diameter_exponent = 5.7, in 4.5..=6.5;
+        /// Exponent of the outer diameter at the tooth surface.
+        teeth_diameter_exponent = 4.7, in 3.5..=5.5;
+        /// Constant of the roughness factor R_f.
+        roughness_constant = 7.93, in 3.965..=15.86;
+        /// Factor of the inverse transverse module in mm in R_f.
+        roughness_module = 4.648, in 2.324..=9.296;
+    }
+}
 
 /// Windage and churning of one gear after ISO/TR 14179-1, of AGMA origin.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -29,6 +51,8 @@ pub struct Iso14179 {
     #[serde(default = "a_g")]
     #[schemars(range(min = 0.01, max = 10.0))]
     pub a_g: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn a_g() -> f64 {
@@ -38,15 +62,21 @@ fn a_g() -> f64 {
 impl Iso14179 {
     /// Power of both sides from shop units. \[W\]
     fn sides(&self, f_g: f64, nu: f64, n: f64, d: f64) -> f64 {
-        1.474 * f_g * nu * n.powi(3) * d.powf(5.7) / (self.a_g * 1e26) * 1e3
+        let c = &self.coefficients;
+        let speed = power(n, c.speed_exponent);
+        c.sides_factor * f_g * nu * speed * d.powf(c.sides_diameter_exponent) / (self.a_g * 1e26) * 1e3
     }
 
     /// Power of the tooth surface from shop units and helix angle in rad. \[W\]
     #[allow(clippy::too_many_arguments)]
     fn teeth(&self, f_g: f64, nu: f64, n: f64, d: f64, b: f64, m_t: f64, beta: f64) -> f64 {
-        let r_f = (7.93 - 4.648 / m_t).max(0.0);
+        let c = &self.coefficients;
+        let r_f = (c.roughness_constant - c.roughness_module / m_t).max(0.0);
         let tan = beta.max(10.0_f64.to_radians()).tan();
-        7.37 * f_g * nu * n.powi(3) * d.powf(4.7) * b * (r_f / tan.sqrt()) / (self.a_g * 1e26) * 1e3
+        let speed = power(n, c.speed_exponent);
+        c.teeth_factor * f_g * nu * speed * d.powf(c.teeth_diameter_exponent) * b * (r_f / tan.sqrt())
+            / (self.a_g * 1e26)
+            * 1e3
     }
 }
 
@@ -83,7 +113,10 @@ mod tests {
 
     #[test]
     fn c5_published_gear() {
-        let law = Iso14179 { a_g: 0.2 };
+        let law = Iso14179 {
+            coefficients: Constants::PUBLISHED,
+            a_g: 0.2,
+        };
         for (value, printed) in [
             (law.teeth(0.5, 100.0, 1500.0, 200.0, 50.0, 4.0, 0.0), 3271.85),
             (law.sides(0.5, 100.0, 1500.0, 200.0), 162.399),

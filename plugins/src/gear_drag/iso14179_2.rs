@@ -7,6 +7,7 @@
 //! Where the sump supplies the mesh itself (both gears dip) C_Sp is one. Without any dip the b^3 term would remain; the loss
 //! is zero then. Not for face widths far above 100 mm, where that term explodes.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -15,6 +16,8 @@ use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::powers::power;
 
 const SPLASH: Term = Term::no_load(0, "splash");
 const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.0, 60.0, "ISO/TR 14179-2");
@@ -31,15 +34,36 @@ pub enum SpeedOf {
     Pinion,
 }
 
+coefficients! {
+    /// Constants of the formula of ISO/TR 14179-2.
+    struct Constants {
+        /// Factor of the dips over 10 mm in C_1.
+        dip_factor = 0.063, in 0.0315..=0.126;
+        /// Factor of the power of the face width over 10 mm in C_1.
+        width_factor = 0.0128, in 0.0064..=0.0256;
+        /// Exponent of the face width over 10 mm in C_1.
+        width_exponent = 3.0, in 1.5..=3.5;
+        /// Length in mm that the dips are divided by in C_2.
+        dip_length = 800.0, in 400.0..=1600.0;
+        /// Constant of C_2, the growth with v_t over 10 m/s.
+        speed_constant = 0.2, in 0.1..=0.4;
+        /// Exponent of 4 h_max/(3 h_C) in the splash factor C_Sp.
+        splash_exponent = 1.5, in 0.75..=3.0;
+    }
+}
+
 /// Splash torque of a dipping gear stage after ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Whose speed the splash torque is multiplied by. Sources differ, and the loss differs by the gear ratio.
     pub speed_of: SpeedOf,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// With the housing prepared.
 struct Splash {
+    coefficients: Constants,
     /// Characteristic length of the gear case. \[mm\]
     l_h: f64,
     /// True where the first gear's speed counts.
@@ -60,20 +84,21 @@ fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Splash, Diagnostic> {
     };
     let pinion_first = part.gear.z <= mate.z;
     Ok(Splash {
+        coefficients: params.coefficients,
         l_h: (4.0 * area / perimeter).mm(),
         first: (params.speed_of == SpeedOf::Pinion) == pinion_first,
     })
 }
 
 /// Splash torque from shop units, N m; dips, face width, contact height and case length in mm, speed in m/s.
-fn torque(dips: f64, b: f64, v_t: f64, c_sp: f64) -> f64 {
-    let c_1 = 0.063 * dips / 10.0 + 0.0128 * (b / 10.0).powi(3);
-    let c_2 = dips / 800.0 + 0.2;
+fn torque(c: &Constants, dips: f64, b: f64, v_t: f64, c_sp: f64) -> f64 {
+    let c_1 = c.dip_factor * dips / 10.0 + c.width_factor * power(b / 10.0, c.width_exponent);
+    let c_2 = dips / c.dip_length + c.speed_constant;
     c_sp * c_1 * (c_2 * v_t / 10.0).exp()
 }
 
-fn splash_factor(deepest: f64, h_c: f64, l_h: f64) -> f64 {
-    (4.0 * deepest / (3.0 * h_c)).powf(1.5) * 2.0 * h_c / l_h
+fn splash_factor(c: &Constants, deepest: f64, h_c: f64, l_h: f64) -> f64 {
+    (4.0 * deepest / (3.0 * h_c)).powf(c.splash_exponent) * 2.0 * h_c / l_h
 }
 
 impl GearDragModel for Splash {
@@ -109,10 +134,10 @@ impl GearDragModel for Splash {
                     value: h_c,
                 });
             }
-            splash_factor(deepest, h_c, at.show("l_h", "mm", self.l_h))
+            splash_factor(&self.coefficients, deepest, h_c, at.show("l_h", "mm", self.l_h))
         };
         at.show("C_Sp", "-", c_sp);
-        let torque = at.observe(&TORQUE, torque(h_1 + h_2, b, v_t, c_sp));
+        let torque = at.observe(&TORQUE, torque(&self.coefficients, h_1 + h_2, b, v_t, c_sp));
         let speed = if self.first { at.speed } else { at.speed_2 };
         Ok(Loss::POWERS
             .with(&SPLASH, at.show("P", "W", torque * speed.abs()))
@@ -173,11 +198,11 @@ mod tests {
 
     #[test]
     fn c2_splash_torque() {
-        let both = torque(70.0, 30.0, 8.0, 1.0);
+        let both = torque(&Constants::PUBLISHED, 70.0, 30.0, 8.0, 1.0);
         assert!((both / 0.990015 - 1.0).abs() < 1e-5, "{both}");
-        let c_sp = splash_factor(45.0, 90.0, 200.0);
+        let c_sp = splash_factor(&Constants::PUBLISHED, 45.0, 90.0, 200.0);
         assert!((c_sp / 0.489898 - 1.0).abs() < 1e-5, "{c_sp}");
-        let one = torque(45.0, 17.0, 20.0, c_sp);
+        let one = torque(&Constants::PUBLISHED, 45.0, 17.0, 20.0, c_sp);
         assert!((one / 0.283297 - 1.0).abs() < 1e-5, "{one}");
     }
 
@@ -187,8 +212,20 @@ mod tests {
         let at = at(&part, [0.0, 0.045]);
         // A section of 0.01 m2 and 0.2 m has l_h 200 mm.
         let l_h = (4.0 * 0.01_f64 / 0.2).mm();
-        let pinion = Splash { l_h, first: true }.loss(&at).unwrap();
-        let wheel = Splash { l_h, first: false }.loss(&at).unwrap();
+        let pinion = Splash {
+            coefficients: Constants::PUBLISHED,
+            l_h,
+            first: true,
+        }
+        .loss(&at)
+        .unwrap();
+        let wheel = Splash {
+            coefficients: Constants::PUBLISHED,
+            l_h,
+            first: false,
+        }
+        .loss(&at)
+        .unwrap();
         assert!((pinion.sum() / (0.283297 * at.speed) - 1.0).abs() < 1e-5);
         assert!((pinion.sum() / wheel.sum() - 96.0 / 31.0).abs() < 1e-12);
         assert_eq!((pinion.first_share(), wheel.first_share()), (1.0, 0.0));
@@ -198,6 +235,7 @@ mod tests {
     fn dry_gears_and_gears_at_rest_lose_nothing() {
         let part = pair();
         let splash = Splash {
+            coefficients: Constants::PUBLISHED,
             l_h: 200.0,
             first: true,
         };

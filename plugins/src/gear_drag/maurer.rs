@@ -2,6 +2,7 @@
 //!
 //! Source: Maurer 1994, as a public gearbox program quotes him: T = 1.37e-9 v_t^1.9 d^1.6 b^0.52 m_n^0.69 in N m; v_t in m/s, d, b, m_n in mm.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -14,13 +15,36 @@ use super::WINDAGE;
 
 const TERM: Term = Term::no_load(0, "windage");
 
+coefficients! {
+    /// Constants of the formula of Maurer.
+    struct Constants {
+        /// Factor of the formula, for N m, m/s and mm.
+        factor = 1.37e-9, in 0.685e-9..=2.74e-9;
+        /// Exponent of the pitch line speed.
+        speed_exponent = 1.9, in 0.95..=3.0;
+        /// Exponent of the pitch diameter.
+        diameter_exponent = 1.6, in 0.8..=3.2;
+        /// Exponent of the face width.
+        width_exponent = 0.52, in 0.26..=1.04;
+        /// Exponent of the module.
+        module_exponent = 0.69, in 0.345..=1.38;
+    }
+}
+
 /// Ventilation of one gear after Maurer.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct Maurer {}
+pub struct Maurer {
+    #[serde(default)]
+    coefficients: Constants,
+}
 
 /// Torque from m/s and mm. \[Nm\]
-fn torque(v_t: f64, d: f64, b: f64, m_n: f64) -> f64 {
-    1.37e-9 * v_t.powf(1.9) * d.powf(1.6) * b.powf(0.52) * m_n.powf(0.69)
+fn torque(c: &Constants, v_t: f64, d: f64, b: f64, m_n: f64) -> f64 {
+    c.factor
+        * v_t.powf(c.speed_exponent)
+        * d.powf(c.diameter_exponent)
+        * b.powf(c.width_exponent)
+        * m_n.powf(c.module_exponent)
 }
 
 impl GearDragModel for Maurer {
@@ -32,6 +56,7 @@ impl GearDragModel for Maurer {
         let gear = &at.part.gear;
         let v_t = at.show("v_t", "m/s", at.speed.abs() * 0.5 * gear.working_diameter);
         let torque = torque(
+            &self.coefficients,
             v_t,
             gear.working_diameter.mm(),
             gear.facewidth.mm(),
@@ -54,8 +79,8 @@ mod tests {
     #[test]
     fn c17_published_gears() {
         for (value, printed) in [
-            (torque(50.0, 200.0, 30.0, 4.0), 0.169799),
-            (torque(80.0, 120.0, 25.0, 2.0), 0.103257),
+            (torque(&Constants::PUBLISHED, 50.0, 200.0, 30.0, 4.0), 0.169799),
+            (torque(&Constants::PUBLISHED, 80.0, 120.0, 25.0, 2.0), 0.103257),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }

@@ -7,6 +7,7 @@
 //! they are factors of the user, which count above 10 m/s where the gap is below 1.3 tip radii (at any gap that is not stated).
 //! A_B is the wetted surface of faces and rim at the tip circle. For modules of 3 to 6 mm.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -21,6 +22,20 @@ use super::wetted::Wetted;
 const TERM: Term = Term::no_load(0, "churning");
 const MODULE: Limit = Limit::new(0, "m_n", "mm", 3.0, 6.0, "Mauz as quoted");
 const SPEED: Limit = Limit::new(1, "v_t", "m/s", 0.0, 60.0, "Mauz as quoted");
+
+coefficients! {
+    /// Constants of the formula of Mauz; its scale is the parameter `k_0`.
+    struct Constants {
+        /// Exponent of the viscosity over that of the reference, beside which the viscosity itself counts.
+        viscosity_exponent = -1.255, in -1.5..=-0.6;
+        /// Exponent of the module over 4.5 mm.
+        module_exponent = 1.0 / 7.0, in 1.0 / 14.0..=2.0 / 7.0;
+        /// Speed in m/s above which walls count.
+        wall_speed = 10.0, in 5.0..=20.0;
+        /// Gap to a wall over the tip radius below which the wall counts.
+        wall_gap = 1.3, in 1.0..=2.6;
+    }
+}
 
 /// Splash torque of one gear after Mauz, in a reconstructed scale.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -41,6 +56,8 @@ pub struct Mauz {
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_v: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn k_0() -> f64 {
@@ -53,7 +70,8 @@ fn one() -> f64 {
 impl Mauz {
     /// Factors of both walls at a speed, for gaps and tip radius in m.
     fn walls(&self, v_t: f64, r_a: f64, radial: Option<f64>, axial: Option<f64>) -> f64 {
-        let near = |gap: Option<f64>| v_t > 10.0 && gap.is_none_or(|gap| gap < 1.3 * r_a);
+        let c = &self.coefficients;
+        let near = |gap: Option<f64>| v_t > c.wall_speed && gap.is_none_or(|gap| gap < c.wall_gap * r_a);
         let factor = |counts: bool, factor: f64| if counts { factor } else { 1.0 };
         factor(near(radial), self.c_wz) * factor(near(axial), self.c_wa)
     }
@@ -61,8 +79,9 @@ impl Mauz {
     /// Torque from viscosity (Pa s), speed (m/s), wetted surface (m2), tip radius (m), module (m) and the factors of the walls.
     /// \[Nm\]
     fn torque(&self, eta: f64, v_t: f64, surface: f64, r_a: f64, module: f64, walls: f64) -> f64 {
-        let factors = walls * self.c_v * (module / 4.5e-3).powf(1.0 / 7.0);
-        self.k_0 * eta.mpa_s().powf(-1.255) * (r_a / 0.054) * factors * eta * v_t * surface
+        let c = &self.coefficients;
+        let factors = walls * self.c_v * (module / 4.5e-3).powf(c.module_exponent);
+        self.k_0 * eta.mpa_s().powf(c.viscosity_exponent) * (r_a / 0.054) * factors * eta * v_t * surface
     }
 }
 
@@ -108,6 +127,7 @@ mod tests {
     #[test]
     fn c6_reconstructed_scale() {
         let law = |c_v| Mauz {
+            coefficients: Constants::PUBLISHED,
             k_0: 1.86e3,
             c_wz: 1.0,
             c_wa: 1.0,
@@ -124,6 +144,7 @@ mod tests {
     #[test]
     fn walls_count_near_and_fast() {
         let law = Mauz {
+            coefficients: Constants::PUBLISHED,
             k_0: 1.86e3,
             c_wz: 1.5,
             c_wa: 2.0,

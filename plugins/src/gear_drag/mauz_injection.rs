@@ -4,6 +4,7 @@
 //! nu_0 and h_Z0 are not public, so both ratios are numbers of the user. Once for each mesh, at the first gear. Oil that is
 //! sprayed at the outgoing side is not squeezed.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
 use gearloss_framework::register;
@@ -12,9 +13,28 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SQUEEZING;
+use crate::powers::power;
 use gearloss_framework::mechanism::gear_drag::Scope;
 
 const TERM: Term = Term::no_load(0, "squeezing");
+
+coefficients! {
+    /// Constants of the formula of Mauz.
+    struct Constants {
+        /// Factor of the formula, SI.
+        factor = 4.12, in 2.06..=8.24;
+        /// Exponent of the flow.
+        flow_exponent = 0.75, in 0.375..=1.5;
+        /// Exponent of the pitch line speed.
+        speed_exponent = 1.25, in 0.625..=2.5;
+        /// Exponent of face width times module.
+        size_exponent = 0.25, in 0.125..=0.5;
+        /// Exponent of the viscosity over its reference.
+        viscosity_exponent = 0.25, in 0.125..=0.5;
+        /// Exponent of the tooth height over its reference.
+        height_exponent = 0.5, in 0.25..=1.0;
+    }
+}
 
 /// Side of the mesh that is sprayed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -44,6 +64,8 @@ pub struct MauzInjection {
     #[serde(default = "one")]
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub tooth_height_ratio: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn one() -> f64 {
@@ -53,8 +75,11 @@ fn one() -> f64 {
 impl MauzInjection {
     /// Torque, SI. \[Nm\]
     fn torque(&self, rho: f64, r_w: f64, v_t: f64, b: f64, module: f64) -> f64 {
-        let ratios = self.viscosity_ratio.powf(0.25) * self.tooth_height_ratio.sqrt();
-        4.12 * rho * self.flow.powf(0.75) * r_w * v_t.powf(1.25) * (b * module).powf(0.25) * ratios
+        let c = &self.coefficients;
+        let ratios =
+            self.viscosity_ratio.powf(c.viscosity_exponent) * power(self.tooth_height_ratio, c.height_exponent);
+        let (flow, speed) = (self.flow.powf(c.flow_exponent), v_t.powf(c.speed_exponent));
+        c.factor * rho * flow * r_w * speed * (b * module).powf(c.size_exponent) * ratios
     }
 }
 
@@ -98,6 +123,7 @@ mod tests {
     #[test]
     fn c4_published_values() {
         let law = |flow: f64, viscosity_ratio, tooth_height_ratio| MauzInjection {
+            coefficients: Constants::PUBLISHED,
             flow: flow * 1e-3 / 60.0,
             side: Side::Ingoing,
             viscosity_ratio,

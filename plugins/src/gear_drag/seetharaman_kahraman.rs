@@ -6,6 +6,7 @@
 //! immersed area of a face. The laminar constant is that of a flat plate. The terms of filling and pocketing are missing, so the
 //! model is incomplete; at high speed it runs far above measurements, because oil is thrown off. For research.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -15,25 +16,45 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
+use crate::powers::power;
 
 const RIM: Term = Term::no_load(0, "rim");
 const FACES: Term = Term::no_load(1, "faces");
 
+coefficients! {
+    /// Constants of both known terms.
+    struct Constants {
+        /// Factor of the rim.
+        rim_factor = 4.0, in 2.0..=8.0;
+        /// Factor of a face in laminar flow.
+        laminar_factor = 0.41, in 0.205..=0.82;
+        /// Exponent of viscosity over chord in laminar flow; that of the speed is three less it.
+        laminar_exponent = 0.5, in 0.25..=0.75;
+        /// Factor of a face in turbulent flow.
+        turbulent_factor = 0.025, in 0.0125..=0.05;
+        /// Exponent of viscosity over chord in turbulent flow; that of the speed is three less it.
+        turbulent_exponent = 0.14, in 0.07..=0.28;
+    }
+}
+
 /// Rim and faces of one dipping gear after Seetharaman and Kahraman; incomplete.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct SeetharamanKahraman {}
+pub struct SeetharamanKahraman {
+    #[serde(default)]
+    coefficients: Constants,
+}
 
 /// Half of the angle under oil. \[rad\]
 fn angle(depth: f64) -> f64 {
     (1.0 - depth.clamp(0.0, 2.0)).acos()
 }
 
-fn rim(eta: f64, b: f64, r: f64, omega: f64, depth: f64) -> f64 {
-    4.0 * eta * b * r * r * omega * omega * angle(depth)
+fn rim(c: &Constants, eta: f64, b: f64, r: f64, omega: f64, depth: f64) -> f64 {
+    c.rim_factor * eta * b * r * r * omega * omega * angle(depth)
 }
 
 /// Power of one face, depth over tip radius at most one. \[W\]
-fn face(rho: f64, nu: f64, r: f64, omega: f64, depth: f64) -> f64 {
+fn face(c: &Constants, rho: f64, nu: f64, r: f64, omega: f64, depth: f64) -> f64 {
     let h = depth.min(1.0);
     let (chord, speed) = (r * angle(h).sin(), omega * r);
     if chord <= 0.0 || speed == 0.0 {
@@ -42,8 +63,9 @@ fn face(rho: f64, nu: f64, r: f64, omega: f64, depth: f64) -> f64 {
     let half = std::f64::consts::FRAC_PI_2;
     // Both parts of a sliver cancel to rounding.
     let area = r * r * (half - (1.0 - h).asin() - (1.0 - h) * (h * (2.0 - h)).sqrt()).max(0.0);
-    let laminar = 0.41 * rho * nu.sqrt() * speed.powf(2.5) * area / chord.sqrt();
-    let turbulent = 0.025 * rho * nu.powf(0.14) * speed.powf(2.86) * area / chord.powf(0.14);
+    let (m, n) = (c.laminar_exponent, c.turbulent_exponent);
+    let laminar = c.laminar_factor * rho * power(nu, m) * speed.powf(3.0 - m) * area / power(chord, m);
+    let turbulent = c.turbulent_factor * rho * nu.powf(n) * speed.powf(3.0 - n) * area / chord.powf(n);
     let t = ((2.0 * chord * speed / nu).log10() - 5.0).clamp(0.0, 1.0);
     laminar * (1.0 - t) + turbulent * t
 }
@@ -61,11 +83,19 @@ impl GearDragModel for SeetharamanKahraman {
         Ok(Loss::POWERS
             .with(
                 &RIM,
-                at.show("P_rim", "W", rim(at.eta, gear.facewidth, r, omega, depth)),
+                at.show(
+                    "P_rim",
+                    "W",
+                    rim(&self.coefficients, at.eta, gear.facewidth, r, omega, depth),
+                ),
             )
             .with(
                 &FACES,
-                at.show("P_faces", "W", 2.0 * face(at.rho, at.nu, r, omega, depth)),
+                at.show(
+                    "P_faces",
+                    "W",
+                    2.0 * face(&self.coefficients, at.rho, at.nu, r, omega, depth),
+                ),
             ))
     }
 }
@@ -83,14 +113,15 @@ mod tests {
     #[test]
     fn c11_rim_and_face() {
         for (value, printed) in [
-            (rim(20e-3, 20e-3, 80e-3, 200.0, 0.5), 0.428932),
-            (face(850.0, 23.5e-6, 80e-3, 100.0, 0.5), 4.56699),
-            (face(850.0, 8e-6, 100e-3, 800.0, 0.5), 9855.39),
+            (rim(&Constants::PUBLISHED, 20e-3, 20e-3, 80e-3, 200.0, 0.5), 0.428932),
+            (face(&Constants::PUBLISHED, 850.0, 23.5e-6, 80e-3, 100.0, 0.5), 4.56699),
+            (face(&Constants::PUBLISHED, 850.0, 8e-6, 100e-3, 800.0, 0.5), 9855.39),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }
         assert_eq!(
-            face(850.0, 8e-6, 0.1, 0.0, 0.5) + rim(20e-3, 0.02, 0.1, 100.0, 0.0),
+            face(&Constants::PUBLISHED, 850.0, 8e-6, 0.1, 0.0, 0.5)
+                + rim(&Constants::PUBLISHED, 20e-3, 0.02, 0.1, 100.0, 0.0),
             0.0
         );
     }

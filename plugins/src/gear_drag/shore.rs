@@ -6,6 +6,7 @@
 //! The exponents of R_a and R_p hide the tooth size: one percent in R_a/R_p moves the torque by eight, so radii must be exact.
 //! The dip counts at the reference circle. Single gear; whether d_x is one side or both is not said, one side is assumed.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -24,6 +25,36 @@ const H_EFF: Observed = Observed::new(0, "h_eff", "mm", "Depth that remains once
 /// The source rounds gravity. \[m/s2\]
 const G: f64 = 9.8;
 
+coefficients! {
+    /// Constants of equations 7 and 8 of Shore and others.
+    struct Constants {
+        /// Factor of the torque, SI.
+        factor = 0.38, in 0.19..=0.76;
+        /// Exponent of the viscosity.
+        viscosity_exponent = 0.05, in 0.025..=0.1;
+        /// Exponent of the tip radius.
+        tip_exponent = 8.51, in 6.0..=11.0;
+        /// Exponent of the reference radius.
+        pitch_exponent = -5.90, in -8.0..=-4.0;
+        /// Exponent of the face width.
+        width_exponent = 0.20, in 0.1..=0.4;
+        /// Exponent of the radial gap.
+        radial_gap_exponent = 0.08, in 0.04..=0.16;
+        /// Exponent of the axial gap.
+        axial_gap_exponent = 0.34, in 0.17..=0.68;
+        /// Exponent of the effective depth.
+        depth_exponent = 1.10, in 0.55..=2.2;
+        /// Exponent of the speed.
+        speed_exponent = 0.81, in 0.405..=1.62;
+        /// Exponent of gravity.
+        gravity_exponent = 0.57, in 0.285..=1.14;
+        /// Constant inside the hyperbolic tangent of the effective depth.
+        depth_constant = 0.2, in 0.1..=0.4;
+        /// Exponent of the Reynolds number there.
+        depth_reynolds_exponent = 0.4, in 0.2..=0.8;
+    }
+}
+
 /// Churning of one gear in a cylindrical case, from an inertia run-down rig to 90 m/s.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
@@ -34,10 +65,13 @@ pub struct Params {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 5.0))]
     pub swell: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 #[derive(Debug)]
 struct Shore {
+    coefficients: Constants,
     fill: f64,
     swell: f64,
     radial: f64,
@@ -52,6 +86,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Shore, Diagnostic> {
             .mend("add `housing: { clearance: { radial: 8 mm, axial: 12 mm } }` with your figures"));
     };
     Ok(Shore {
+        coefficients: params.coefficients,
         fill: params.fill,
         swell: params.swell,
         radial,
@@ -63,12 +98,16 @@ impl Shore {
     /// Effective depth and torque from tip and reference radius, width and depth (m), viscosity (m2/s), density, speed.
     #[allow(clippy::too_many_arguments)]
     fn torque(&self, r_a: f64, r_p: f64, b: f64, h_0: f64, nu: f64, rho: f64, omega: f64) -> (f64, f64) {
+        let c = &self.coefficients;
         let re = omega * r_p * r_p / nu;
         let fr = omega * omega * r_p / G;
-        let h_eff = h_0 * (self.fill + (1.0 - self.fill) * (0.2 + re.powf(0.4) / fr).tanh());
-        let size = r_a.powf(8.51) * r_p.powf(-5.90) * b.powf(0.20);
-        let case = self.radial.powf(0.08) * self.axial.powf(0.34);
-        let torque = 0.38 * rho * nu.powf(0.05) * size * case * h_eff.powf(1.10) * omega.powf(0.81) * G.powf(0.57);
+        let h_eff =
+            h_0 * (self.fill + (1.0 - self.fill) * (c.depth_constant + re.powf(c.depth_reynolds_exponent) / fr).tanh());
+        let size = r_a.powf(c.tip_exponent) * r_p.powf(c.pitch_exponent) * b.powf(c.width_exponent);
+        let case = self.radial.powf(c.radial_gap_exponent) * self.axial.powf(c.axial_gap_exponent);
+        let viscous = c.factor * rho * nu.powf(c.viscosity_exponent);
+        let depth = h_eff.powf(c.depth_exponent);
+        let torque = viscous * size * case * depth * omega.powf(c.speed_exponent) * G.powf(c.gravity_exponent);
         (h_eff, torque)
     }
 }
@@ -111,6 +150,7 @@ mod tests {
     #[test]
     fn c10_published_gear() {
         let model = Shore {
+            coefficients: Constants::PUBLISHED,
             fill: 0.35,
             swell: 0.0,
             radial: 6e-3,
@@ -132,6 +172,7 @@ mod tests {
     #[test]
     fn u9a_u9b_u9c_three_speeds() {
         let model = Shore {
+            coefficients: Constants::PUBLISHED,
             fill: 0.30,
             swell: 0.0,
             radial: 6e-3,

@@ -3,6 +3,7 @@
 //! Source: Townsend (ed.): Dudley's Gear Handbook, 2nd ed., 1991, recalled: P = n^3 D^5 L^0.7/1e17 in hp, n in 1/min, D and L in inches.
 //! A rotor without teeth: it lies below the laws for gears.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -12,6 +13,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::WINDAGE;
+use crate::powers::power;
 
 const TERM: Term = Term::no_load(0, "windage");
 /// One horsepower. \[W\]
@@ -19,13 +21,30 @@ const HP: f64 = 745.699_871_582;
 /// One inch. \[m\]
 const INCH: f64 = 25.4e-3;
 
+coefficients! {
+    /// Constants of the formula of the handbook.
+    struct Constants {
+        /// Divisor of the formula, for hp, 1/min and inches.
+        divisor = 1e17, in 0.5e17..=2e17;
+        /// Exponent of the speed.
+        speed_exponent = 3.0, in 2.0..=3.5;
+        /// Exponent of the diameter.
+        diameter_exponent = 5.0, in 4.0..=5.5;
+        /// Exponent of the length.
+        length_exponent = 0.7, in 0.35..=1.4;
+    }
+}
+
 /// Windage of a smooth rotor of the gear's size.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct Townsend {}
+pub struct Townsend {
+    #[serde(default)]
+    coefficients: Constants,
+}
 
 /// Power from 1/min and inches. \[W\]
-fn power(n: f64, d: f64, l: f64) -> f64 {
-    n.powi(3) * d.powi(5) * l.powf(0.7) / 1e17 * HP
+fn windage(c: &Constants, n: f64, d: f64, l: f64) -> f64 {
+    power(n, c.speed_exponent) * power(d, c.diameter_exponent) * l.powf(c.length_exponent) / c.divisor * HP
 }
 
 impl GearDragModel for Townsend {
@@ -35,7 +54,12 @@ impl GearDragModel for Townsend {
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
-        let power = power(at.speed.abs().rpm(), gear.tip_diameter / INCH, gear.facewidth / INCH);
+        let power = windage(
+            &self.coefficients,
+            at.speed.abs().rpm(),
+            gear.tip_diameter / INCH,
+            gear.facewidth / INCH,
+        );
         Ok(Loss::POWERS.with(&TERM, at.show("P", "W", power)))
     }
 }
@@ -53,8 +77,8 @@ mod tests {
     #[test]
     fn c13_published_rotors() {
         for (value, printed) in [
-            (power(10000.0, 10.0, 2.0), 1211.39),
-            (power(6000.0, 12.0, 3.0), 864.787),
+            (windage(&Constants::PUBLISHED, 10000.0, 10.0, 2.0), 1211.39),
+            (windage(&Constants::PUBLISHED, 6000.0, 12.0, 3.0), 864.787),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }

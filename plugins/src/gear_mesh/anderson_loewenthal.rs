@@ -8,6 +8,7 @@
 //! The original holds f between 0.01 and 0.02 as far as remembered, which is an option here.
 //! External spur gears of steel; a rough model, above the path integral as a rule.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::Pair;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
@@ -29,16 +30,39 @@ const F: Observed = Observed::new(
 );
 const FILM: Observed = Observed::new(1, "h", "um", "Central film a quarter of the path from the pitch point.");
 
+coefficients! {
+    /// Constants of the formulas of Anderson and Loewenthal.
+    struct Constants {
+        /// Factor of the logarithm in f.
+        friction_factor = 0.0127, in 0.00635..=0.0254;
+        /// Factor inside the logarithm.
+        argument_factor = 0.02966, in 0.01483..=0.05932;
+        /// Factor of the film h.
+        film_factor = 2.051e-7, in 1.0255e-7..=4.102e-7;
+        /// Exponent of rolling speed times viscosity in h.
+        film_speed_exponent = 0.67, in 0.335..=1.34;
+        /// Exponent of the load in h.
+        film_load_exponent = -0.067, in -0.134..=-0.0335;
+        /// Exponent of the radius of curvature in h.
+        film_radius_exponent = 0.464, in 0.232..=0.928;
+        /// Factor of the rolling loss.
+        rolling_factor = 9.0e7, in 4.5e7..=18.0e7;
+    }
+}
+
 /// Sliding and rolling loss of spur gears from one point of the path.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Least and greatest coefficient of friction; absent, no limits. [-]
     #[schemars(inner(range(min = 0.0, max = 0.2)))]
     pub f_limits: Option<[f64; 2]>,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// Geometry of the pinion and its mate.
 struct OnePoint {
+    coefficients: Constants,
     limits: Option<[f64; 2]>,
     pinion: usize,
     ratio: f64,
@@ -59,10 +83,11 @@ struct Answer {
 }
 
 impl OnePoint {
-    fn new(pair: &Pair, limits: Option<[f64; 2]>) -> Self {
+    fn new(pair: &Pair, limits: Option<[f64; 2]>, coefficients: Constants) -> Self {
         let pinion = usize::from(pair.z[0] > pair.z[1]);
         let [start, .., end] = pair.points;
         Self {
+            coefficients,
             limits,
             pinion,
             ratio: f64::from(pair.z[1 - pinion]) / f64::from(pair.z[pinion]),
@@ -77,24 +102,28 @@ impl OnePoint {
 
     /// Torque in N m and speed in rad/s of the pinion, viscosity in Pa s.
     fn answer(&self, torque: f64, speed: f64, eta: f64) -> Answer {
+        let c = &self.coefficients;
         let (m, l) = (self.ratio, self.path);
         let sin = self.angle.sin();
         // The printed 0.02618 and 0.2094 are a quarter and twice of one rpm in rad/s.
         let v_s = 0.25 * speed * (1.0 + m) / m * l;
         let v_t = 2.0 * speed * (0.5 * self.diameter * sin - 0.125 * (m - 1.0) / m * l);
         let load = 2.0 * torque / (self.diameter * self.angle.cos() * self.cos_base_helix);
-        let argument = 0.02966 * (load / self.facewidth) / (eta * v_s * v_t * v_t);
-        let f = (0.0127 * argument.log10()).max(0.0);
+        let argument = c.argument_factor * (load / self.facewidth) / (eta * v_s * v_t * v_t);
+        let f = (c.friction_factor * argument.log10()).max(0.0);
         let f = self.limits.map_or(f, |[least, most]| f.clamp(least, most));
         let rho_1 = 0.5 * self.diameter * sin + 0.25 * l;
         let rho_2 = 0.5 * m * self.diameter * sin - 0.25 * l;
         let radius = rho_1 * rho_2 / (rho_1 + rho_2);
-        let film = 2.051e-7 * (v_t * eta.mpa_s()).powf(0.67) * load.powf(-0.067) * radius.powf(0.464);
+        let film = c.film_factor
+            * (v_t * eta.mpa_s()).powf(c.film_speed_exponent)
+            * load.powf(c.film_load_exponent)
+            * radius.powf(c.film_radius_exponent);
         Answer {
             f,
             film,
             sliding: f * load * v_s,
-            rolling: 9.0e7 * film * self.facewidth * v_t * self.contact_ratio,
+            rolling: c.rolling_factor * film * self.facewidth * v_t * self.contact_ratio,
         }
     }
 }
@@ -109,7 +138,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<OnePoint, Diagnostic> {
     if params.f_limits.is_some_and(|[least, most]| least > most) {
         return Err(cx.error("`f_limits` fall").mend("write the least coefficient first"));
     }
-    let model = OnePoint::new(&part.pair, params.f_limits);
+    let model = OnePoint::new(&part.pair, params.f_limits, params.coefficients);
     if model.ratio * 0.5 * model.diameter * model.angle.sin() <= 0.25 * model.path {
         return Err(cx.error("the point a quarter of the path from the pitch point lies below the base circle"));
     }
@@ -149,6 +178,7 @@ mod tests {
 
     const fn point(limits: Option<[f64; 2]>) -> OnePoint {
         OnePoint {
+            coefficients: Constants::PUBLISHED,
             limits,
             pinion: 0,
             ratio: 1.5,

@@ -6,6 +6,7 @@
 //! For oils of ISO VG 150 to 460, 2 to 25 m/s and K from 1.4 to 14 N/mm2. Its friction falls with load, against other laws, and
 //! lies at about a third of theirs.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::geometry::Pair;
 use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -21,6 +22,20 @@ const K_FACTOR: Limit = Limit::new(1, "K", "N/mm2", 1.4, 14.0, "ISO/TR 14179-1")
 const F_M: Observed = Observed::new(0, "f_m", "-", "Mesh coefficient of friction.");
 const M: Observed = Observed::new(1, "M", "-", "Mesh mechanical advantage.");
 
+coefficients! {
+    /// Constants of the mesh coefficient of friction f_m.
+    struct Constants {
+        /// Divisor of the formula.
+        divisor = 3.239, in 1.6195..=6.478;
+        /// Exponent of the kinematic viscosity in mm2/s.
+        viscosity_exponent = -0.223, in -0.446..=-0.1115;
+        /// Exponent of K in N/mm2.
+        load_exponent = -0.40, in -0.8..=-0.2;
+        /// Exponent of the pitch line speed in m/s, in the divisor.
+        speed_exponent = 0.70, in 0.35..=1.4;
+    }
+}
+
 /// Mesh loss after ISO/TR 14179-1, of AGMA origin.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
@@ -28,6 +43,8 @@ pub struct Iso14179 {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 10.0))]
     pub greatest: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// Not boundary friction, which the formula already exceeds under light loads at usual speeds.
@@ -55,8 +72,8 @@ fn advantage(pair: &Pair) -> f64 {
 }
 
 /// f_m from viscosity in mm2/s, K in N/mm2, pitch line speed in m/s.
-fn friction(nu: f64, k: f64, v: f64) -> f64 {
-    nu.powf(-0.223) * k.powf(-0.40) / (3.239 * v.powf(0.70))
+fn friction(c: &Constants, nu: f64, k: f64, v: f64) -> f64 {
+    nu.powf(c.viscosity_exponent) * k.powf(c.load_exponent) / (c.divisor * v.powf(c.speed_exponent))
 }
 
 impl GearMeshModel for Iso14179 {
@@ -75,7 +92,10 @@ impl GearMeshModel for Iso14179 {
         let k = 1000.0 * torque * teeth / (2.0 * pair.facewidth.mm() * r_w * r_w * z_2);
         let k = at.check(&K_FACTOR, k);
         let v = at.check(&SPEED, at.speed.abs() * pair.working_radius[0]);
-        let f_m = at.observe(&F_M, friction(at.nu.mm2_s(), k, v).min(self.greatest));
+        let f_m = at.observe(
+            &F_M,
+            friction(&self.coefficients, at.nu.mm2_s(), k, v).min(self.greatest),
+        );
         let m = at.observe(&M, advantage(pair));
         let input = at.show("P_in", "W", at.torque * at.speed.abs());
         Ok(Loss::POWERS.with(&SLIDING, f_m * input * pair.working_helix.cos().powi(2) / m))
@@ -116,15 +136,21 @@ mod tests {
             to.nu = 50e-6;
         });
         // The printed 9549 stands for 30000/pi = 9549.297.
-        let watts = Iso14179 { greatest: greatest() }.loss(&at).unwrap().sum();
+        let watts = Iso14179 {
+            coefficients: Constants::PUBLISHED,
+            greatest: greatest(),
+        }
+        .loss(&at)
+        .unwrap()
+        .sum();
         assert!((watts / 119.019 - 1.0).abs() < 4e-5, "{watts}");
         close(1.0 / advantage(&part.pair), part.pair.loss_factor_uniform());
     }
 
     #[test]
     fn b6_friction_and_internal_ratios() {
-        close(friction(50.0, 8.88707, 5.74911), 0.0158305);
-        close(friction(100.0, 5.0, 10.0), 0.0115878);
+        close(friction(&Constants::PUBLISHED, 50.0, 8.88707, 5.74911), 0.0158305);
+        close(friction(&Constants::PUBLISHED, 100.0, 5.0, 10.0), 0.0115878);
         let [h_s, h_t] = sliding_ratios(&pair_of(Kind::Internal).pair);
         close(h_s, 0.14357);
         close(h_t, 0.131362);
@@ -140,7 +166,13 @@ mod tests {
                 to.speed = speed;
                 to.nu = 50e-6;
             });
-            Iso14179 { greatest: greatest() }.loss(&at).unwrap().sum()
+            Iso14179 {
+                coefficients: Constants::PUBLISHED,
+                greatest: greatest(),
+            }
+            .loss(&at)
+            .unwrap()
+            .sum()
         };
         close(watts(&swapped, 300.0, 100.0), watts(&part, 200.0, 150.0));
     }

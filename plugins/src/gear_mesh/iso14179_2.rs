@@ -18,7 +18,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::greatest;
-use crate::mean_friction::schlenk::{LINE_LOAD, MU, Mesh, OilType, PITCH_SPEED, Schlenk, SpeedClamp, VISCOSITY};
+use crate::mean_friction::schlenk::{
+    Constants, LINE_LOAD, MU, Mesh, OilType, PITCH_SPEED, Schlenk, SpeedClamp, VISCOSITY,
+};
 
 const SLIDING: Term = Term::load(0, "sliding");
 const CONTACT_RATIO: Limit = Limit::new(3, "eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
@@ -57,6 +59,8 @@ pub struct Iso14179 {
     /// Which loss factor counts.
     #[serde(default)]
     pub loss_factor: LossFactor,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn yes() -> bool {
@@ -85,6 +89,7 @@ impl Mean {
                 clamp_line_load: params.clamp_line_load,
                 clamp_speed: params.clamp_speed,
                 greatest: params.greatest,
+                coefficients: params.coefficients,
             },
             loss_factor,
             ohlendorf: params.loss_factor == LossFactor::Ohlendorf,
@@ -149,6 +154,7 @@ mod tests {
     use gearloss_framework::loss::Notes;
 
     const PLAIN: Iso14179 = Iso14179 {
+        coefficients: Constants::PUBLISHED,
         x_l: Some(1.0),
         oil: None,
         clamp_line_load: true,

@@ -7,6 +7,7 @@
 //!
 //! Free convection comes out at about twice the textbooks' value: the air of a workshop moves.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::mechanism::heat_dissipation::{
@@ -29,6 +30,24 @@ const ALPHA: Observed = Observed::new(
 );
 const GRAVITY: f64 = 9.80665;
 
+coefficients! {
+    /// Constants of the convection of ISO/TR 14179-2.
+    struct Constants {
+        /// Factor of free convection.
+        free_factor = 18.0, in 9.0..=36.0;
+        /// Exponent of the height in m in free convection.
+        height_exponent = -0.1, in -0.2..=-0.05;
+        /// Exponent of the difference of temperature over the ambient in free convection.
+        difference_exponent = 0.3, in 0.15..=0.6;
+        /// Factor of forced convection.
+        forced_factor = 0.0086, in 0.0043..=0.0172;
+        /// Exponent of the Reynolds number in forced convection.
+        forced_exponent = 0.64, in 0.32..=0.9;
+        /// Divisor of the Grashof number that adds to the squared Reynolds number.
+        buoyancy_divisor = 2.5, in 1.25..=5.0;
+    }
+}
+
 /// Heat of the housing with free or forced convection, radiation, wall and oil inside.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
@@ -40,6 +59,8 @@ pub struct Params {
     #[serde(default = "one")]
     #[schemars(range(min = 0.01, max = 100.0))]
     pub factor: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn splash() -> f64 {
@@ -84,15 +105,15 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
 }
 
 /// Free convection; height in m, temperatures in K. \[W/(m2 K)\]
-fn free(height: f64, wall: f64, ambient: f64) -> f64 {
-    18.0 * height.powf(-0.1) * ((wall - ambient).abs() / ambient).powf(0.3)
+fn free(c: &Constants, height: f64, wall: f64, ambient: f64) -> f64 {
+    c.free_factor * height.powf(c.height_exponent) * ((wall - ambient).abs() / ambient).powf(c.difference_exponent)
 }
 
 /// Forced convection; speed in m/s, length in m, viscosity of the air in m2/s, temperatures in K. \[W/(m2 K)\]
-fn forced(v: f64, length: f64, nu: f64, wall: f64, ambient: f64) -> f64 {
+fn forced(c: &Constants, v: f64, length: f64, nu: f64, wall: f64, ambient: f64) -> f64 {
     let re = v * length / nu;
     let gr = GRAVITY * length.powi(3) * (wall - ambient).abs() / (ambient * nu * nu);
-    0.0086 * (re * re + gr / 2.5).sqrt().powf(0.64) / length
+    c.forced_factor * (re * re + gr / c.buoyancy_divisor).sqrt().powf(c.forced_exponent) / length
 }
 
 /// Radiation; temperatures in K. \[W/(m2 K)\]
@@ -117,9 +138,16 @@ impl HeatDissipationModel for Ready {
         for _ in 0..3 {
             let convection = if self.part.air_speed > 0.0 {
                 let air = Air::at(0.5 * (wall + ambient));
-                forced(self.part.air_speed, self.size, air.nu, wall, ambient)
+                forced(
+                    &self.params.coefficients,
+                    self.part.air_speed,
+                    self.size,
+                    air.nu,
+                    wall,
+                    ambient,
+                )
             } else {
-                free(self.size, wall, ambient)
+                free(&self.params.coefficients, self.size, wall, ambient)
             };
             alpha = self.params.factor * convection + radiation(self.part.emissivity, wall, ambient);
             if alpha <= 0.0 {
@@ -164,6 +192,7 @@ mod tests {
         let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = Ready {
             params: Params {
+                coefficients: Constants::PUBLISHED,
                 alpha_oil: 200.0,
                 factor: 1.0,
             },
@@ -180,10 +209,10 @@ mod tests {
     fn e3_wall_at_80_degc_in_air_of_20_degc() {
         let (wall, ambient) = (353.15, 293.15);
         let close = |value: f64, printed: f64| assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        close(free(0.3, wall, ambient), 12.6148);
-        close(forced(3.0, 0.3, 1.8e-5, wall, ambient), 29.4029);
+        close(free(&Constants::PUBLISHED, 0.3, wall, ambient), 12.6148);
+        close(forced(&Constants::PUBLISHED, 3.0, 0.3, 1.8e-5, wall, ambient), 29.4029);
         close(radiation(0.9, wall, ambient), 6.98526);
-        let alpha = free(0.3, wall, ambient) + radiation(0.9, wall, ambient);
+        let alpha = free(&Constants::PUBLISHED, 0.3, wall, ambient) + radiation(0.9, wall, ambient);
         close(alpha, 19.6000);
         close(overall(200.0, alpha, 0.40, 0.35, 0.008 / 150.0), 17.6094);
     }

@@ -5,6 +5,7 @@
 //! contact. X_L was fitted to wind-turbine gear oils: 0.846 mineral, 0.65 polyalphaolefin and ester, 0.585 polyglycol.
 //! An older script has Ra^2/(eps_alpha l rho) with half the exponent: eps_alpha^-0.125 more.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
@@ -17,6 +18,18 @@ use crate::boundary::greatest;
 
 const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.5, 20.0, "FZG tests behind X_L, recalled");
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+
+coefficients! {
+    /// Constants of the formula of Fernandes.
+    struct Constants {
+        /// Factor of the formula.
+        factor = 0.014, in 0.007..=0.028;
+        /// Exponent of the inverse modified Hersey number, 1/S_p.
+        load_exponent = 0.25, in 0.1..=0.5;
+        /// Exponent of the specific roughness S_g.
+        roughness_exponent = 0.25, in 0.0..=0.5;
+    }
+}
 
 /// Mean friction of a mesh after Fernandes, from a dimensionless load and roughness.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -31,12 +44,15 @@ pub struct Params {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 struct Fernandes {
     x_l: Option<f64>,
     length: f64,
     greatest: f64,
+    coefficients: Constants,
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> {
@@ -47,14 +63,30 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> 
             .contact_length
             .unwrap_or(part.pair.facewidth / part.pair.base_helix.cos()),
         greatest: params.greatest,
+        coefficients: params.coefficients,
     })
 }
 
 #[allow(clippy::too_many_arguments)]
-fn mu(sum_speed: f64, eta: f64, alpha: f64, force: f64, ra: f64, length: f64, radius: f64, x_l: f64) -> f64 {
+fn mu(
+    c: &Constants,
+    sum_speed: f64,
+    eta: f64,
+    alpha: f64,
+    force: f64,
+    ra: f64,
+    length: f64,
+    radius: f64,
+    x_l: f64,
+) -> f64 {
     let s_p = sum_speed * eta * alpha.sqrt() / force.sqrt();
     let s_g = ra / (length * radius).sqrt();
-    0.014 * (s_g / s_p).powf(0.25) * x_l
+    let powers = if c.load_exponent == c.roughness_exponent {
+        (s_g / s_p).powf(c.load_exponent)
+    } else {
+        s_g.powf(c.roughness_exponent) * s_p.powf(-c.load_exponent)
+    };
+    c.factor * powers * x_l
 }
 
 impl MeanFrictionModel for Fernandes {
@@ -69,6 +101,7 @@ impl MeanFrictionModel for Fernandes {
         let force = at.show("F_bn", "N", at.normal_force);
         at.check(&PITCH_SPEED, at.pitch_speed);
         let value = mu(
+            &self.coefficients,
             at.sum_speed,
             at.eta,
             at.alpha,
@@ -101,10 +134,33 @@ mod tests {
     fn b9_published_values() {
         for (value, printed) in [
             (
-                mu(4.7, 13.28e-3, 20.47e-9, 5912.0, 0.4e-6, 14e-3, 8.4e-3, 0.846),
+                mu(
+                    &Constants::PUBLISHED,
+                    4.7,
+                    13.28e-3,
+                    20.47e-9,
+                    5912.0,
+                    0.4e-6,
+                    14e-3,
+                    8.4e-3,
+                    0.846,
+                ),
                 0.0499995,
             ),
-            (mu(10.0, 30e-3, 15e-9, 3000.0, 0.5e-6, 20e-3, 10e-3, 0.65), 0.024519),
+            (
+                mu(
+                    &Constants::PUBLISHED,
+                    10.0,
+                    30e-3,
+                    15e-9,
+                    3000.0,
+                    0.5e-6,
+                    20e-3,
+                    10e-3,
+                    0.65,
+                ),
+                0.024519,
+            ),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }

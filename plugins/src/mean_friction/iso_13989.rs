@@ -4,6 +4,7 @@
 //! X_R = ((Ra1 + Ra2)/2)^0.25 and X_L = X_L0 eta^-0.05; w_Bt in N/mm, v_SC in m/s, rho_relC in mm, eta in mPa s, Ra in um.
 //! It is the formula of Schlenk a quarter higher: conservative for scuffing, too much for efficiency.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
@@ -23,6 +24,20 @@ const PITCH_SPEED: Limit = Limit::new(
     "no source states it: assumed, as for Schlenk's formula, which has its form",
 );
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+
+coefficients! {
+    /// Constants of the formula of ISO/TR 13989-1.
+    struct Constants {
+        /// Factor of the formula.
+        factor = 0.060, in 0.03..=0.12;
+        /// Exponent of the line load over sum speed and radius of curvature.
+        load_exponent = 0.2, in 0.1..=0.4;
+        /// Exponent of the dynamic viscosity in mPa s, in X_L.
+        viscosity_exponent = -0.05, in -0.2..=-0.01;
+        /// Exponent of the roughness in um, X_R.
+        roughness_exponent = 0.25, in 0.0..=0.5;
+    }
+}
 
 /// Oil type for X_L0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -67,11 +82,17 @@ pub struct Iso13989 {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// Friction from shop units: N/mm, m/s, mm, mPa s, um.
-fn mu(line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
-    0.060 * (line_load / (sum_speed * radius)).powf(0.2) * x_l * eta.powf(-0.05) * ra.powf(0.25)
+fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
+    c.factor
+        * (line_load / (sum_speed * radius)).powf(c.load_exponent)
+        * x_l
+        * eta.powf(c.viscosity_exponent)
+        * ra.powf(c.roughness_exponent)
 }
 
 impl MeanFrictionModel for Iso13989 {
@@ -86,7 +107,8 @@ impl MeanFrictionModel for Iso13989 {
         let x_l = at.show("X_L0", "-", x_l);
         let w = at.show("w_Bt", "N/mm", at.line_load.n_mm());
         at.check(&PITCH_SPEED, at.pitch_speed);
-        let value = mu(w, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
+        let c = &self.coefficients;
+        let value = mu(c, w, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
         Ok(at.observe(&MU, value.min(self.greatest)))
     }
 }
@@ -109,8 +131,8 @@ mod tests {
     #[test]
     fn b2b_iso_13989() {
         for (value, printed) in [
-            (mu(300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0559504),
-            (mu(200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.0492112),
+            (mu(&Constants::PUBLISHED, 300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0559504),
+            (mu(&Constants::PUBLISHED, 200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.0492112),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }

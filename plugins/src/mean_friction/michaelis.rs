@@ -4,6 +4,7 @@
 //! X_R = 2.2 (Ra/rho_redC)^0.25; w_Bt in N/mm and at least 150, v_SC in m/s, rho_redC in mm, eta in mPa s, Ra in um.
 //! The load factors of the standard (K_A and others) are the user's: this is the nominal load.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
@@ -25,6 +26,24 @@ const PITCH_SPEED: Limit = Limit::new(
 );
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
+coefficients! {
+    /// Constants of the formula of Michaelis.
+    struct Constants {
+        /// Factor of the formula.
+        factor = 0.045, in 0.0225..=0.09;
+        /// Exponent of the line load over sum speed and radius of curvature.
+        load_exponent = 0.2, in 0.1..=0.4;
+        /// Exponent of the dynamic viscosity in mPa s.
+        viscosity_exponent = -0.05, in -0.2..=-0.01;
+        /// Factor of the roughness over the radius of curvature, in X_R.
+        roughness_factor = 2.2, in 1.1..=4.4;
+        /// Exponent of the roughness in um over the radius of curvature in mm, in X_R.
+        roughness_exponent = 0.25, in 0.0..=0.5;
+        /// Line load in N/mm below which the friction stays, where `clamp_line_load` is true.
+        least_line_load = 150.0, in 1.0..=1000.0;
+    }
+}
+
 /// Mean friction of a mesh after Michaelis, as in DIN 3990-4.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Michaelis {
@@ -38,6 +57,8 @@ pub struct Michaelis {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn yes() -> bool {
@@ -45,9 +66,9 @@ fn yes() -> bool {
 }
 
 /// Friction from shop units: N/mm, m/s, mm, mPa s, um.
-fn mu(line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
-    let x_r = 2.2 * (ra / radius).powf(0.25);
-    0.045 * (line_load / (sum_speed * radius)).powf(0.2) * eta.powf(-0.05) * x_r * x_l
+fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
+    let x_r = c.roughness_factor * (ra / radius).powf(c.roughness_exponent);
+    c.factor * (line_load / (sum_speed * radius)).powf(c.load_exponent) * eta.powf(c.viscosity_exponent) * x_r * x_l
 }
 
 impl MeanFrictionModel for Michaelis {
@@ -60,12 +81,13 @@ impl MeanFrictionModel for Michaelis {
         }
         let line_load = at.check(&LINE_LOAD, at.line_load.n_mm());
         let held = if self.clamp_line_load {
-            line_load.max(150.0)
+            line_load.max(self.coefficients.least_line_load)
         } else {
             line_load
         };
         let x_l = at.show("X_L", "-", self.x_l.unwrap_or(at.x_l));
-        let value = mu(held, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
+        let c = &self.coefficients;
+        let value = mu(c, held, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
         at.check(&PITCH_SPEED, at.pitch_speed);
         Ok(at.observe(&MU, value.min(self.greatest)))
     }
@@ -88,9 +110,10 @@ mod tests {
 
     #[test]
     fn b2b_din_3990_4() {
+        let c = Constants::PUBLISHED;
         for (value, printed) in [
-            (mu(300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0548927),
-            (mu(200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.0436267),
+            (mu(&c, 300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0548927),
+            (mu(&c, 200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.0436267),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }

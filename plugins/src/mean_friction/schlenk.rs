@@ -8,6 +8,7 @@
 //! X_L by oil type differs between the standards and fits of test gears; polyglycol falls with speed in ISO/TR 14179-2.
 //! Not for superfinished flanks, whose friction the exponent of Ra overrates.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
@@ -30,10 +31,23 @@ pub(crate) const PITCH_SPEED: Limit = Limit::new(
 pub(crate) const VISCOSITY: Limit = Limit::new(2, "eta", "mPa s", 5.0, 500.0, "tests behind the method, recalled");
 pub(crate) const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
-/// The speed at which the friction stops falling. \[m/s\]
-const FASTEST: f64 = 50.0;
-/// The line load below which the friction stops falling. \[N/mm\]
-const LIGHTEST: f64 = 150.0;
+coefficients! {
+    /// Constants of the formula of Schlenk.
+    pub struct Constants {
+        /// Factor of the formula.
+        factor = 0.048, in 0.024..=0.096;
+        /// Exponent of the line load over sum speed and radius of curvature.
+        load_exponent = 0.2, in 0.1..=0.4;
+        /// Exponent of the dynamic viscosity in mPa s.
+        viscosity_exponent = -0.05, in -0.2..=-0.01;
+        /// Exponent of the roughness in um.
+        roughness_exponent = 0.25, in 0.0..=0.5;
+        /// Line load in N/mm below which the friction stays, where `clamp_line_load` is true.
+        least_line_load = 150.0, in 1.0..=1000.0;
+        /// Speed in m/s above which the friction stays, as `clamp_speed` says.
+        greatest_speed = 50.0, in 5.0..=200.0;
+    }
+}
 
 /// Which speed the upper clamp holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -106,6 +120,8 @@ pub struct Schlenk {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
+    #[serde(default)]
+    pub(crate) coefficients: Constants,
 }
 
 fn yes() -> bool {
@@ -131,30 +147,37 @@ pub(crate) struct Mesh {
 }
 
 /// Friction from shop units: N/mm, m/s, mm, mPa s, um.
-pub(crate) fn mu(line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
-    // One root in place of three powers: 0.2, -0.05 and 0.25 are multiples of 0.05.
-    0.048 * ((line_load / (sum_speed * radius)).powi(4) / eta * ra.powi(5)).powf(0.05) * x_l
+pub(crate) fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
+    let load = line_load / (sum_speed * radius);
+    let powers = if [c.load_exponent, c.viscosity_exponent, c.roughness_exponent] == [0.2, -0.05, 0.25] {
+        // One root in place of three powers: the published exponents are multiples of 0.05.
+        (load.powi(4) / eta * ra.powi(5)).powf(0.05)
+    } else {
+        load.powf(c.load_exponent) * eta.powf(c.viscosity_exponent) * ra.powf(c.roughness_exponent)
+    };
+    c.factor * powers * x_l
 }
 
 impl Schlenk {
     /// Friction of a mesh, with the clamps.
     pub(crate) fn friction(&self, mesh: &Mesh, notes: Notes<'_>) -> f64 {
         let line_load = notes.check(&LINE_LOAD, mesh.line_load);
-        let line_load = if self.clamp_line_load && line_load < LIGHTEST {
-            notes.branch("line load below 150 N/mm: held there");
-            LIGHTEST
+        let c = &self.coefficients;
+        let line_load = if self.clamp_line_load && line_load < c.least_line_load {
+            notes.branch("line load below the least one of the formula: held there");
+            c.least_line_load
         } else {
             line_load
         };
         let v_t = notes.check(&PITCH_SPEED, mesh.pitch_speed);
         let sum = mesh.sum_per_speed
             * if self.clamp_speed == SpeedClamp::PitchSpeed {
-                v_t.min(FASTEST)
+                v_t.min(c.greatest_speed)
             } else {
                 v_t
             };
         let sum = if self.clamp_speed == SpeedClamp::SumSpeed {
-            sum.min(FASTEST)
+            sum.min(c.greatest_speed)
         } else {
             sum
         };
@@ -166,7 +189,7 @@ impl Schlenk {
             .unwrap_or_else(|| self.oil.map_or(mesh.x_l, |oil| oil.x_l(sum)));
         let x_l = notes.show("X_L", "-", x_l);
         let ra = notes.show("Ra", "um", mesh.ra);
-        notes.observe(&MU, mu(line_load, sum, radius, eta, ra, x_l).min(self.greatest))
+        notes.observe(&MU, mu(c, line_load, sum, radius, eta, ra, x_l).min(self.greatest))
     }
 }
 
@@ -216,8 +239,11 @@ mod tests {
 
     #[test]
     fn b2_published_values() {
-        close(mu(422.293, 4.38883, 8.38205, 13.28, 0.4, 1.0), 0.0546486);
-        close(mu(80.0, 62.0, 9.0, 20.0, 0.5, 0.8), 0.0188501);
+        close(
+            mu(&Constants::PUBLISHED, 422.293, 4.38883, 8.38205, 13.28, 0.4, 1.0),
+            0.0546486,
+        );
+        close(mu(&Constants::PUBLISHED, 80.0, 62.0, 9.0, 20.0, 0.5, 0.8), 0.0188501);
         close(OilType::Polyglycol.x_l(12.0), 0.652913);
     }
 
@@ -230,6 +256,7 @@ mod tests {
             clamp_line_load,
             clamp_speed,
             greatest: greatest(),
+            coefficients: Constants::PUBLISHED,
         };
         let at = MeanFrictionAt::usual(&part, Notes::MUTED).with(|to| {
             to.line_load = 80e3;
@@ -259,6 +286,7 @@ mod tests {
             clamp_line_load: true,
             clamp_speed: SpeedClamp::SumSpeed,
             greatest: greatest(),
+            coefficients: Constants::PUBLISHED,
         };
         let mu = |speed: f64| {
             let at = MeanFrictionAt::usual(&part, Notes::MUTED).with(|to| {
@@ -280,8 +308,8 @@ mod tests {
 
     #[test]
     fn b2b_level_of_the_family() {
-        close(mu(300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0447603);
-        close(mu(200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.039369);
+        close(mu(&Constants::PUBLISHED, 300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0447603);
+        close(mu(&Constants::PUBLISHED, 200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.039369);
     }
 
     #[test]

@@ -16,7 +16,7 @@ use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::gear_drag::diab::faces;
+use crate::gear_drag::diab::{Constants, faces};
 use crate::gear_drag::wetted::Wetted;
 
 const PLANETS: Term = Term::no_load(0, "planets");
@@ -36,6 +36,8 @@ pub struct Params {
     #[serde(default = "two")]
     #[schemars(range(min = 1, max = 10))]
     pub discs: u32,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn two() -> u32 {
@@ -47,6 +49,7 @@ struct Estimate {
     planets: Vec<Slot<GearDrag>>,
     radius: f64,
     discs: f64,
+    coefficients: Constants,
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Estimate, Diagnostic> {
@@ -79,6 +82,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Estimate, Diagnostic> {
         planets,
         radius: params.diameter.map_or(part.orbit + 0.5 * reach, |d| 0.5 * d),
         discs: f64::from(params.discs),
+        coefficients: params.coefficients,
     })
 }
 
@@ -122,7 +126,7 @@ impl PlanetaryDragModel for Estimate {
         let share = at.observe(&SHARE, wetted.side / (2.0 * std::f64::consts::PI * r * r));
         let carrier = if omega > 0.0 && share > 0.0 {
             let re = at.observe(&REYNOLDS, omega * r * r / at.nu);
-            let c_f = at.show("C_f", "-", faces(re));
+            let c_f = at.show("C_f", "-", faces(&self.coefficients, re));
             0.5 * c_f * at.rho * omega.powi(3) * r.powi(5) * share * self.discs
         } else {
             0.0

@@ -2,6 +2,7 @@
 //!
 //! Source: ISO/TR 14179-1:2001, recalled: T = 3.737e-3 d for fluoro rubber, 2.429e-3 d for nitrile rubber, in N m with d in mm; one lip.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
@@ -22,19 +23,31 @@ pub enum Material {
     Nbr,
 }
 
+coefficients! {
+    /// Constants of the formula of ISO/TR 14179-1.
+    struct Constants {
+        /// Moment in N m per mm of diameter, fluoro rubber.
+        fkm = 3.737e-3, in 1.8685e-3..=7.474e-3;
+        /// Moment in N m per mm of diameter, nitrile rubber.
+        nbr = 2.429e-3, in 1.2145e-3..=4.858e-3;
+    }
+}
+
 /// Radial lip seals after ISO/TR 14179-1: moment with diameter and material.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Material of the lip.
     pub material: Material,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 impl Iso14179 {
     /// Friction moment from the diameter in mm. \[Nm\]
     fn moment(&self, d: f64) -> f64 {
         match self.material {
-            Material::Fkm => 3.737e-3 * d,
-            Material::Nbr => 2.429e-3 * d,
+            Material::Fkm => self.coefficients.fkm * d,
+            Material::Nbr => self.coefficients.nbr * d,
         }
     }
 }
@@ -62,7 +75,11 @@ mod tests {
     #[test]
     fn b3_both_materials() {
         for (material, moment, watts) in [(Material::Fkm, 0.149480, 46.9605), (Material::Nbr, 0.0971600, 30.5237)] {
-            let own = Iso14179 { material }.moment(40.0);
+            let own = Iso14179 {
+                coefficients: Constants::PUBLISHED,
+                material,
+            }
+            .moment(40.0);
             assert!((own / moment - 1.0).abs() < 1e-5, "{own}");
             assert!((own * 3000.0 * std::f64::consts::PI / 30.0 / watts - 1.0_f64).abs() < 1e-5);
         }

@@ -5,6 +5,7 @@
 //! Assumes one lip. The bracket falls with temperature and is held at zero where it would turn negative.
 //! Not for seals without contact, which lose nothing here.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
@@ -26,9 +27,24 @@ const BRACKET: Limit = Limit::new(
     "below, the power would turn negative; it is held at zero",
 );
 
+coefficients! {
+    /// Constants of the bracket of ISO/TR 14179-2.
+    struct Constants {
+        /// Constant of the bracket.
+        constant = 145.0, in 72.5..=290.0;
+        /// How much the bracket falls per degC.
+        temperature_factor = 1.6, in 0.8..=3.2;
+        /// Factor of lg lg(nu40 + 0.8).
+        viscosity_factor = 350.0, in 175.0..=700.0;
+    }
+}
+
 /// Radial lip seals after ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct Iso14179 {}
+pub struct Iso14179 {
+    #[serde(default)]
+    coefficients: Constants,
+}
 
 impl SealModel for Iso14179 {
     fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
@@ -37,7 +53,9 @@ impl SealModel for Iso14179 {
             return Ok(Loss::MOMENTS);
         }
         let lg = (at.nu40.mm2_s() + 0.8).log10().log10();
-        let bracket = 145.0 - 1.6 * at.show("T_oil", "degC", at.temperature) + 350.0 * lg;
+        let c = &self.coefficients;
+        let bracket =
+            c.constant - c.temperature_factor * at.show("T_oil", "degC", at.temperature) + c.viscosity_factor * lg;
         if bracket < 0.0 {
             at.branch("the bracket is negative: held at zero");
         }
@@ -72,7 +90,11 @@ mod tests {
             to.temperature = temperature;
             to.nu40 = nu40 * 1e-6;
         });
-        Iso14179 {}.loss(&at).map_or(f64::NAN, |loss| loss.total_watts(speed))
+        Iso14179 {
+            coefficients: Constants::PUBLISHED,
+        }
+        .loss(&at)
+        .map_or(f64::NAN, |loss| loss.total_watts(speed))
     }
 
     #[test]
@@ -87,7 +109,11 @@ mod tests {
         let moment = |kind, speed| {
             let part = SealPart { diameter: 0.040, kind };
             let at = SealAt::usual(&part, Notes::MUTED).with(|to| to.speed = speed);
-            Iso14179 {}.loss(&at).map_or(f64::NAN, |loss| loss.total_moment(speed))
+            Iso14179 {
+                coefficients: Constants::PUBLISHED,
+            }
+            .loss(&at)
+            .map_or(f64::NAN, |loss| loss.total_moment(speed))
         };
         // The power is linear in speed, so the moment has a finite limit at rest.
         assert!(moment(SealKind::RadialLip, 0.0) > 0.0);

@@ -3,6 +3,7 @@
 //! Source: Linke, Stirnradverzahnung: P = 7.69e-6 d^2 n in W, d in mm, n in 1/min; one lip. The moment does not depend on speed, oil or
 //! temperature. Some programs print it under the name of ISO/TR 14179-2, which it is not.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
@@ -13,13 +14,32 @@ use serde::Deserialize;
 
 const LIP: Term = Term::no_load(0, "lip");
 
+coefficients! {
+    /// Constants of the formula of Linke.
+    struct Constants {
+        /// Factor of the power in W, for mm and 1/min.
+        factor = 7.69e-6, in 3.845e-6..=15.38e-6;
+        /// Exponent of the diameter.
+        diameter_exponent = 2.0, in 1.0..=3.0;
+    }
+}
+
 /// Radial lip seals after Linke: moment with the square of the diameter.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct Linke {}
+pub struct Linke {
+    #[serde(default)]
+    coefficients: Constants,
+}
 
 /// Friction moment from the diameter in mm. \[Nm\]
-fn moment(d: f64) -> f64 {
-    7.69e-6 * d * d / (std::f64::consts::PI / 30.0)
+fn moment(c: &Constants, d: f64) -> f64 {
+    let square = c.diameter_exponent == 2.0;
+    let factor = if square {
+        c.factor * d * d
+    } else {
+        c.factor * d.powf(c.diameter_exponent)
+    };
+    factor / (std::f64::consts::PI / 30.0)
 }
 
 impl SealModel for Linke {
@@ -28,7 +48,10 @@ impl SealModel for Linke {
             at.branch("no contact: no friction");
             return Ok(Loss::MOMENTS);
         }
-        Ok(Loss::MOMENTS.with(&LIP, at.show("T", "Nm", moment(at.part.diameter.mm()))))
+        Ok(Loss::MOMENTS.with(
+            &LIP,
+            at.show("T", "Nm", moment(&self.coefficients, at.part.diameter.mm())),
+        ))
     }
 }
 
@@ -44,7 +67,7 @@ mod tests {
 
     #[test]
     fn b2_linke() {
-        let watts = moment(40.0) * 3000.0 * std::f64::consts::PI / 30.0;
+        let watts = moment(&Constants::PUBLISHED, 40.0) * 3000.0 * std::f64::consts::PI / 30.0;
         assert!((watts / 36.9120 - 1.0).abs() < 1e-5, "{watts}");
     }
 }

@@ -5,6 +5,7 @@
 //! form converts to this one. Roughness, recalled, multiplies by 1.13/(1.13 - S), S in um rms of both flanks, below 1.13 um.
 //! Diverges at the pitch point, where the loss vanishes all the same: held at `greatest`. Zero where the logarithm is negative.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
@@ -25,6 +26,18 @@ const SUM_SPEED: Limit = Limit::new(
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
+coefficients! {
+    /// Constants of the formula of Benedict and Kelley.
+    struct Constants {
+        /// Factor of the logarithm.
+        factor = 0.0127, in 0.00635..=0.0254;
+        /// Factor inside the logarithm, of the line load in N/m over viscosity in Pa s, sliding and squared sum speed in m/s.
+        argument_factor = 0.02966, in 0.01483..=0.05932;
+        /// Roughness in um at which the roughness factor diverges, where `roughness` is true.
+        roughness_limit = 1.13, in 1.0..=2.26;
+    }
+}
+
 /// Friction between flanks after Benedict and Kelley.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct BenedictKelley {
@@ -35,15 +48,17 @@ pub struct BenedictKelley {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// Friction of smooth flanks from N/m, Pa s and m/s; may be negative or infinite.
-pub(crate) fn smooth(line_load: f64, eta: f64, sliding: f64, sum_speed: f64) -> f64 {
-    0.0127 * (0.02966 * line_load / (eta * sliding * sum_speed * sum_speed)).log10()
+fn smooth(c: &Constants, line_load: f64, eta: f64, sliding: f64, sum_speed: f64) -> f64 {
+    c.factor * (c.argument_factor * line_load / (eta * sliding * sum_speed * sum_speed)).log10()
 }
 
-fn rough(s: f64) -> f64 {
-    1.13 / (1.13 - s)
+fn rough(limit: f64, s: f64) -> f64 {
+    limit / (limit - s)
 }
 
 impl ToothFrictionModel for BenedictKelley {
@@ -52,20 +67,21 @@ impl ToothFrictionModel for BenedictKelley {
             at.branch("no load: no friction");
             return Ok(at.observe(&MU, 0.0));
         }
+        let c = &self.coefficients;
         let factor = if self.roughness {
             let s = at.show("S", "um", at.rq.um());
-            if s >= 1.13 {
+            if s >= c.roughness_limit {
                 return Err(Undefined {
-                    what: "roughness S of both flanks [um], at least 1.13",
+                    what: "roughness S of both flanks [um], at least that at which the formula diverges",
                     value: s,
                 });
             }
-            rough(s)
+            rough(c.roughness_limit, s)
         } else {
             1.0
         };
         at.check(&SUM_SPEED, at.sum_speed);
-        let mu = smooth(at.line_load, at.eta, at.sliding, at.sum_speed) * factor;
+        let mu = smooth(c, at.line_load, at.eta, at.sliding, at.sum_speed) * factor;
         Ok(at.observe(&MU, mu.max(0.0).min(self.greatest)))
     }
 
@@ -101,6 +117,7 @@ mod tests {
             to.rq = 0.4e-6;
         });
         BenedictKelley {
+            coefficients: Constants::PUBLISHED,
             roughness,
             greatest: 0.2,
         }

@@ -4,6 +4,7 @@
 //! mu = 1/(0.8 nu^0.5 v_g + v_S phi + 13.4), phi = 0.47 - 0.13e-4 p - 0.4e-3 nu; nu in mm2/s, v_g and the sum speed v_S in m/s, Hertz
 //! pressure p in kgf/cm2. For v_g to 15, v_S from 3 to 20 m/s, nu from 4 to 500 mm2/s, p from 4000 to 20000 kgf/cm2.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
@@ -11,6 +12,8 @@ use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::powers::power;
 
 const FROM: &str = "range of the tests, recalled";
 const SLIDING: Limit = Limit::new(0, "v_g", "m/s", 0.0, 15.0, FROM);
@@ -22,18 +25,40 @@ const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 /// One kgf/cm2. \[Pa\]
 const KGF_CM2: f64 = 98_066.5;
 
+coefficients! {
+    /// Constants of the formula of Drozdov and Gavrikov, mu = 1/(0.8 nu^0.5 v_g + v_S phi + 13.4).
+    struct Constants {
+        /// Constant of phi.
+        phi_constant = 0.47, in 0.235..=0.94;
+        /// How much phi falls per kgf/cm2 of pressure.
+        phi_pressure = 0.13e-4, in 0.065e-4..=0.26e-4;
+        /// How much phi falls per mm2/s of viscosity.
+        phi_viscosity = 0.4e-3, in 0.2e-3..=0.8e-3;
+        /// Factor of the sliding velocity in m/s times the power of the viscosity in mm2/s.
+        sliding_factor = 0.8, in 0.4..=1.6;
+        /// Exponent of the viscosity at the sliding velocity.
+        viscosity_exponent = 0.5, in 0.25..=1.0;
+        /// Inverse of the friction without speed.
+        constant = 13.4, in 6.7..=26.8;
+    }
+}
+
 /// Friction between flanks after Drozdov and Gavrikov.
 #[derive(Debug, Deserialize, JsonSchema)]
-pub struct DrozdovGavrikov {}
+pub struct DrozdovGavrikov {
+    #[serde(default)]
+    coefficients: Constants,
+}
 
 impl ToothFrictionModel for DrozdovGavrikov {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        let c = &self.coefficients;
         let nu = at.check(&VISCOSITY, at.nu.mm2_s());
         let p = at.check(&PRESSURE, at.pressure / KGF_CM2);
         let v_g = at.check(&SLIDING, at.sliding);
         let v_s = at.check(&SUM_SPEED, at.sum_speed);
-        let phi = at.show("phi", "-", 0.47 - 0.13e-4 * p - 0.4e-3 * nu);
-        let inverse = 0.8 * nu.sqrt() * v_g + v_s * phi + 13.4;
+        let phi = at.show("phi", "-", c.phi_constant - c.phi_pressure * p - c.phi_viscosity * nu);
+        let inverse = c.sliding_factor * power(nu, c.viscosity_exponent) * v_g + v_s * phi + c.constant;
         if inverse <= 0.0 {
             return Err(Undefined {
                 what: "inverse of the coefficient of friction",
@@ -65,7 +90,17 @@ mod tests {
             to.nu = 20e-6;
             to.pressure = 1e4 * KGF_CM2;
         });
-        assert!((DrozdovGavrikov {}.mu(&at).unwrap() / 0.0418841 - 1.0).abs() < 1e-5);
+        assert!(
+            (DrozdovGavrikov {
+                coefficients: Constants::PUBLISHED
+            }
+            .mu(&at)
+            .unwrap()
+                / 0.0418841
+                - 1.0)
+                .abs()
+                < 1e-5
+        );
         // Far beyond the pressures of the tests the formula turns over.
         let beyond = at.with(|to| {
             to.pressure = 4e9;
@@ -73,6 +108,12 @@ mod tests {
             to.sliding = 0.0;
             to.nu = 1e-3;
         });
-        assert!(DrozdovGavrikov {}.mu(&beyond).is_err());
+        assert!(
+            DrozdovGavrikov {
+                coefficients: Constants::PUBLISHED
+            }
+            .mu(&beyond)
+            .is_err()
+        );
     }
 }

@@ -3,6 +3,7 @@
 //! Source: ISO/TC 60 draft as quoted in reviews: mu = 0.12 (w S/(R v_e eta))^0.25; w in N/mm, S rms roughness of both flanks in um,
 //! R in mm, v_e mean rolling speed in m/s, eta in mPa s. A public SI form with 0.0254 and the sum speed is the same.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
@@ -24,6 +25,16 @@ const ROLLING: Limit = Limit::new(
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
+coefficients! {
+    /// Constants of the formula of the draft.
+    struct Constants {
+        /// Factor of the formula.
+        factor = 0.12, in 0.06..=0.24;
+        /// Exponent of load times roughness over radius, rolling speed and viscosity.
+        exponent = 0.25, in 0.1..=0.5;
+    }
+}
+
 /// Friction between flanks after a working draft of ISO TC 60.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct IsoTc60 {
@@ -31,14 +42,17 @@ pub struct IsoTc60 {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 impl ToothFrictionModel for IsoTc60 {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        let c = &self.coefficients;
         let ratio =
             at.line_load.n_mm() * at.rq.um() / (at.radius.mm() * 0.5 * entraining(at.sum_speed)? * at.eta.mpa_s());
         at.check(&ROLLING, 0.5 * at.sum_speed);
-        Ok(at.observe(&MU, (0.12 * ratio.powf(0.25)).min(self.greatest)))
+        Ok(at.observe(&MU, (c.factor * ratio.powf(c.exponent)).min(self.greatest)))
     }
 
     /// Friction is cut off where it reaches its limit.
@@ -63,7 +77,10 @@ mod tests {
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::NoPart;
 
-    const LAW: IsoTc60 = IsoTc60 { greatest: 0.2 };
+    const LAW: IsoTc60 = IsoTc60 {
+        coefficients: Constants::PUBLISHED,
+        greatest: 0.2,
+    };
 
     #[test]
     fn b8_iso_tc60() {

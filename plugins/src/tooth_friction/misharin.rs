@@ -3,6 +3,7 @@
 //! Source: Misharin 1958, recalled: mu = 0.325 (v_g v_S nu)^-0.25, nu in mm2/s, v_g and the sum speed v_S in m/s. Stated for 0.02 to
 //! 0.08, where it is held, and for Hertz pressures of 245 MPa and more; the range of slide-roll ratios is not remembered.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
@@ -24,6 +25,20 @@ const SUM_SPEED: Limit = Limit::new(
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
+coefficients! {
+    /// Constants of the formula of Misharin.
+    struct Constants {
+        /// Factor of the formula.
+        factor = 0.325, in 0.1625..=0.65;
+        /// Exponent of sliding velocity and sum speed in m/s times viscosity in mm2/s.
+        exponent = -0.25, in -0.5..=-0.125;
+        /// Least coefficient of friction where `held` is true.
+        least_friction = 0.02, in 0.005..=0.04;
+        /// Greatest coefficient of friction where `held` is true.
+        greatest_friction = 0.08, in 0.04..=0.16;
+    }
+}
+
 /// Friction between flanks after Misharin.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Misharin {
@@ -34,6 +49,8 @@ pub struct Misharin {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn yes() -> bool {
@@ -44,9 +61,10 @@ impl ToothFrictionModel for Misharin {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         at.check(&PRESSURE, at.pressure.gpa());
         at.check(&SUM_SPEED, at.sum_speed);
-        let mu = 0.325 * (at.sliding * at.sum_speed * at.nu.mm2_s()).powf(-0.25);
+        let c = &self.coefficients;
+        let mu = c.factor * (at.sliding * at.sum_speed * at.nu.mm2_s()).powf(c.exponent);
         let mu = if self.held {
-            mu.clamp(0.02, 0.08)
+            mu.clamp(c.least_friction, c.greatest_friction)
         } else {
             mu.min(self.greatest)
         };
@@ -77,7 +95,11 @@ mod tests {
     use gearloss_framework::mechanism::NoPart;
 
     fn law(held: bool) -> Misharin {
-        Misharin { held, greatest: 0.2 }
+        Misharin {
+            coefficients: Constants::PUBLISHED,
+            held,
+            greatest: 0.2,
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! R in inches. With metres the result is absurd. S was that of the discs before running; the mean Ra of the flanks stands
 //! for it. At the pitch point, where the formula diverges and the loss vanishes, it is held at `greatest`.
 
+use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
@@ -14,6 +15,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::entraining;
+use crate::powers::power;
 
 const SUM_SPEED: Limit = Limit::new(
     0,
@@ -28,6 +30,26 @@ const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 /// One inch. \[m\]
 const INCH: f64 = 25.4e-3;
 
+coefficients! {
+    /// Constants of the formula of O'Donoghue and Cameron, in inches.
+    struct Constants {
+        /// Factor of the formula.
+        factor = 0.6, in 0.3..=1.2;
+        /// Roughness in uin that is added to that of the flanks.
+        roughness_offset = 22.0, in 11.0..=44.0;
+        /// Roughness in uin that the sum is divided by.
+        roughness_divisor = 35.0, in 17.5..=70.0;
+        /// Exponent of the viscosity in cP.
+        viscosity_exponent = 0.125, in 0.0625..=0.25;
+        /// Exponent of the sliding velocity in in/s.
+        sliding_exponent = 1.0 / 3.0, in 1.0 / 6.0..=2.0 / 3.0;
+        /// Exponent of the sum speed in in/s.
+        sum_speed_exponent = 1.0 / 6.0, in 1.0 / 12.0..=1.0 / 3.0;
+        /// Exponent of the radius of curvature in inches.
+        radius_exponent = 0.5, in 0.25..=1.0;
+    }
+}
+
 /// Friction between flanks after O'Donoghue and Cameron.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct ODonoghueCameron {
@@ -35,6 +57,8 @@ pub struct ODonoghueCameron {
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 /// Not boundary friction, which the formula exceeds at usual speeds already.
@@ -47,8 +71,11 @@ impl ToothFrictionModel for ODonoghueCameron {
         let s = at.show("S", "uin", at.ra / INCH * 1e6);
         let sum_speed = entraining(at.sum_speed)?;
         at.check(&SUM_SPEED, sum_speed);
-        let speeds = (at.sliding / INCH).cbrt() * (sum_speed / INCH).powf(1.0 / 6.0);
-        let mu = 0.6 * (s + 22.0) / 35.0 / (at.eta.mpa_s().powf(0.125) * speeds * (at.radius / INCH).sqrt());
+        let c = &self.coefficients;
+        let speeds = power(at.sliding / INCH, c.sliding_exponent) * (sum_speed / INCH).powf(c.sum_speed_exponent);
+        let radius = power(at.radius / INCH, c.radius_exponent);
+        let viscosity = at.eta.mpa_s().powf(c.viscosity_exponent);
+        let mu = c.factor * (s + c.roughness_offset) / c.roughness_divisor / (viscosity * speeds * radius);
         Ok(at.observe(&MU, mu.min(self.greatest)))
     }
 
@@ -74,7 +101,10 @@ mod tests {
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::NoPart;
 
-    const LAW: ODonoghueCameron = ODonoghueCameron { greatest: 0.2 };
+    const LAW: ODonoghueCameron = ODonoghueCameron {
+        coefficients: Constants::PUBLISHED,
+        greatest: 0.2,
+    };
 
     #[test]
     fn b8_odonoghue_cameron() {

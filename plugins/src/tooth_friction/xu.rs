@@ -10,6 +10,7 @@ mod series;
 
 use std::f64::consts::LOG10_E;
 
+use gearloss_framework::coefficients;
 use gearloss_framework::lanes::{Lane, LaneNotes, Powers, each, exp, ln, over, wide};
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -22,10 +23,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use series::Series;
-
-const B: [f64; 9] = [
-    -8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958, 0.620305,
-];
 
 /// Design range of the regression, from memory of the article.
 const FROM: &str = "design range of the regression, recalled";
@@ -51,12 +48,38 @@ pub enum Roughness {
     Ra,
 }
 
+coefficients! {
+    /// Regression coefficients b1 to b9 of Xu.
+    pub struct Constants {
+        /// Constant of f.
+        b1 = -8.916465, in -17.83293..=-4.4582325;
+        /// Exponent of the Hertz pressure in GPa.
+        b2 = 1.03303, in 0.516515..=2.06606;
+        /// Exponent of the slide-to-roll ratio.
+        b3 = 1.036077, in 0.5180385..=2.072154;
+        /// Factor of |SR| P lg nu0 in f.
+        b4 = -0.354068, in -0.708136..=-0.177034;
+        /// Factor of the exponential of -|SR| P lg nu0 in f.
+        b5 = 2.812084, in 1.406042..=5.624168;
+        /// Exponent of the mean rolling speed in m/s.
+        b6 = -0.100601, in -0.201202..=-0.0503005;
+        /// Exponent of the dynamic viscosity in mPa s.
+        b7 = 0.752755, in 0.3763775..=1.50551;
+        /// Exponent of the radius of curvature in m.
+        b8 = -0.390958, in -0.781916..=-0.195479;
+        /// Factor of the exponential of the roughness in um in f.
+        b9 = 0.620305, in 0.3101525..=1.24061;
+    }
+}
+
 /// Regression of an EHL friction model for gear contacts.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Xu {
     /// Which roughness counts as S.
     #[serde(default)]
     pub roughness: Roughness,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 impl Roughness {
@@ -95,9 +118,10 @@ impl ToothFrictionModel for Xu {
             at.branch("no sliding or no load: no friction");
             return Ok(at.observe(&MU, 0.0));
         }
+        let c = &self.coefficients;
         let x = at.show("|SR| P lg nu0", "-", sr * p * nu0.log10());
-        let f = at.show("f", "-", B[0] + B[3] * x + B[4] * (-x).exp() + B[8] * s.exp());
-        let mu = (f + B[1] * p.ln() + B[2] * sr.ln() + B[5] * v.ln() + B[6] * nu0.ln() + B[7] * at.radius.ln()).exp();
+        let f = at.show("f", "-", c.b1 + c.b4 * x + c.b5 * (-x).exp() + c.b9 * s.exp());
+        let mu = (f + c.b2 * p.ln() + c.b3 * sr.ln() + c.b6 * v.ln() + c.b7 * nu0.ln() + c.b8 * at.radius.ln()).exp();
         if mu.is_finite() {
             Ok(at.observe(&MU, mu))
         } else {
@@ -116,9 +140,9 @@ impl ToothFrictionModel for Xu {
             mu.fill(0.0);
             return Ok(Along::default());
         }
-        let along = Common::new(path, s, nu0);
+        let along = Common::new(&self.coefficients, path, s, nu0);
         let (common, fall) = (along.common(ln(unit)), along.fall(unit));
-        walk(path, common, fall, mu);
+        walk(&self.coefficients, path, common, fall, mu);
         let [least, most] = ends(mu);
         for end in 0..2 {
             path.notes.check(&PRESSURE, unit * path.extent.root_load[end]);
@@ -144,7 +168,8 @@ impl ToothFrictionModel for Xu {
         let Ok(nu0) = check_oil(Notes::MUTED, path.eta, s) else {
             return false;
         };
-        let along = Common::new(path, s, nu0);
+        let c = &self.coefficients;
+        let along = Common::new(c, path, s, nu0);
         wide(
             #[inline(always)]
             || {
@@ -156,12 +181,12 @@ impl ToothFrictionModel for Xu {
                 );
                 let falls = over(&units, |unit| along.fall(unit));
                 for (node, mu) in path.nodes.iter().zip(&mut *mu) {
-                    let geometry = geometry(node);
+                    let geometry = geometry(c, node);
                     *mu = each(
                         #[inline(always)]
                         |i| {
                             let x = falls[i] * node.slide_roll * node.root_load;
-                            exp(commons[i] + geometry - B[3] * x + B[4] * exp(x))
+                            exp(commons[i] + geometry - c.b4 * x + c.b5 * exp(x))
                         },
                     );
                 }
@@ -173,7 +198,8 @@ impl ToothFrictionModel for Xu {
     fn weighted(&self, nodes: &[PathNode], weights: &[f64]) -> Option<Box<dyn WeightedFriction>> {
         Some(Box::new(Weighted {
             roughness: self.roughness,
-            series: Series::new(nodes, weights),
+            coefficients: self.coefficients,
+            series: Series::new(&self.coefficients, nodes, weights),
         }))
     }
 
@@ -235,6 +261,7 @@ fn note_ranges(
 /// The law summed along one path.
 struct Weighted {
     roughness: Roughness,
+    coefficients: Constants,
     series: Series,
 }
 
@@ -242,7 +269,7 @@ impl Weighted {
     fn common(&self, path: &PathAt<'_>) -> Option<Common> {
         let s = self.roughness.of(path.ra, path.rq);
         let nu0 = check_oil(Notes::MUTED, path.eta, s).ok()?;
-        Some(Common::new(path, s, nu0))
+        Some(Common::new(&self.coefficients, path, s, nu0))
     }
 }
 
@@ -251,7 +278,7 @@ impl WeightedFriction for Weighted {
         let unit = unit_pressure(path.line_load, path.modulus);
         let along = self.common(path);
         along.map_or(f64::NAN, |along| {
-            self.series.at(-along.fall(unit)) * power(unit) * along.factor
+            self.series.at(-along.fall(unit)) * power(self.coefficients.b2, unit) * along.factor
         })
     }
 
@@ -259,11 +286,12 @@ impl WeightedFriction for Weighted {
         let Some(along) = self.common(path) else {
             return Lane::all(f64::NAN);
         };
+        let b2 = self.coefficients.b2;
         wide(
             #[inline(always)]
             || {
                 let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-                let raised = powers.of(0, |i| units[i], B[1], power);
+                let raised = powers.of(0, |i| units[i], b2, |unit| power(b2, unit));
                 let sums = self.series.lanes(&over(&units, |unit| -along.fall(unit)));
                 each(|i| sums[i] * raised[i] * along.factor)
             },
@@ -275,6 +303,7 @@ impl WeightedFriction for Weighted {
             return false;
         };
         let [low, high] = [range.0, range.1].map(|line_load| unit_pressure(line_load, path.modulus));
+        let c = &self.coefficients;
         let at = |unit: f64| -along.fall(unit);
         let seen = notes.seen(&MU);
         // One loop, so that they do not wait for each other.
@@ -316,12 +345,12 @@ impl WeightedFriction for Weighted {
                 let falls = over(&units, |unit| along.fall(unit));
                 let (mut least, mut greatest) = (Lane::all(f64::INFINITY), Lane::all(f64::NEG_INFINITY));
                 for (_, node) in path.nodes.iter().enumerate().filter(|(k, _)| places >> k & 1 == 1) {
-                    let geometry = geometry(node);
+                    let geometry = geometry(c, node);
                     let exponents = each(
                         #[inline(always)]
                         |i| {
                             let x = falls[i] * node.slide_roll * node.root_load;
-                            commons[i] + geometry - B[3] * x + B[4] * exp(x)
+                            commons[i] + geometry - c.b4 * x + c.b5 * exp(x)
                         },
                     );
                     least = each(|i| {
@@ -349,7 +378,7 @@ impl WeightedFriction for Weighted {
 }
 
 /// Friction at each node of a path, from the part of the exponent that is common to them and from its fall.
-fn walk(path: &PathAt<'_>, common: f64, fall: f64, mu: &mut [f64]) {
+fn walk(c: &Constants, path: &PathAt<'_>, common: f64, fall: f64, mu: &mut [f64]) {
     wide(
         #[inline(always)]
         || {
@@ -361,7 +390,7 @@ fn walk(path: &PathAt<'_>, common: f64, fall: f64, mu: &mut [f64]) {
             }
             for (node, mu) in path.nodes.iter().zip(&mut *mu) {
                 let x = fall * node.slide_roll * node.root_load;
-                *mu = common + geometry(node) - B[3] * x + B[4] * *mu;
+                *mu = common + geometry(c, node) - c.b4 * x + c.b5 * *mu;
             }
             for mu in &mut *mu {
                 *mu = exp(*mu);
@@ -386,18 +415,20 @@ fn unit_pressure(line_load: f64, modulus: f64) -> f64 {
 
 /// What the unit of pressure adds as a factor.
 #[inline(always)]
-fn power(unit: f64) -> f64 {
-    exp(B[1] * ln(unit))
+fn power(b2: f64, unit: f64) -> f64 {
+    exp(b2 * ln(unit))
 }
 
 /// What a node adds to the exponent.
 #[inline(always)]
-fn geometry(node: &PathNode) -> f64 {
-    B[1] * node.ln_root_load + B[2] * node.ln_slide_roll + B[5] * node.ln_rolling + B[7] * node.ln_radius
+fn geometry(c: &Constants, node: &PathNode) -> f64 {
+    c.b2 * node.ln_root_load + c.b3 * node.ln_slide_roll + c.b6 * node.ln_rolling + c.b8 * node.ln_radius
 }
 
 /// What is the same along a path under every load.
 struct Common {
+    b2: f64,
+    b7: f64,
     rough: f64,
     speed: f64,
     ln_nu0: f64,
@@ -406,12 +437,14 @@ struct Common {
 }
 
 impl Common {
-    fn new(path: &PathAt<'_>, s: f64, nu0: f64) -> Self {
+    fn new(c: &Constants, path: &PathAt<'_>, s: f64, nu0: f64) -> Self {
         let [rough, speed, ln_nu0, factor] = path.notes.once(|| {
-            let (rough, speed, ln_nu0) = (B[0] + B[8] * exp(s), B[5] * ln(path.speed), ln(nu0));
-            [rough, speed, ln_nu0, exp(rough + speed + B[6] * ln_nu0)]
+            let (rough, speed, ln_nu0) = (c.b1 + c.b9 * exp(s), c.b6 * ln(path.speed), ln(nu0));
+            [rough, speed, ln_nu0, exp(rough + speed + c.b7 * ln_nu0)]
         });
         Self {
+            b2: c.b2,
+            b7: c.b7,
             rough,
             speed,
             ln_nu0,
@@ -422,7 +455,7 @@ impl Common {
     /// The part of the exponent that is the same along the path, from the logarithm of the unit of pressure in GPa.
     #[inline(always)]
     fn common(&self, ln_unit: f64) -> f64 {
-        self.rough + B[1] * ln_unit + self.speed + B[6] * self.ln_nu0
+        self.rough + self.b2 * ln_unit + self.speed + self.b7 * self.ln_nu0
     }
 
     /// -P lg nu0 per slide-roll ratio and `root_load`.
@@ -446,13 +479,17 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::gear_mesh::path_integral::tests::fzg_c14;
+    use gearloss_framework::coefficients::Coefficients as _;
     use gearloss_framework::mechanism::NoPart;
     use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
     use gearloss_framework::mechanism::tooth_friction::PathExtent;
 
-    const LAW: Xu = Xu {
-        roughness: Roughness::CompositeRms,
-    };
+    fn law() -> Xu {
+        Xu {
+            roughness: Roughness::CompositeRms,
+            coefficients: Constants::PUBLISHED,
+        }
+    }
 
     fn mu(sr: f64, p: f64, eta: f64, s: f64, v: f64, r: f64) -> f64 {
         let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
@@ -463,7 +500,7 @@ mod tests {
             to.rq = s * 1e-6;
             to.eta = eta * 1e-3;
         });
-        LAW.mu(&at).unwrap()
+        law().mu(&at).unwrap()
     }
 
     #[test]
@@ -498,18 +535,18 @@ mod tests {
             to.line_load = 2e5;
         });
         let mut along = [0.0; 9];
-        LAW.along(&path, &mut along).unwrap();
+        law().along(&path, &mut along).unwrap();
         for (node, mu) in nodes.iter().zip(along) {
-            assert!((LAW.mu(&path.contact(node)).unwrap() / mu - 1.0).abs() < 1e-12);
+            assert!((law().mu(&path.contact(node)).unwrap() / mu - 1.0).abs() < 1e-12);
         }
     }
 
     #[test]
     fn every_constant_is_that_of_the_paper() {
         let table = crate::printed::Printed::read(include_str!("../../tests/tables/xu.csv"));
-        for (line, own) in table.rows().zip(B) {
-            line.is("value", own);
+        for (line, own) in table.rows().zip(Constants::LIST) {
+            line.is("value", own.published);
         }
-        assert_eq!(table.rows().count(), B.len());
+        assert_eq!(table.rows().count(), Constants::LIST.len());
     }
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use gearloss_framework::analysis::evidence;
+use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::document::{Code, Diagnostic, Severity, Sources, Span};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
@@ -118,6 +119,8 @@ fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -
     built.insert("stages".to_owned(), json!(transmission.stages().collect::<Vec<_>>()));
     built.insert("ratios".to_owned(), ratios(&transmission));
     built.insert("notes".to_owned(), json!(notes));
+    let changed = changed_from_source(&transmission, &resolved);
+    built.insert("changed_from_source".to_owned(), json!(changed));
     built.insert(
         "weakest_evidence".to_owned(),
         weakest.map_or(

@@ -1,5 +1,6 @@
 //! `models --format json`: everything that is known of mechanisms and models, for programs.
 
+use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::{Unit, records_by_type};
 use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::mechanism::QuantityDoc;
@@ -87,7 +88,7 @@ fn of_model(entry: &Entry, schema: &Value) -> Value {
         .unwrap_or(&no_fields);
     let parameters: Vec<Value> = fields
         .iter()
-        .filter(|(name, _)| *name != "type")
+        .filter(|(name, _)| !["type", COEFFICIENTS].contains(&name.as_str()))
         .map(|(name, field)| {
             let doc = field["description"].as_str().unwrap_or_default();
             json!({
@@ -118,6 +119,7 @@ fn of_model(entry: &Entry, schema: &Value) -> Value {
         "package": entry.origin.package.name,
         "example": entry.example,
         "parameters": parameters,
+        "coefficients": entry.coefficients(),
         "terms": entry.terms.iter().map(|t| json!({ "name": t.name, "load_dependent": t.load_dependent })).collect::<Vec<_>>(),
         "observed": entry.observed.iter().map(|o| json!({ "name": o.name, "meaning": o.meaning, "unit": o.unit })).collect::<Vec<_>>(),
         "limits": entry.limits.iter().map(|l| json!({

@@ -5,7 +5,7 @@ use gearloss_framework::varied::Varied;
 use serde_json::Value;
 
 use super::{Built, Runner};
-use crate::output::Failure;
+use crate::output::{Failure, Out};
 
 /// A varied quantity with its range, in the unit of the path.
 pub struct Range {
@@ -81,6 +81,20 @@ impl Range {
         let [low, high] = self.ends;
         (low + share * (high - low)).clamp(low, high)
     }
+}
+
+/// Prints which of the varied quantities are coefficients of formulas, with the value of the source.
+pub fn show_published<'a>(all: impl Iterator<Item = &'a Varied>, out: &mut Out) -> Result<(), Failure> {
+    for varied in all {
+        let published = varied.published.iter().flatten().next();
+        if let Some(published) = published {
+            out.line(format!(
+                "`{}`: a coefficient of a formula, published {published}; other values are changed from the source",
+                varied.pattern
+            ))?;
+        }
+    }
+    Ok(())
 }
 
 /// A varied quantity of a study; `path` is its place there.

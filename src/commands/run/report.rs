@@ -5,17 +5,19 @@ mod point;
 use std::io::Write as _;
 use std::path::Path;
 
+use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::report::schematic;
+use gearloss_framework::study::Study;
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
 use super::super::solve::RPM;
-use super::Runner;
 use super::write::{Place, REPORT};
+use super::{Built, Runner};
 use crate::output::{Failure, number};
 use crate::report::{Frame, GearboxPage, PageFault, PageTable};
 
@@ -84,7 +86,7 @@ fn conditions(runner: &Runner<'_>) -> String {
 /// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that
 /// the analyses use.
 fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<GearboxPage, Failure> {
-    let sets = sets(runner, name, first);
+    let sets = sets(runner.study, name, first);
     // Overrides may be meant for the models of a set, which the own models of the gearbox do not take.
     let own = runner.built(gearbox, &[]).or_else(|fault| match &sets[..] {
         [] => Err(fault),
@@ -106,6 +108,8 @@ fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Resu
         .unwrap_or_default();
     let built = runner.built(gearbox, &sets)?;
     let point = point::page(runner, &built, &assumed);
+    let mut tables = vec![gears(transmission), meshes(transmission), states(transmission)];
+    tables.extend(changed(own.iter().chain(&built)));
     Ok(GearboxPage {
         name: name.to_owned(),
         point: point.as_ref().map(|p| p.words.clone()).unwrap_or_default(),
@@ -113,16 +117,39 @@ fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Resu
         title: text("title"),
         source: text("source"),
         drawing: schematic(transmission, &resolved.value),
-        tables: vec![gears(transmission), meshes(transmission), states(transmission)],
+        tables,
         assumed,
         resolved: serde_saphyr::to_string(&resolved.value).unwrap_or_default(),
     })
 }
 
+/// Coefficients of models that were changed from their source; absent where none was.
+fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> {
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for b in built {
+        for changed in changed_from_source(&b.transmission, &b.resolved) {
+            let row = vec![
+                b.name.clone(),
+                changed.paths.join(", "),
+                changed.model.to_owned(),
+                changed.coefficient,
+                changed.value.to_string(),
+                changed.published.to_string(),
+                changed.source.to_owned(),
+            ];
+            if !rows.contains(&row) {
+                rows.push(row);
+            }
+        }
+    }
+    let head = ["models", "path", "model", "coefficient", "value", "published", "source"];
+    (!rows.is_empty()).then(|| table("Coefficients changed from the source", &head, rows))
+}
+
 /// Names of the sets that the analyses use for a gearbox, each once.
-fn sets(runner: &Runner<'_>, name: &str, first: bool) -> Vec<String> {
+pub(super) fn sets(study: &Study, name: &str, first: bool) -> Vec<String> {
     let mut sets: Vec<String> = Vec::new();
-    for (_, analysis) in runner.study.entry.analyses.iter() {
+    for (_, analysis) in study.entry.analyses.iter() {
         let uses = analysis.uses();
         let of_analysis = uses.gearbox.map_or(first, |g| g == name);
         for set in uses.sets {

@@ -7,10 +7,12 @@ use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::report::{Figure, Map};
 use gearloss_framework::study::{By, SecondEntry, SweepEntry};
 use gearloss_framework::thermal::Outcome;
+use gearloss_framework::varied::{Tie, Varied};
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
 use super::map::{tidy, word};
+use super::ranges::show_published;
 use super::shares::{Shares, together};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, gear_of, speeds, torques};
@@ -120,6 +122,11 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
             "second": entry.second.as_ref().map(|s| json!({ "path": s.path, "value": s.values[at.value[1]] })),
             "shares": shares, "points": points, "notes": notes(&at.built.transmission, &at.seen),
         }));
+    }
+    if let Some(at) = all.first() {
+        let quantity = |path: &String| Varied::new(runner.language, &at.built.resolved, path, Tie::Value).ok();
+        let varied: Vec<Varied> = paths().filter_map(quantity).collect();
+        show_published(varied.iter(), out)?;
     }
     show(runner, name, entry, &words, &all, out)?;
     let mut value = head(runner, name, &all.iter().map(|at| &at.built).collect::<Vec<_>>());

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use super::super::solve::RPM;
 use super::inputs::Input;
 use super::map::{spread, tidy};
+use super::ranges::show_published;
 use super::trial::{Left, Trial, left};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, grid_axes};
@@ -102,6 +103,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
         }
         let ranked = s.ranked();
         show(name, s, &bands, &ranked, out)?;
+        show_published(s.inputs.iter().map(|input| &input.range.varied), out)?;
         results.push(s.result(gear, &bands, &ranked));
         pictures(runner, name, entry, s, &bands)?;
     }

@@ -7,6 +7,7 @@ use std::io::{BufRead as _, BufReader, BufWriter, Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::files::open_regular;
 use gearloss_framework::report::Figure;
 use gearloss_framework::study::{Study, Write};
@@ -39,6 +40,9 @@ pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value 
             "set": conditions.set,
         },
         "inputs": inputs,
+        "changed_from_source": built.iter().map(|b| json!({
+            "model_set": b.name, "coefficients": changed_from_source(&b.transmission, &b.resolved),
+        })).collect::<Vec<_>>(),
         "unreached": built.iter().map(|b| json!({ "model_set": b.name, "lines": b.resolved.unreached })).collect::<Vec<_>>(),
     })
 }

@@ -1,5 +1,7 @@
 //! Drag of rolling elements in an oil bath or under an oil jet, SKF catalogue; the simpler form of its earlier edition.
 
+use super::Constants;
+
 /// V_M over H/d_m for balls, read from the catalogue's diagram, about 2 %.
 const V_M: [(f64, f64); 30] = [
     (0.0, 0.0),
@@ -104,6 +106,7 @@ pub enum Depth {
 /// Drag of one bearing, prepared. Lengths in mm.
 #[derive(Debug)]
 pub struct Drag {
+    coefficients: Constants,
     d_m: f64,
     /// Drag per V_M and squared speed.
     churning: f64,
@@ -117,7 +120,7 @@ pub struct Drag {
 
 impl Drag {
     /// The drag of a body. `v_m` makes it that of the edition of 2004, whose diagram is not public.
-    pub fn new(body: &Body, bath: Bath, v_m: Option<f64>) -> Self {
+    pub fn new(body: &Body, bath: Bath, v_m: Option<f64>, coefficients: &Constants) -> Self {
         let d_m = 0.5 * (body.d + body.big_d);
         let ratio = body.k_z * (body.d + body.big_d) / (body.big_d - body.d);
         let churning = match body.roller {
@@ -133,6 +136,7 @@ impl Drag {
             }
         };
         Self {
+            coefficients: *coefficients,
             d_m,
             churning,
             f_a: 0.05 * ratio,
@@ -181,7 +185,9 @@ impl Drag {
         if f_t == 0.0 || r_s == 0.0 {
             return churning;
         }
-        churning + 1.093e-7 * n * n * self.d_m.powi(3) * (n * self.d_m * self.d_m * f_t / nu).powf(-1.379) * r_s
+        let c = &self.coefficients;
+        let resistance = (n * self.d_m * self.d_m * f_t / nu).powf(c.bath_exponent);
+        churning + c.bath_factor * n * n * self.d_m.powi(3) * resistance * r_s
     }
 }
 
@@ -220,7 +226,7 @@ mod tests {
 
     #[test]
     fn a3_1_drag_in_two_parts() {
-        let drag = Drag::new(&BALL, Bath::Level, None);
+        let drag = Drag::new(&BALL, Bath::Level, None, &Constants::PUBLISHED);
         close(v_m(&V_M, 10.0 / 65.0), 1.64923e-4);
         close(drag.f_a, 0.403);
         close(v_m(&V_M, 10.0 / 65.0) * drag.churning * 9e6, 5.55246);
@@ -230,7 +236,10 @@ mod tests {
     #[test]
     fn a3_3_and_a3_4_drag_of_rollers() {
         close(v_m(&V_M_ROLLERS, 8.0 / 60.0), 1.89333e-4);
-        close(Drag::new(&ROLLER, Bath::Level, None).moment(8.0, 1500.0, 40.0), 5.82973);
+        close(
+            Drag::new(&ROLLER, Bath::Level, None, &Constants::PUBLISHED).moment(8.0, 1500.0, 40.0),
+            5.82973,
+        );
         let tapered = Body {
             d: 30.0,
             big_d: 62.0,
@@ -239,7 +248,7 @@ mod tests {
             rows: 1.0,
         };
         close(
-            Drag::new(&tapered, Bath::Level, None).moment(6.0, 2000.0, 20.0),
+            Drag::new(&tapered, Bath::Level, None, &Constants::PUBLISHED).moment(6.0, 2000.0, 20.0),
             2.72196,
         );
     }
@@ -247,13 +256,16 @@ mod tests {
     #[test]
     fn a3_12_and_a3_13_jet_and_deep_bath() {
         close(
-            Drag::new(&BALL, Bath::Jet(0.5 * 15.081), None).moment(0.0, 3000.0, 15.0),
+            Drag::new(&BALL, Bath::Jet(0.5 * 15.081), None, &Constants::PUBLISHED).moment(0.0, 3000.0, 15.0),
             8.07646,
         );
-        close(Drag::new(&BALL, Bath::Level, None).moment(65.0, 3000.0, 15.0), 38.1012);
-        let whole = Drag::new(&BALL, Bath::Level, None).moment(78.0, 3000.0, 15.0);
         close(
-            Drag::new(&BALL, Bath::Vertical(0.5), None).moment(0.0, 3000.0, 15.0),
+            Drag::new(&BALL, Bath::Level, None, &Constants::PUBLISHED).moment(65.0, 3000.0, 15.0),
+            38.1012,
+        );
+        let whole = Drag::new(&BALL, Bath::Level, None, &Constants::PUBLISHED).moment(78.0, 3000.0, 15.0);
+        close(
+            Drag::new(&BALL, Bath::Vertical(0.5), None, &Constants::PUBLISHED).moment(0.0, 3000.0, 15.0),
             0.5 * whole,
         );
     }
@@ -261,18 +273,18 @@ mod tests {
     #[test]
     fn a4_earlier_edition() {
         close(
-            Drag::new(&BALL, Bath::Level, Some(1.49e-4)).moment(10.0, 3000.0, 15.0),
+            Drag::new(&BALL, Bath::Level, Some(1.49e-4), &Constants::PUBLISHED).moment(10.0, 3000.0, 15.0),
             12.5410,
         );
         close(
-            Drag::new(&ROLLER, Bath::Level, Some(1.49e-4)).moment(8.0, 1500.0, 40.0),
+            Drag::new(&ROLLER, Bath::Level, Some(1.49e-4), &Constants::PUBLISHED).moment(8.0, 1500.0, 40.0),
             7.77770,
         );
     }
 
     #[test]
     fn drag_rises_with_the_level_and_ends_at_a_full_bath() {
-        let drag = Drag::new(&BALL, Bath::Level, None);
+        let drag = Drag::new(&BALL, Bath::Level, None, &Constants::PUBLISHED);
         let mut before = 0.0;
         for height in [1.0, 5.0, 10.0, 30.0, 60.0, 78.0] {
             let now = drag.moment(height, 3000.0, 15.0);

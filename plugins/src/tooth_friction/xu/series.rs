@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use gearloss_framework::lanes::{LANES, Lane, count, exp, over, wide};
 use gearloss_framework::mechanism::tooth_friction::PathNode;
 
-use super::{B, geometry};
+use super::{Constants, geometry};
 
 /// Terms of the polynomials.
 const TERMS: usize = 16;
@@ -22,7 +22,9 @@ const BOUNDS: usize = 64;
 const FINER: f64 = (BOUNDS / PIECES) as f64;
 /// How far the exponent at a place bends below the line through its ends over a piece with bounds, at most: an eighth of the
 /// square of the piece times the greatest second derivative.
-const SAG: f64 = 0.125 * B[4] * (REACH / BOUNDS as f64) * (REACH / BOUNDS as f64);
+fn sag(b5: f64) -> f64 {
+    0.125 * b5 * (REACH / BOUNDS as f64) * (REACH / BOUNDS as f64)
+}
 /// The greatest `t s` along the path that is tabulated: slide-roll ratio times pressure in GPa times lg of the viscosity in mPa s.
 const REACH: f64 = 8.0;
 
@@ -42,13 +44,14 @@ pub struct Series {
 
 impl Series {
     /// The sum of the friction at some nodes with these weights.
-    pub fn new(nodes: &[PathNode], weights: &[f64]) -> Self {
+    pub fn new(c: &Constants, nodes: &[PathNode], weights: &[f64]) -> Self {
+        let sag = sag(c.b5);
         let steepest = nodes.iter().map(steepness).fold(f64::MIN_POSITIVE, f64::max);
         let scale = PIECES as f64 * steepest / REACH;
         let exponents = |t: f64| {
             let exponent = move |node: &PathNode| {
                 let x = -t * node.slide_roll * node.root_load;
-                geometry(node) - B[3] * x + B[4] * exp(x)
+                geometry(c, node) - c.b4 * x + c.b5 * exp(x)
             };
             nodes.iter().map(exponent)
         };
@@ -60,7 +63,7 @@ impl Series {
             );
             powers(&values)
         });
-        // Every exponent is convex over `t`: it lies below the line through its ends over a piece, and above that line less SAG.
+        // Every exponent is convex over `t`: it lies below the line through its ends over a piece, and above that line less `sag`.
         let lines: Vec<Vec<f64>> = (0..=BOUNDS)
             .map(|end| exponents(end as f64 / (scale * FINER)).collect())
             .collect();
@@ -72,13 +75,13 @@ impl Series {
                     .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], x| {
                         [x.min(least), x.max(greatest)]
                     });
-                [least - SAG, greatest]
+                [least - sag, greatest]
             })
             .collect();
         let bounds = extremes
             .array_windows()
             .map(|[start, end]| [0, 1].map(|k| (start[k], end[k] - start[k])));
-        let apart = SAG + super::ROUNDING;
+        let apart = sag + super::ROUNDING;
         // A place without load or sliding has an exponent of minus infinity everywhere, and is not below another such place.
         let ends = lines.array_windows().map(|[start, end]| {
             let surely_below = |a: usize, b: usize| start[a] + apart < start[b] && end[a] + apart < end[b];
@@ -197,7 +200,8 @@ mod tests {
     fn the_sum_is_that_of_the_nodes() {
         let nodes = nodes();
         let weights: Vec<f64> = (0..12).map(|i| 0.3 + 0.1 * f64::from(i)).collect();
-        let series = Series::new(&nodes, &weights);
+        let series = Series::new(&Constants::PUBLISHED, &nodes, &weights);
+        let c = Constants::PUBLISHED;
         let end = PIECES as f64 / series.scale;
         let mut places = 0;
         for i in 0..2000 {
@@ -207,7 +211,7 @@ mod tests {
             let ends = series.places(t, t).unwrap_or(0);
             for (k, (node, weight)) in nodes.iter().zip(&weights).enumerate() {
                 let x = -t * node.slide_roll * node.root_load;
-                let exponent = geometry(node) - B[3] * x + B[4] * x.exp();
+                let exponent = geometry(&c, node) - c.b4 * x + c.b5 * x.exp();
                 sum += weight * exponent.exp();
                 least = exponent.min(least);
                 greatest = exponent.max(greatest);
@@ -243,7 +247,7 @@ mod tests {
         for unloaded in [0, 11] {
             nodes[unloaded] = PathNode::new(0.002, 0.03, 0.006, 0.0);
         }
-        let series = Series::new(&nodes, &[1.0; 12]);
+        let series = Series::new(&Constants::PUBLISHED, &nodes, &[1.0; 12]);
         let end = PIECES as f64 / series.scale;
         for i in 0..100 {
             let t = end * (f64::from(i) + 0.37) / 100.0;

@@ -136,6 +136,7 @@ fn parameter(o: &Outcome<'_>, k: usize) -> Value {
         "unit": parameter.unit.symbol,
         "scale": parameter.scale,
         "stated": parameter.stated,
+        "published": parameter.published(),
         "start": parameter.start,
         "least": parameter.bounds[0],
         "greatest": parameter.bounds[1],

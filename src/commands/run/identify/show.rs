@@ -250,6 +250,11 @@ fn parameters(o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         table.row(row);
     }
     out.text(&table.render())?;
+    for (parameter, theta) in o.identification.parameters().iter().zip(o.fitted.theta()) {
+        if let Some(words) = parameter.changed_from_source(*theta) {
+            out.line(format!("`{}`: coefficient {words}", parameter.name))?;
+        }
+    }
     for (k, profile) in o.profiles.iter().enumerate() {
         if let Some(Err(reason)) = profile {
             out.line(format!(

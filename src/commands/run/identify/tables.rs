@@ -182,6 +182,7 @@ fn parameters(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Out
         "path",
         "unit",
         "stated",
+        "published",
         "start",
         "least",
         "greatest",
@@ -209,6 +210,7 @@ fn parameters(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Out
             ];
             cells.extend([
                 cell(parameter.stated),
+                cell(parameter.published()),
                 cell(Some(parameter.start)),
                 cell(Some(parameter.bounds[0])),
                 cell(Some(parameter.bounds[1])),

@@ -3,6 +3,7 @@
 use gearloss_framework::sensitivity::{Influence, VarianceShares};
 
 use super::super::Runner;
+use super::super::ranges::show_published;
 use super::Found;
 use super::outputs::Kind;
 use crate::output::{Failure, Out, Table, number, significant};
@@ -17,6 +18,7 @@ pub fn show(runner: &Runner<'_>, name: &str, f: &Found<'_>, out: &mut Out) -> Re
         "{name}: mean loss {:.3} W{efficiency} over {} points, models {set}",
         f.values[0], f.points
     ))?;
+    show_published(f.ranges.iter().map(|range| &range.varied), out)?;
     out.line("")?;
     if f.local.is_some() {
         local(name, f, out)?;
