@@ -266,6 +266,67 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
 }
 
 #[test]
+fn changed_coefficients_of_formulas_count_side_by_side_as_alone() {
+    let language = language();
+    let torques: Vec<f64> = (-20..=20).map(|i| 0.9 * f64::from(i)).chain([1e-6, 150.0]).collect();
+    let speeds = [30.0 * RPM, 4321.0 * RPM, -2000.0 * RPM];
+    let xu = "meshes.*.model.tooth_friction.coefficients";
+    let bearing = "bearings.*.model.coefficients";
+    let of_xu = [("b1", -8.5), ("b2", 1.4), ("b3", 0.9), ("b4", -0.5), ("b5", 4.0)];
+    let more_of_xu = [("b6", -0.15), ("b7", 0.6), ("b8", -0.5), ("b9", 0.4)];
+    let of_skf = [
+        ("rolling_exponent", 0.55),
+        ("mixed_factor", 4e-8),
+        ("inlet_factor", 3e-9),
+        ("bath_factor", 2e-7),
+    ];
+    let of_palmgren = [("viscous_exponent", 0.7), ("constant_factor", 2e-5)];
+    for (set, changes) in [
+        (
+            "joint",
+            [
+                of_xu.map(|own| (xu, own)).to_vec(),
+                more_of_xu.map(|own| (xu, own)).to_vec(),
+            ]
+            .concat(),
+        ),
+        ("joint", of_skf.map(|own| (bearing, own)).to_vec()),
+        ("iso14179_2", of_palmgren.map(|own| (bearing, own)).to_vec()),
+        (
+            "iso14179_2",
+            vec![("meshes.*.model.coefficients", ("load_exponent", 0.27))],
+        ),
+    ] {
+        let published = transmission(&language, "examples/two-speed-ev/gearbox.yaml", Some(set));
+        let mut choice = Choice::of_set(set);
+        for (at, (name, value)) in &changes {
+            choice = choice.with(format!("{at}.{name}"), *value);
+        }
+        let changed = two_speed(&language)
+            .transmission(&language, &choice)
+            .unwrap_or_else(|found| panic!("{}", found.render()));
+        let loss = |t: &Transmission| {
+            let case = t.case("first", &["input"], &["input"]).unwrap();
+            let point = Point {
+                speeds: &[4321.0 * RPM],
+                torques: &[9.0],
+                ..Point::default()
+            };
+            t.evaluate(&case, &point, &[80.0], &mut t.scratch(&case))
+                .loss()
+                .unwrap()
+        };
+        assert!(
+            (loss(&published) / loss(&changed) - 1.0).abs() > 1e-4,
+            "{set}: {changes:?}"
+        );
+        let mut count = Count::default();
+        compare(&changed, &speeds, &torques, &[100.0, 20.0], &mut count);
+        assert!(count.together > count.alone, "{set}: {count:?}");
+    }
+}
+
+#[test]
 fn what_was_seen_is_the_same_taken_in_one_go_or_in_the_middle_of_a_row() {
     let language = language();
     let t = transmission(&language, "examples/two-speed-ev/gearbox.yaml", Some("joint"));

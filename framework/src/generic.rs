@@ -5,7 +5,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::description::Ordered;
-use crate::document::{Diagnostic, Unit};
+use crate::document::{Diagnostic, Unit, did_you_mean};
 use crate::formula::Formula;
 use crate::loss::{Limit, Loss, Undefined};
 use crate::mechanism::gear_drag::Scope;
@@ -160,12 +160,19 @@ struct FormulaParams {
     formula: String,
 }
 
-/// A table over one to four quantities of the context, from a CSV file.
+/// A table over one to four quantities of the context, from a CSV file or written in the document.
 #[derive(Deserialize, JsonSchema)]
 struct TableParams {
     /// CSV file: a column for each axis, named as a quantity with its unit, such as `speed [rpm]`, then a column for the
     /// answer, or several whose sum it is. One row for each point of the grid.
-    file: String,
+    file: Option<String>,
+    /// Axes of a table in the document, in place of `file`: rising values by quantity, such as `{ speed: [0, 1000] }`, in the units
+    /// that `gearloss models` lists.
+    axes: Option<Axes>,
+    /// Answers of a table in the document in the unit of the mechanism's answer, the last axis running fastest. Each has a path
+    /// of its own, such as `model.values.2`. [-]
+    #[schemars(inner(range(min = 0.0)), length(min = 2))]
+    values: Option<Vec<f64>>,
     /// What holds beyond the ends of the table.
     #[serde(default)]
     outside: Outside,
@@ -175,6 +182,30 @@ struct TableParams {
     /// Scale of each axis by its name, and of the answer as `answer`; others are linear, or as the mechanism says.
     #[serde(default)]
     scale: Ordered<Scale>,
+}
+
+/// Values of axes by the name of the quantity, in its documented unit.
+#[derive(Deserialize)]
+struct Axes(Ordered<Vec<f64>>);
+
+impl JsonSchema for Axes {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Axes".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": "object",
+            "additionalProperties": {
+                "type": "array",
+                "description": "Rising values of one quantity.",
+                "minItems": 2,
+                "items": { "type": "number", "description": "A value in the unit of the quantity. [-]" },
+            },
+        })
+    }
 }
 
 fn constant_schema<M: Mechanism>(_: &mut SchemaGenerator) -> Schema {
@@ -235,6 +266,48 @@ impl<M: Mechanism> Lookup<M> {
                 .mend("leave one column for the answer; each axis is named as a quantity"));
         }
         Ok(lookup)
+    }
+
+    /// A table that the document states: rising values of quantities in their documented units, and the answers.
+    ///
+    /// # Errors
+    /// If a quantity is unknown, an axis does not rise, or the number of values does not fit.
+    fn stated(
+        stated: &[(String, Vec<f64>)],
+        values: Vec<f64>,
+        reading: &Reading,
+        cx: &Build<'_>,
+    ) -> Result<Self, Diagnostic> {
+        let mut axes = Vec::new();
+        for (name, _) in stated {
+            let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
+            let quantity = M::QUANTITIES.iter().find(|q| q.name == *name).ok_or_else(|| {
+                let error = cx.error(format!("`axes`: the context of {} has no quantity `{name}`", M::KEY));
+                error.mend(match did_you_mean(name, names.iter().copied()) {
+                    Some(close) => format!("write `{close}`"),
+                    None => format!("name one of {}", names.join(", ")),
+                })
+            })?;
+            if let Some(needed) = cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
+                return Err(cx
+                    .error(format!("`axes`: `{name}` is not known here"))
+                    .mend(format!("state {needed}")));
+            }
+            axes.push(quantity);
+        }
+        let grid = stated.iter().zip(&axes).map(|((name, values), quantity)| table::Axis {
+            name: name.clone(),
+            unit: quantity.unit().symbol.to_owned(),
+            values: values.clone(),
+        });
+        let table = Table::from_grid(grid.collect(), values, reading).map_err(|reason| {
+            cx.error(reason)
+                .mend("write one value for each point of the grid, the last axis running fastest, and axes that rise")
+        })?;
+        Ok(Self {
+            tables: vec![table],
+            axes,
+        })
     }
 
     /// Reads a CSV file whose answers, in `unit`, add up.
@@ -370,6 +443,14 @@ fn build_table<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built,
         scales: params.scale.0,
         usually_log: M::LOGARITHMIC,
     };
-    let lookup = Lookup::read_sum(&params.file, &reading, unit, cx)?;
+    let lookup = match (params.file, params.axes, params.values) {
+        (Some(file), None, None) => Lookup::read_sum(&file, &reading, unit, cx)?,
+        (None, Some(axes), Some(values)) => Lookup::stated(&axes.0.0, values, &reading, cx)?,
+        _ => {
+            return Err(cx.error("table needs `file`, or `axes` and `values`").mend(
+                "write `file: NAME.csv`, or the table itself: `axes: { speed: [0, 1000] }, values: [0.1, 0.3]`",
+            ));
+        }
+    };
     built::<M>(Law::Table(lookup), cx)
 }

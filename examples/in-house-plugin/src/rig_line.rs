@@ -6,6 +6,14 @@ const VISCOUS: Term = Term::no_load(0, "viscous");
 const LOADED: Term = Term::load(1, "loaded");
 const SPEED: Limit = Limit::new(0, "n", "1/min", 200.0, 9000.0, "speeds on the rig");
 
+coefficients! {
+    /// Constants of the line through the points of the rig.
+    struct Constants {
+        /// Exponent of viscosity in mm2/s times speed in 1/min; 0.6 to 0.75 on single bearings of the rig.
+        speed_exponent = 2.0 / 3.0, in 0.6..=0.75;
+    }
+}
+
 /// Friction of ball bearings as measured on the rig: one part with oil and speed, one with load.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct RigLine {
@@ -16,6 +24,8 @@ pub struct RigLine {
     /// Coefficient of the part with load. [-]
     #[schemars(range(min = 0.0, max = 0.01))]
     pub loaded: f64,
+    #[serde(default)]
+    coefficients: Constants,
 }
 
 fn viscous() -> f64 {
@@ -29,7 +39,7 @@ impl BearingModel for RigLine {
         let m_0 = at.show(
             "M_0",
             "N mm",
-            1e-7 * self.viscous * (at.nu.mm2_s() * n).powf(2.0 / 3.0) * d_m.powi(3),
+            1e-7 * self.viscous * (at.nu.mm2_s() * n).powf(self.coefficients.speed_exponent) * d_m.powi(3),
         );
         let m_1 = at.show("M_1", "N mm", self.loaded * at.radial * d_m);
         Ok(Loss::MOMENTS

@@ -102,17 +102,40 @@ pub(super) fn write(value: &mut Value, path: &str, new: Value) -> bool {
     }
 }
 
+/// The file that holds a table whose values a path means.
+fn file_of<'a>(at: &'a Value, path: &str, key: &str) -> Option<&'a str> {
+    if path.ends_with(".file") {
+        return at.as_str();
+    }
+    let means_values = ["values", "table", "axes"].contains(&key) || key.parse::<usize>().is_ok();
+    at.get("file").and_then(Value::as_str).filter(|_| means_values)
+}
+
 /// The error for a pattern that meets nothing: names the first key that fails.
 pub(crate) fn no_match(value: &Value, pattern: &str) -> Diagnostic {
     let mut at = value;
     let mut good = String::new();
     for key in pattern.split('.') {
         let next = if key == "*" {
-            at.as_object().and_then(|m| m.values().next())
+            at.as_object()
+                .and_then(|m| m.values().next())
+                .or_else(|| at.as_array().and_then(|list| list.first()))
         } else {
             step(at, key)
         };
         let Some(next) = next else {
+            if let Some(file) = file_of(at, &good, key) {
+                let error = Diagnostic::error(pattern, format!("the values of the table are in the file `{file}`"));
+                return error.mend(
+                    "only values of the document have paths: write the table there, as `axes:` and `values:` of `type: table` in \
+                     place of `file:`",
+                );
+            }
+            if let Some(list) = at.as_array() {
+                let last = list.len().saturating_sub(1);
+                let error = Diagnostic::error(pattern, format!("`{good}` is a list and has no entry `{key}`"));
+                return error.mend(format!("write a number from 0 to {last}, or `*` for all"));
+            }
             let place = if good.is_empty() {
                 "the resolved document".to_owned()
             } else {
@@ -170,5 +193,32 @@ mod tests {
             "{}",
             error.message
         );
+    }
+
+    #[test]
+    fn entries_of_lists_have_paths_and_those_of_files_have_none() {
+        let value = json!({ "seals": { "D1": { "model": { "type": "table", "values": [1.0, 2.0] } },
+                                       "D2": { "model": { "type": "table", "file": "d2.csv" } } } });
+        assert_eq!(
+            matches(&value, "seals.D1.model.values.*"),
+            ["seals.D1.model.values.0", "seals.D1.model.values.1"]
+        );
+        let said = |path: &str| {
+            let error = no_match(&value, path);
+            format!("{}; {}", error.message, error.mend.unwrap_or_default())
+        };
+        assert_eq!(
+            said("seals.D1.model.values.2"),
+            "`seals.D1.model.values` is a list and has no entry `2`; write a number from 0 to 1, or `*` for all"
+        );
+        for path in [
+            "seals.D2.model.values.1",
+            "seals.D2.model.table.values.1",
+            "seals.D2.model.file.1",
+        ] {
+            assert!(
+                said(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
+            );
+        }
     }
 }
