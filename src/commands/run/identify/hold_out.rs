@@ -154,11 +154,11 @@ pub fn show(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> 
     for own in &held.quantities {
         let (what, unit) = own.quantity.words(Difference::Points);
         out.line(format!(
-            "{what} of rows that were fitted, and of rows that were held out:"
+            "errors of the {what} in rows that were fitted and in rows that were held out, in {unit}:"
         ))?;
-        out.text(&summaries(own, unit))?;
+        out.text(&summaries(own))?;
         if own.regions.iter().any(|r| r.held_out.is_some()) {
-            out.text(&by_region(own, unit))?;
+            out.text(&by_region(own))?;
         }
         if let Some(words) = own.verdict(&held.choice.words) {
             runner.verdict(format!("{name}: {words}"), out)?;
