@@ -2,34 +2,51 @@
 //!
 //! What a file looks like is recognised and told, or stated; a unit that stands nowhere is an error, not a guess.
 
+mod accuracies;
+mod columns;
 mod condition;
+mod files;
+mod read;
 mod rig;
 mod seen;
+mod steady;
 pub(crate) mod text;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::analysis::PointResult;
 use crate::description::Ordered;
-use crate::document::{Dimension, Unit};
 
+use columns::KNOWN;
+
+pub use accuracies::{
+    Accuracies, AccuraciesEntry, EfficiencyAccuracyEntry, LossAccuracyEntry, LossTorqueAccuracyEntry,
+    TemperatureAccuracyEntry,
+};
+pub(crate) use columns::scale;
+pub use columns::{ChangedColumnEntry, ColumnEntry};
 pub use condition::{Condition, ConditionFault};
+pub use files::{FileEntry, MeasuredFile, MeasuredFiles, OwnFileEntry};
 pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportLossEntry, TorqueMeterEntry};
 pub use seen::{Seen, counted};
+pub use steady::{SteadyEntry, SteadyLimitsEntry, Stretch};
 pub use text::{Decimal, Encoding, Separator};
 
-/// A file of measured points, and how to read it.
+/// Files of measured points, and how to read them.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeasuredEntry {
-    /// CSV file beside the study.
-    pub file: String,
+    /// CSV file beside the study, or a list of files with the same quantities.
+    pub file: MeasuredFiles,
     /// What a reader of the report has to know of these data: where they come from, or that they are synthetic.
     pub about: Option<String>,
-    /// Column of each quantity, where it is not named as the quantity: `torque: T_in`. Quantities: `torque` and `speed` at the
+    /// Column of each quantity, where it is not named as the quantity: `torque: T_in`, or with a factor and a sign
+    /// `torque: { column: T_in, scale: 0.001, sign: -1 }`. Quantities: `torque` and `speed` at the
     /// ports of the conditions, `torque_out`, `speed_out`, `efficiency`, `loss`, `loss_torque`, `oil_temperature`,
-    /// `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as `efficiency_accuracy`.
+    /// `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as `efficiency_accuracy`. Torque and speed may
+    /// both be given at the other port alone, by `torque_out` and `speed_out`.
     #[serde(default)]
-    pub columns: Ordered<String>,
+    pub columns: Ordered<ColumnEntry>,
     /// Unit of each quantity, where neither the header nor a row of units states it: `efficiency: "%"`.
     #[serde(default)]
     pub units: Ordered<String>,
@@ -42,13 +59,22 @@ pub struct MeasuredEntry {
     /// What happens to a row with blanks or text where a number is due.
     #[serde(default)]
     pub faulty_rows: FaultyRows,
-    /// What accuracies in columns and of the instruments mean.
+    /// Condition on the rows that count: `torque > 10 Nm and speed < 3000 rpm`. Quantities, bound columns and headers; `==`, `!=`,
+    /// `<`, `<=`, `>`, `>=`, `and`, `or`, `not`, parentheses. Of a time series it chooses among the steady stretches.
+    pub rows: Option<String>,
+    /// Steady stretches of a time series: each becomes one point.
+    pub steady: Option<SteadyEntry>,
+    /// What accuracies in columns, of quantities and of the instruments mean.
     #[serde(default)]
     pub stated_as: StatedAs,
     /// Coverage factor of expanded accuracies. [-]
     #[serde(default = "two")]
     #[schemars(range(min = 1.0, max = 10.0))]
     pub coverage_factor: f64,
+    /// Accuracy of measured quantities in percent of the reading and of the full scale. A column such as `loss_accuracy` takes
+    /// precedence.
+    #[serde(default)]
+    pub accuracies: AccuraciesEntry,
     /// The rig: what its meters and bearings add, and how accurate it is where no column says it.
     #[serde(default)]
     pub rig: RigEntry,
@@ -72,42 +98,12 @@ pub enum FaultyRows {
     Keep,
 }
 
-/// A quantity that a file may hold.
-struct Known {
-    name: &'static str,
-    /// Documented unit; empty for texts, a dash for shares.
-    unit: &'static str,
-}
-
-const fn known(name: &'static str, unit: &'static str) -> Known {
-    Known { name, unit }
-}
-
-/// All quantities; SI after reading, shares as numbers of one.
-const KNOWN: [Known; 17] = [
-    known("torque", "Nm"),
-    known("speed", "rpm"),
-    known("torque_out", "Nm"),
-    known("speed_out", "rpm"),
-    known("efficiency", "-"),
-    known("loss", "W"),
-    known("loss_torque", "Nm"),
-    known("oil_temperature", "degC"),
-    known("weight", "-"),
-    known("efficiency_accuracy", "-"),
-    known("loss_accuracy", "W"),
-    known("loss_torque_accuracy", "Nm"),
-    known("oil_temperature_accuracy", "K"),
-    known("surface_temperature", "degC"),
-    known("surface_temperature_accuracy", "K"),
-    known("gear", ""),
-    known("name", ""),
-];
-
 /// One measured point; SI, temperatures in degC.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Row {
-    /// Line in the file.
+    /// Number of its file among [`Measured::files`].
+    pub file: usize,
+    /// Line in the file; the first one where several were averaged.
     pub line: u64,
     /// Name, where the file has names.
     pub name: Option<String>,
@@ -117,8 +113,11 @@ pub struct Row {
     pub values: Vec<Option<f64>>,
     /// Bound values as written, with their units.
     pub bound: Vec<String>,
-    /// All cells of the row by the places of [`Measured::columns`], numbers with a decimal point.
+    /// All cells of the row by the places of [`Measured::columns`], numbers with a decimal point; empty where several rows were
+    /// averaged.
     pub cells: Vec<String>,
+    /// What was averaged, where the point is a steady stretch of a time series.
+    pub stretch: Option<Stretch>,
 }
 
 /// A column of a file as its header states it.
@@ -135,9 +134,11 @@ pub struct FileColumn {
 /// What was read.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Measured {
+    /// Names of the files in messages.
+    pub files: Vec<String>,
     /// Names of the numeric quantities that the file holds.
     pub quantities: Vec<&'static str>,
-    /// All columns of the file.
+    /// All columns of the file, of the first one where there are several.
     pub columns: Vec<FileColumn>,
     /// The points.
     pub rows: Vec<Row>,
@@ -149,15 +150,22 @@ pub struct Measured {
     pub rig: Rig,
     /// Instruments, where both torque meters are stated.
     pub instruments: Option<Instruments>,
+    /// Accuracies of quantities, where no column states them.
+    pub accuracies: Accuracies,
     /// Standard deviation of the oil's temperature, where no column says it. \[K\]
     pub oil_temperature: Option<f64>,
+    /// True where `torque` was read from `torque_out`: the torque at the other port than that of the conditions, positive where
+    /// power leaves a driven transmission there.
+    pub torque_at_other_port: bool,
+    /// True where `speed` was read from `speed_out`: the speed at the other port than that of the conditions, positive where the
+    /// port of the conditions turns forward.
+    pub speed_at_other_port: bool,
 }
 
 impl Measured {
     /// A quantity of a row; absent where the file or the row does not hold it.
     pub fn value(&self, row: &Row, quantity: &str) -> Option<f64> {
-        let place = self.quantities.iter().position(|q| *q == quantity)?;
-        row.values.get(place).copied().flatten()
+        row.values.get(self.place(quantity)?).copied().flatten()
     }
 
     /// Place of a column by the name under which it is bound, or by its header.
@@ -170,314 +178,110 @@ impl Measured {
     pub fn holds(&self, quantity: &str) -> bool {
         self.quantities.contains(&quantity)
     }
+
+    /// The torque of a row as it is applied to the transmission at the port where it was measured. A meter at the other port
+    /// counts positive where power leaves a driven transmission: there the torque that is applied has the other sign, or the
+    /// same one where the transmission turns the sense of rotation. \[Nm\]
+    pub fn applied_torque(&self, torque: f64, point: &PointResult) -> f64 {
+        if self.torque_at_other_port {
+            -torque * sense(point.reference_speed * point.output_speed.unwrap_or(1.0))
+        } else {
+            torque
+        }
+    }
+
+    fn place(&self, quantity: &str) -> Option<usize> {
+        self.quantities.iter().position(|q| *q == quantity)
+    }
+
+    /// Where a row stands, for messages: its line, with the file where there are several.
+    pub fn origin(&self, row: &Row) -> String {
+        match self.file(row) {
+            Some(file) => format!("{file}, line {}", row.line),
+            None => format!("line {}", row.line),
+        }
+    }
+
+    /// The line of a row for tables: with the file before a colon where there are several.
+    pub fn line(&self, row: &Row) -> String {
+        match self.file(row) {
+            Some(file) => format!("{file}:{}", row.line),
+            None => row.line.to_string(),
+        }
+    }
+
+    /// Name of the file of a row, where there are several.
+    pub fn file(&self, row: &Row) -> Option<&str> {
+        let file = self.files.get(row.file).filter(|_| self.files.len() > 1);
+        file.map(String::as_str)
+    }
+
+    /// Accuracy of a quantity in a row as it is stated, from its column or from `accuracies` at a reading.
+    pub fn stated_accuracy(&self, row: &Row, quantity: &str, reading: Option<f64>) -> Option<f64> {
+        self.value(row, &format!("{quantity}_accuracy"))
+            .or_else(|| self.accuracies.stated(quantity, reading?))
+    }
+
+    /// Standard error of the mean of a quantity, where the row is an average over a steady stretch.
+    pub fn standard_error(&self, row: &Row, quantity: &str) -> Option<f64> {
+        let stretch = row.stretch.as_ref()?;
+        stretch.standard_errors.get(self.place(quantity)?).copied().flatten()
+    }
+}
+
+/// 1, or -1 below zero.
+pub(crate) fn sense(x: f64) -> f64 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// What a fault belongs to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FaultPlace {
+    /// The key of the measurement at this path inside its entry.
+    Entry(String),
+    /// A bound column: a key of `bind` of the analysis.
+    Bind(String),
 }
 
 /// What is wrong with a file, and how to mend it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeasuredFault {
+    /// What it belongs to.
+    pub place: FaultPlace,
     /// What is wrong, with line and column.
     pub message: String,
     /// How to mend it.
     pub mend: String,
 }
 
+impl MeasuredFault {
+    /// A fault at a key of the measurement.
+    pub(crate) fn new(key: impl Into<String>, message: impl Into<String>, mend: impl Into<String>) -> Self {
+        Self {
+            place: FaultPlace::Entry(key.into()),
+            message: message.into(),
+            mend: mend.into(),
+        }
+    }
+}
+
 pub(crate) fn fault(message: impl Into<String>, mend: impl Into<String>) -> MeasuredFault {
-    MeasuredFault {
-        message: message.into(),
-        mend: mend.into(),
-    }
-}
-
-/// One column that somebody asks for.
-struct Column {
-    place: usize,
-    header: String,
-    /// Factor and offset to SI; absent for texts.
-    unit: Option<(f64, f64)>,
-    known: usize,
-}
-
-impl MeasuredEntry {
-    /// What stated accuracies are divided by to give standard deviations.
-    fn divisor(&self) -> f64 {
-        self.stated_as.divisor(self.coverage_factor)
-    }
-
-    fn form(&self) -> text::Form {
-        text::Form {
-            separator: self.separator,
-            decimal: self.decimal,
-            encoding: self.encoding,
-        }
-    }
-
-    /// Reads the bytes of the file. `bind` names columns that change the gearbox.
-    ///
-    /// # Errors
-    /// What is wrong, with line and column.
-    pub fn read(&self, bytes: &[u8], bind: &[&str]) -> Result<Measured, MeasuredFault> {
-        let mut notes = Vec::new();
-        let table = text::table(bytes, self.form(), &mut notes)?;
-        let (columns, bound) = self.columns(&table, bind)?;
-        let mut measured = Measured {
-            quantities: columns
-                .iter()
-                .filter(|c| c.unit.is_some())
-                .map(|c| KNOWN[c.known].name)
-                .collect(),
-            columns: self.file_columns(&table, &bound, bind),
-            rows: Vec::new(),
-            notes,
-            divisor: self.divisor(),
-            rig: Rig::of(&self.rig),
-            instruments: Instruments::of(&self.rig, self.divisor()),
-            oil_temperature: self.rig.oil_temperature.map(|a| a / self.divisor()),
-        };
-        let mut left_out = Vec::new();
-        for (line, cells) in &table.rows {
-            match row(*line, cells, (&columns, &bound), table.decimal, self.faulty_rows) {
-                Ok(row) => measured.rows.push(row),
-                Err(reason) if self.faulty_rows == FaultyRows::Skip => left_out.push(reason),
-                Err(reason) => {
-                    return Err(fault(
-                        reason,
-                        "correct the cell, or write `faulty_rows: skip` to leave such rows out",
-                    ));
-                }
-            }
-        }
-        if !left_out.is_empty() {
-            let count = left_out.len();
-            let shown = left_out.iter().take(5).cloned().collect::<Vec<_>>().join("; ");
-            let more = if count > 5 { "; ..." } else { "" };
-            measured.notes.push(format!("{count} rows left out: {shown}{more}"));
-        }
-        if measured.rows.is_empty() {
-            return Err(fault(
-                "no point stands below the header",
-                "check the file, its header and its separator",
-            ));
-        }
-        Ok(measured)
-    }
-
-    /// All columns as the header states them.
-    fn file_columns(&self, table: &text::Table, bound: &[(Column, String)], bind: &[&str]) -> Vec<FileColumn> {
-        let column = |(place, header): (usize, &String)| {
-            let own = bound.iter().position(|(column, _)| column.place == place);
-            let name = own.and_then(|i| bind.get(i)).map(|name| (*name).to_owned());
-            let stated = name.as_ref().and_then(|name| self.units.get(name)).cloned();
-            let unit = stated.or_else(|| table.units[place].clone());
-            // What stands in brackets need not be a unit.
-            let has_dimension =
-                |unit: &String| unit == "%" || Unit::of_symbol(unit).is_some_and(|u| u.dimension != Dimension::None);
-            FileColumn {
-                header: header.clone(),
-                unit: unit.filter(has_dimension),
-                bound: name,
-            }
-        };
-        table.names.iter().enumerate().map(column).collect()
-    }
-
-    /// The columns that hold quantities, and those that are bound, with their units.
-    fn columns(
-        &self,
-        table: &text::Table,
-        bind: &[&str],
-    ) -> Result<(Vec<Column>, Vec<(Column, String)>), MeasuredFault> {
-        let names = || table.names.join(", ");
-        for (quantity, _) in self.columns.iter().chain(self.units.iter()) {
-            if !KNOWN.iter().any(|k| k.name == quantity) && !bind.contains(&quantity) {
-                let all: Vec<&str> = KNOWN.iter().map(|k| k.name).collect();
-                return Err(fault(
-                    format!("`{quantity}` is no measured quantity"),
-                    format!("the quantities are {}", all.join(", ")),
-                ));
-            }
-        }
-        let find = |quantity: &str| -> Result<Option<usize>, MeasuredFault> {
-            let written = self.columns.get(quantity);
-            let header = written.map_or(quantity, String::as_str);
-            let place = table.names.iter().position(|n| n == header);
-            match (place, written) {
-                (None, Some(header)) => Err(fault(
-                    format!(
-                        "line {}: no column is called `{header}`; there are: {}",
-                        table.header_line,
-                        names()
-                    ),
-                    "name one of them under `columns`",
-                )),
-                (place, _) => Ok(place),
-            }
-        };
-        let stated = |quantity: &str, place: usize| -> Option<String> {
-            let own = self.units.get(quantity).cloned();
-            own.or_else(|| table.units[place].clone())
-        };
-        let mut columns = Vec::new();
-        for (i, known) in KNOWN.iter().enumerate() {
-            let Some(place) = find(known.name)? else { continue };
-            let header = table.names[place].clone();
-            let unit = if known.unit.is_empty() {
-                None
-            } else {
-                Some(scale(
-                    (known.name, known.unit),
-                    stated(known.name, place).as_deref(),
-                    &header,
-                )?)
-            };
-            columns.push(Column {
-                place,
-                header,
-                unit,
-                known: i,
-            });
-        }
-        for due in ["torque", "speed"] {
-            if !columns.iter().any(|c| KNOWN[c.known].name == due) {
-                return Err(fault(
-                    format!(
-                        "line {}: no column holds the {due}; there are: {}",
-                        table.header_line,
-                        names()
-                    ),
-                    format!("name one under `columns: {{ {due}: ... }}`"),
-                ));
-            }
-        }
-        let mut bound = Vec::new();
-        for name in bind {
-            let Some(place) = find(name)? else {
-                return Err(fault(
-                    format!(
-                        "line {}: no column is called `{name}`, which is bound; there are: {}",
-                        table.header_line,
-                        names()
-                    ),
-                    "name a column of the file, or take it out of `bind`",
-                ));
-            };
-            let unit = stated(name, place).unwrap_or_default();
-            if !unit.is_empty() && Unit::of_symbol(&unit).is_none() {
-                return Err(fault(
-                    format!("line {}: `{unit}` of column `{name}` is no unit", table.header_line),
-                    "write a unit such as [ml]",
-                ));
-            }
-            let column = Column {
-                place,
-                header: table.names[place].clone(),
-                unit: Some((1.0, 0.0)),
-                known: 0,
-            };
-            bound.push((column, unit));
-        }
-        Ok((columns, bound))
-    }
-}
-
-/// Factor and offset of a unit to SI.
-pub(crate) fn scale((name, due): (&str, &str), unit: Option<&str>, header: &str) -> Result<(f64, f64), MeasuredFault> {
-    let mend = |example: &str| format!("state it: `units: {{ {name}: {example} }}`");
-    if due == "-" {
-        return match unit {
-            Some("%") => Ok((0.01, 0.0)),
-            Some("-" | "1") => Ok((1.0, 0.0)),
-            None if ["weight", "share"].contains(&name) => Ok((1.0, 0.0)),
-            Some(other) => Err(fault(
-                format!("column `{header}`: `{other}` is no unit of {name}"),
-                mend("\"%\""),
-            )),
-            None => Err(fault(
-                format!("column `{header}`: no unit says whether it is in percent"),
-                mend("\"%\""),
-            )),
-        };
-    }
-    let Some(symbol) = unit else {
-        return Err(fault(format!("column `{header}` has no unit"), mend(due)));
-    };
-    let wanted = Unit::of_symbol(due).unwrap_or(Unit::ONE);
-    match Unit::of_symbol(symbol) {
-        Some(unit) if unit.dimension == wanted.dimension => Ok((unit.factor, unit.offset)),
-        _ => Err(fault(
-            format!(
-                "column `{header}`: `{symbol}` is no unit of {}",
-                wanted.dimension.name()
-            ),
-            mend(due),
-        )),
-    }
-}
-
-fn row(
-    line: u64,
-    cells: &[String],
-    (columns, bound): (&[Column], &[(Column, String)]),
-    decimal: Decimal,
-    faulty: FaultyRows,
-) -> Result<Row, String> {
-    let number = |column: &Column| text::number(decimal, (line, cells), (column.place, &column.header));
-    let mut row = Row { line, ..Row::default() };
-    for column in columns {
-        let text = || cells.get(column.place).filter(|c| !c.is_empty()).cloned();
-        match (column.unit, KNOWN[column.known].name) {
-            (Some(_), name)
-                if faulty == FaultyRows::Keep && text().is_none() && !["torque", "speed"].contains(&name) =>
-            {
-                row.values.push(None);
-            }
-            (Some((factor, offset)), name) => {
-                let value = number(column)? * factor + offset;
-                if value < 0.0 && (name.ends_with("_accuracy") || name == "weight") {
-                    let at = format!("line {line}, column {} `{}`", column.place + 1, column.header);
-                    return Err(format!("{at}: {value} is below zero"));
-                }
-                if name == "efficiency" && !(-0.2..=1.2).contains(&value) {
-                    let at = format!("line {line}, column {} `{}`", column.place + 1, column.header);
-                    return Err(format!("{at}: an efficiency of {value}; state its unit, `%` or `-`"));
-                }
-                row.values.push(Some(value));
-            }
-            (None, "gear") => row.gear = text(),
-            (None, _) => row.name = text(),
-        }
-    }
-    let plain = |cell: &String| match decimal {
-        Decimal::Comma if decimal.number(cell).is_some() => cell.replace(',', "."),
-        _ => cell.clone(),
-    };
-    row.cells = cells.iter().map(plain).collect();
-    for (column, unit) in bound {
-        row.bound.push(format!("{} {unit}", number(column)?).trim().to_owned());
-    }
-    Ok(row)
+    MeasuredFault::new("", message, mend)
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     #![allow(clippy::unwrap_used)]
+    use serde_json::json;
+
     use super::*;
 
     pub(crate) fn entry(columns: &[(&str, &str)], units: &[(&str, &str)]) -> MeasuredEntry {
-        let list =
-            |pairs: &[(&str, &str)]| Ordered(pairs.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect());
-        MeasuredEntry {
-            about: None,
-            file: "rig.csv".to_owned(),
-            columns: list(columns),
-            units: list(units),
-            separator: None,
-            decimal: None,
-            encoding: None,
-            faulty_rows: FaultyRows::Refuse,
-            stated_as: StatedAs::Standard,
-            coverage_factor: 2.0,
-            rig: RigEntry::default(),
-        }
+        let map = |pairs: &[(&str, &str)]| -> serde_json::Map<String, serde_json::Value> {
+            pairs.iter().map(|(a, b)| ((*a).to_owned(), (*b).into())).collect()
+        };
+        let entry = json!({ "file": "rig.csv", "columns": map(columns), "units": map(units), "stated_as": "standard" });
+        serde_json::from_value(entry).unwrap()
     }
 
     fn close(a: f64, b: f64) -> bool {
@@ -528,8 +332,9 @@ pub(crate) mod tests {
     #[test]
     fn nothing_is_guessed() {
         let refused = |entry: &MeasuredEntry, text: &str| {
-            let fault = entry.read(text.as_bytes(), &[]).unwrap_err();
-            format!("{}: {}", fault.message, fault.mend)
+            let faults = entry.read(text.as_bytes(), &[]).unwrap_err();
+            let told = faults.iter().map(|fault| format!("{}: {}", fault.message, fault.mend));
+            told.collect::<Vec<_>>().join("\n")
         };
         let plain = entry(&[], &[]);
         assert!(refused(&plain, "torque,speed [rpm]\n1,2\n").contains("column `torque` has no unit"));
@@ -558,7 +363,7 @@ pub(crate) mod tests {
     fn faulty_rows_are_refused_or_left_out_and_told() {
         let text = b"torque [Nm],speed [rpm],loss [W]\n1,2,3\n1,2,\n1,x,3\n";
         let mut rig = entry(&[], &[]);
-        let refused = rig.read(text, &[]).unwrap_err();
+        let refused = rig.read(text, &[]).unwrap_err().remove(0);
         assert!(refused.message.contains("line 3, column 3 `loss`: empty") && refused.mend.contains("skip"));
         rig.faulty_rows = FaultyRows::Skip;
         let read = rig.read(text, &[]).unwrap();
@@ -578,7 +383,194 @@ pub(crate) mod tests {
         assert_eq!(read.rows[0].bound, ["60.5 ml"]);
         let fault = entry(&[], &[])
             .read(b"torque [Nm];speed [rpm]\n1;2\n", &["volume"])
-            .unwrap_err();
+            .unwrap_err()
+            .remove(0);
         assert!(fault.message.contains("`volume`, which is bound"));
+        assert_eq!(fault.place, FaultPlace::Bind("volume".to_owned()));
+    }
+
+    fn changed(entry: serde_json::Value) -> MeasuredEntry {
+        serde_json::from_value(entry).unwrap()
+    }
+
+    #[test]
+    fn columns_are_scaled_and_turned_before_their_unit() {
+        let rig = changed(json!({
+            "file": "rig.csv",
+            "columns": { "torque": { "column": "T_wheel", "scale": 0.5, "sign": -1.0 } },
+        }));
+        let read = rig.read(b"T_wheel [kNm],speed [rpm]\n-0.2,3000\n", &[]).unwrap();
+        assert!(close(read.value(&read.rows[0], "torque").unwrap(), 100.0));
+        assert!(
+            read.notes
+                .contains(&"column `T_wheel` counts times 0.5, with the other sign as torque".to_owned()),
+            "{:?}",
+            read.notes
+        );
+        for (scale, sign, told) in [(0.0, 1.0, "a scale of zero"), (1.0, 0.5, "a sign of 0.5")] {
+            let rig = changed(json!({
+                "file": "rig.csv",
+                "columns": { "torque": { "column": "T", "scale": scale, "sign": sign } },
+            }));
+            let fault = rig.read(b"T [Nm],speed [rpm]\n1,2\n", &[]).unwrap_err().remove(0);
+            assert!(fault.message.contains(told), "{}", fault.message);
+            assert_eq!(fault.place, FaultPlace::Entry("columns.torque".to_owned()));
+        }
+    }
+
+    #[test]
+    fn temperatures_may_be_in_kelvins() {
+        for (unit, cell) in [
+            ("K", "353.15"),
+            ("°C", "80"),
+            ("C", "80"),
+            ("degC", "80"),
+            ("degF", "176"),
+        ] {
+            let text = format!("torque [Nm],speed [rpm],oil_temperature [{unit}]\n1,2,{cell}\n");
+            let read = entry(&[], &[]).read(text.as_bytes(), &[]).unwrap();
+            let oil = read.value(&read.rows[0], "oil_temperature").unwrap();
+            assert!((oil - 80.0).abs() < 1e-9, "{unit} {oil}");
+        }
+        let text = "torque [Nm],speed [rpm],oil_temperature [K]\n1,2,-5\n";
+        let fault = entry(&[], &[]).read(text.as_bytes(), &[]).unwrap_err().remove(0);
+        assert!(fault.message.contains("below absolute zero"), "{}", fault.message);
+    }
+
+    #[test]
+    fn everything_that_is_wrong_is_told_at_once() {
+        let mut rig = entry(&[("loss", "P_loss"), ("efficency", "eta")], &[]);
+        rig.columns.0.push(("efficiency".to_owned(), "eta".into()));
+        let faults = rig
+            .read(b"torque,speed [rpm],P_los [W],eta\n1,2,3,0.9\n1,x,3,0.9\n", &[])
+            .unwrap_err();
+        let places: Vec<&FaultPlace> = faults.iter().map(|fault| &fault.place).collect();
+        let keys = [
+            "columns.efficency",
+            "units.torque",
+            "units.efficiency",
+            "columns.loss",
+            "",
+        ];
+        assert_eq!(
+            places,
+            keys.map(|key| FaultPlace::Entry(key.to_owned()))
+                .iter()
+                .collect::<Vec<_>>(),
+            "{faults:?}"
+        );
+        assert!(faults[0].mend.starts_with("write `efficiency`"), "{}", faults[0].mend);
+        assert_eq!(faults[3].mend, "write `P_los`");
+        assert!(
+            faults[4]
+                .message
+                .contains("line 3, column 2 `speed`: `x` is not a number")
+        );
+    }
+
+    #[test]
+    fn several_files_are_read_one_after_the_other() {
+        let rig = changed(json!({
+            "file": ["a.csv", { "file": "b.csv", "name": "second", "columns": { "torque": "T" }, "units": { "torque": "Nm" } }],
+            "faulty_rows": "skip",
+        }));
+        let contents: [&[u8]; 2] = [
+            b"torque [Nm],speed [rpm],p [bar]\n1,10,5\n2,20,6\n",
+            b"speed [rpm],T,p [bar]\n30,3,7\nx,4,8\n",
+        ];
+        let read = rig.read_files(&contents, &[], &[]).unwrap();
+        let torques: Vec<f64> = read.rows.iter().map(|row| read.value(row, "torque").unwrap()).collect();
+        assert_eq!(torques, [1.0, 2.0, 3.0]);
+        assert_eq!(read.origin(&read.rows[2]), "second, line 2");
+        // The column of the torque has another header here.
+        assert_eq!(read.rows[2].cells, ["", "30", "7"].map(str::to_owned));
+        assert!(
+            read.notes[0].starts_with("second: 1 rows left out: line 3"),
+            "{:?}",
+            read.notes
+        );
+        let other: [&[u8]; 2] = [contents[0], b"speed [rpm],T,loss [W]\n30,3,7\n"];
+        let fault = rig.read_files(&other, &[], &[]).unwrap_err().remove(0);
+        assert_eq!(fault.message, "second: unlike a.csv it holds `loss` beside");
+        let twice = changed(json!({ "file": ["a.csv", "a.csv"] }));
+        let fault = twice
+            .read_files(&[contents[0], contents[0]], &[], &[])
+            .unwrap_err()
+            .remove(0);
+        assert!(fault.message.contains("listed twice"), "{}", fault.message);
+    }
+
+    #[test]
+    fn torque_and_speed_may_stand_at_the_other_port_alone() {
+        let read = entry(&[], &[])
+            .read(b"torque_out [Nm],speed_out [rpm],loss [W]\n100,300,50\n", &[])
+            .unwrap();
+        assert!(read.torque_at_other_port && read.speed_at_other_port);
+        assert!(close(read.value(&read.rows[0], "torque").unwrap(), 100.0));
+        let read = entry(&[], &[])
+            .read(b"torque [Nm],speed_out [rpm],torque_out [Nm]\n10,300,99\n", &[])
+            .unwrap();
+        assert!(!read.torque_at_other_port && read.speed_at_other_port);
+        let renamed = entry(&[("torque_out", "torque"), ("speed_out", "speed")], &[]);
+        let read = renamed
+            .read(b"torque [Nm],speed [rpm],loss [W]\n100,300,50\n", &[])
+            .unwrap();
+        assert!(read.torque_at_other_port && read.speed_at_other_port);
+    }
+
+    #[test]
+    fn rows_are_filtered_and_counted() {
+        let text = b"torque [Nm],speed [rpm],loss [W]\n5,1000,1\n20,1000,2\n20,5000,3\n";
+        let rig = changed(json!({ "file": "rig.csv", "rows": "torque > 10 Nm and speed < 3000 rpm" }));
+        let read = rig.read(text, &[]).unwrap();
+        assert_eq!(read.rows.iter().map(|row| row.line).collect::<Vec<_>>(), [3]);
+        assert!(
+            read.notes.iter().any(|note| note.contains("2 of 3 rows are left out")),
+            "{:?}",
+            read.notes
+        );
+        for (rows, told) in [
+            ("torque > 10", "no unit"),
+            ("torqe > 1 Nm", "torqe"),
+            ("torque > 100 Nm", "no row meets"),
+        ] {
+            let rig = changed(json!({ "file": "rig.csv", "rows": rows }));
+            let fault = rig.read(text, &[]).unwrap_err().remove(0);
+            assert!(fault.message.contains(told), "{}", fault.message);
+            assert_eq!(fault.place, FaultPlace::Entry("rows".to_owned()));
+        }
+    }
+
+    #[test]
+    fn a_time_series_becomes_one_point_for_each_steady_stretch() {
+        let rig = changed(json!({
+            "file": "rig.csv",
+            "units": { "time": "s" },
+            "steady": { "time": "t", "window": 10.0, "drift": { "torque": 0.5 } },
+            "accuracies": { "loss": { "absolute": 3.0 } },
+            "stated_as": "standard",
+        }));
+        let mut text = "t,torque [Nm],speed [rpm],loss [W]\n".to_owned();
+        for k in 0..300 {
+            let torque = if k < 150 { 10.0 } else { 20.0 };
+            let loss = 100.0 + f64::from(k % 2);
+            text.push_str(&format!("{},{torque},1000,{loss}\n", 0.1 * f64::from(k)));
+        }
+        let read = rig.read(text.as_bytes(), &[]).unwrap();
+        let losses: Vec<f64> = read.rows.iter().map(|row| read.value(row, "loss").unwrap()).collect();
+        assert!(
+            losses.len() == 2 && losses.iter().all(|loss| (loss - 100.5).abs() < 0.02),
+            "{losses:?}"
+        );
+        assert!(read.standard_error(&read.rows[0], "loss").unwrap() < 0.1);
+        assert!(
+            read.notes.iter().any(|note| note.starts_with("2 steady stretches")),
+            "{:?}",
+            read.notes
+        );
+        let mut loose = rig.clone();
+        loose.steady.as_mut().unwrap().drift = SteadyLimitsEntry::default();
+        let fault = loose.read(text.as_bytes(), &[]).unwrap_err().remove(0);
+        assert_eq!(fault.place, FaultPlace::Entry("steady.drift".to_owned()));
     }
 }

@@ -288,8 +288,10 @@ pub struct Uses<'a> {
     pub sets: Vec<&'a String>,
     /// Gear states, beside those of the grid.
     pub gears: Vec<&'a String>,
-    /// Measurements, each with the key that names it.
-    pub data: Vec<(&'static str, &'a String)>,
+    /// Data, each with the key that names it.
+    pub data: Vec<(&'static str, &'a Data)>,
+    /// Columns of the data that change the gearbox.
+    pub bind: Option<&'a Ordered<String>>,
     /// Duties.
     pub cycles: &'a [String],
     /// Vehicle.
@@ -305,6 +307,7 @@ impl<'a> Uses<'a> {
             sets: sets.into_iter().collect(),
             gears: Vec::new(),
             data: Vec::new(),
+            bind: None,
             cycles: &[],
             vehicle: None,
         }
@@ -320,8 +323,21 @@ impl<'a> Uses<'a> {
 
     fn with(self, key: &'static str, data: Option<&'a Data>) -> Self {
         let mut uses = self;
-        uses.data.extend(data.and_then(Data::name).map(|name| (key, name)));
+        uses.data.extend(data.map(|data| (key, data)));
         uses
+    }
+
+    fn bind(self, bind: &'a Ordered<String>) -> Self {
+        Self {
+            bind: Some(bind),
+            ..self
+        }
+    }
+
+    /// Columns of the data at a key that change the gearbox; measured points beside the points of a map bind none.
+    pub fn bound_of(&self, key: &str) -> Vec<&'a str> {
+        let bind = self.bind.filter(|_| key != "measured");
+        bind.map_or_else(Vec::new, |bind| bind.ids().collect())
     }
 
     fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
@@ -338,6 +354,7 @@ impl Analysis {
                 grid: e.grid.as_ref(),
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
                     .at(&e.gear)
+                    .bind(&e.bind)
                     .with("points", e.points.as_ref())
                     .with("measured", e.measured.as_ref())
             },
@@ -345,6 +362,7 @@ impl Analysis {
                 grid: e.grid.as_ref(),
                 ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against))
                     .at(&e.gear)
+                    .bind(&e.bind)
                     .with("data", e.data.as_ref())
             },
             Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets)
@@ -358,6 +376,7 @@ impl Analysis {
             Self::ContactPath(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
             Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets)
                 .at(&e.gear)
+                .bind(&e.bind)
                 .with("data", Some(&e.data)),
             Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
             Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
@@ -373,6 +392,7 @@ impl Analysis {
                 grid_key: "next.grid",
                 ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
                     .at(&e.gear)
+                    .bind(&e.bind)
                     .with("data", Some(&e.data))
             },
             Self::Uncertainty(e) => Uses {
@@ -381,6 +401,7 @@ impl Analysis {
             },
             Self::RmsSurface(e) => Uses::new(e.gearbox.as_ref(), &e.against)
                 .at(&e.gear)
+                .bind(&e.bind)
                 .with("data", Some(&e.data)),
             Self::Cycle(e) => Uses::driving(&e.drive),
             Self::FluidSweep(e) => Uses::driving(&e.drive),

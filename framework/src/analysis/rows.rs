@@ -9,7 +9,7 @@ use crate::evaluate::PowerFlow;
 use crate::gearbox::{Findings, Gearbox};
 use crate::language::Language;
 use crate::loss::Extent;
-use crate::measured::{Measured, PortSpeeds, Rig, Row};
+use crate::measured::{Measured, PortSpeeds, Rig, Row, sense};
 use crate::resolve::{Choice, Resolved};
 use crate::transmission::Transmission;
 
@@ -70,6 +70,8 @@ impl Rows<'_> {
                 .extend(values.map(|(path, text)| ((*path).to_owned(), bound_value(text))));
             let resolved = gearbox.resolve(language, &choice)?;
             let transmission = gearbox.build(language, &resolved)?;
+            self.ports_fit(&transmission)
+                .map_err(|error| Findings::from(vec![error]))?;
             Ok((resolved, transmission))
         };
         self.combinations().iter().map(of).collect()
@@ -109,11 +111,65 @@ impl Rows<'_> {
         self.measured.rows.iter().map(key).collect()
     }
 
+    /// Whether the transmission has one other port than that of the conditions, where rows give torque or speed there.
+    ///
+    /// # Errors
+    /// If it is not clear which port that is.
+    pub fn ports_fit(&self, transmission: &Transmission) -> Result<(), Diagnostic> {
+        let out = match (self.measured.torque_at_other_port, self.measured.speed_at_other_port) {
+            (true, _) => "torque_out",
+            (_, true) => "speed_out",
+            _ => return Ok(()),
+        };
+        let wrong = |message: String, help: &str| Err(Diagnostic::error("", message).mend(help));
+        if self.torque_at != self.speed_at {
+            let message = format!(
+                "`{out}` alone does not say at which port it was measured: the conditions give the torque at `{}` and the speed at `{}`",
+                self.torque_at, self.speed_at
+            );
+            return wrong(
+                message,
+                "name one port in `torque_at` and `speed_at`, or the columns `torque` and `speed`",
+            );
+        }
+        match transmission.ports().len() {
+            2 => Ok(()),
+            count => wrong(
+                format!("`{out}` alone needs a gearbox with two ports; this one has {count}"),
+                "join ports as `wheels`, or name the columns `torque` and `speed` and their ports in the conditions",
+            ),
+        }
+    }
+
+    /// The port that rows count from, or the other one.
+    fn port<'s>(&'s self, transmission: &'s Transmission, own: &'s str, other: bool) -> &'s str {
+        let mut ports = transmission.ports().iter().map(|port| port.name.as_str());
+        ports.find(|port| other && *port != own).unwrap_or(own)
+    }
+
+    /// Signs that turn torque and speed as they were measured into those of the transmission: other than one only at the other
+    /// port, which may turn backward where that of the conditions turns forward.
+    fn signs(&self, gear: &str, transmission: &Transmission) -> [f64; 2] {
+        let [torque, speed] = [self.measured.torque_at_other_port, self.measured.speed_at_other_port];
+        if !torque && !speed {
+            return [1.0, 1.0];
+        }
+        let state = transmission.states().iter().position(|state| state.name == gear);
+        let ratio = state.and_then(|state| transmission.ratios(state).first()?.1);
+        let other = sense(ratio.unwrap_or(1.0));
+        [if torque { -other } else { 1.0 }, if speed { other } else { 1.0 }]
+    }
+
     fn points(&self, gear: &str, transmission: &Transmission, list: Vec<Given>) -> Points {
+        let [torque_at, speed_at] = [
+            (self.torque_at, self.measured.torque_at_other_port),
+            (self.speed_at, self.measured.speed_at_other_port),
+        ]
+        .map(|(own, other)| self.port(transmission, own, other).to_owned());
         Points {
             gear: gear.to_owned(),
-            torque_at: vec![self.torque_at.to_owned()],
-            speed_at: vec![self.speed_at.to_owned()],
+            torque_at: vec![torque_at],
+            speed_at: vec![speed_at],
             field: Field::List(list),
             oil: OilTemperature::of(transmission, self.oil),
             flow: self.flow,
@@ -143,7 +199,8 @@ impl Rows<'_> {
             }
             let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
             let transmission = &transmissions[key.0].1;
-            let list = own.iter().map(|k| self.given(*k, transmission, rig)).collect();
+            let signs = self.signs(key.1, transmission);
+            let list = own.iter().map(|k| self.given(*k, transmission, signs, rig)).collect();
             let points = self.points(key.1, transmission, list);
             let Some(solved) = run_grid(transmission, &points, progress)? else {
                 return Ok(None);
@@ -171,15 +228,22 @@ impl Rows<'_> {
         row.gear.as_deref().or(self.gear).unwrap_or(first)
     }
 
-    fn given(&self, i: usize, transmission: &Transmission, rig: Option<OnRig<'_>>) -> Given {
+    fn given(
+        &self,
+        i: usize,
+        transmission: &Transmission,
+        [torque_sign, speed_sign]: [f64; 2],
+        rig: Option<OnRig<'_>>,
+    ) -> Given {
         let row = &self.measured.rows[i];
         let value = |quantity: &str| self.measured.value(row, quantity);
         let fixed = transmission.thermal_mode == ThermalMode::Fixed;
-        let at_in = transmission.port(self.torque_at).ok() == Some(transmission.reference_port());
+        let torque_at = self.port(transmission, self.torque_at, self.measured.torque_at_other_port);
+        let at_in = transmission.port(torque_at).ok() == Some(transmission.reference_port());
         let added = rig.map_or(0.0, |on| on.rig.added(on.speeds[i])[usize::from(!at_in)]);
         Given {
-            torque: value("torque").unwrap_or(0.0) - added,
-            speed: value("speed").unwrap_or(0.0),
+            torque: torque_sign * value("torque").unwrap_or(0.0) - added,
+            speed: speed_sign * value("speed").unwrap_or(0.0),
             oil: value("oil_temperature").filter(|_| fixed),
         }
     }

@@ -133,6 +133,7 @@ impl Identification<'_> {
             divisor: self.rows.measured.divisor,
             rig: self.rows.measured.rig,
             instruments: self.rows.measured.instruments,
+            accuracies: self.rows.measured.accuracies.clone(),
             ..Measured::default()
         };
         let bound = self

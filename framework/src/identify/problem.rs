@@ -239,7 +239,7 @@ impl<'a> Identification<'a> {
                 (None, Some(_)) if point.oil.is_none() => ": no balance of heat was found".to_owned(),
                 _ => String::new(),
             };
-            format!("line {}: no {which} {what}{reason}", row.line)
+            format!("{}: no {which} {what}{reason}", self.rows.measured.origin(row))
         };
         let measured = seen.quantity(observation.quantity).ok_or_else(|| none("measured"))?;
         let model = observation.quantity.of(point).filter(|x| x.is_finite());
@@ -352,7 +352,7 @@ impl<'a> Identification<'a> {
                     continue;
                 }
                 if accuracy == Some(0.0) {
-                    let message = format!("line {}: an accuracy of zero", row.line);
+                    let message = format!("{}: an accuracy of zero", measured.origin(row));
                     return Err(data(
                         message,
                         "state how accurate the instruments are, or leave all accuracies out",
@@ -406,9 +406,9 @@ impl<'a> Identification<'a> {
         let with = found.iter().filter(|(_, accuracy)| accuracy.is_some()).count();
         if with > 0 && with < found.len() {
             let bare = found.iter().find(|(_, accuracy)| accuracy.is_none());
-            let line = bare.map_or(0, |(o, _)| measured.rows[o.row].line);
+            let line = bare.map_or_else(String::new, |(o, _)| measured.origin(&measured.rows[o.row]));
             let message = format!(
-                "line {line} has no accuracy, as {} of {} measured numbers; {with} have one",
+                "{line} has no accuracy, as {} of {} measured numbers; {with} have one",
                 found.len() - with,
                 found.len()
             );

@@ -37,7 +37,7 @@ impl Seen {
     /// As [`Seen::of`], with what another rig adds. The point was solved with the torque that is left for the transmission.
     pub fn on(rig: &Rig, measured: &Measured, row: &Row, point: &PointResult) -> Self {
         let value = |quantity: &str| measured.value(row, quantity);
-        let shown = value("torque").unwrap_or(0.0) * point.torque_speed;
+        let shown = value("torque").map_or(0.0, |t| measured.applied_torque(t, point)) * point.torque_speed;
         let here = if rig.is_silent() {
             shown
         } else {
@@ -45,7 +45,16 @@ impl Seen {
         };
         let added = rig.power([point.reference_speed, point.output_speed.unwrap_or(0.0)]);
         let reference = point.reference_speed.abs();
-        let there = value("torque_out").zip(value("speed_out")).map(|(t, w)| (t * w).abs());
+        // A torque that is given at the other port is no second one.
+        let torque_there = value("torque_out").filter(|_| !measured.torque_at_other_port);
+        let there = torque_there.zip(value("speed_out")).map(|(t, w)| (t * w).abs());
+        // Without its column the speed there follows from the gear state.
+        let speed_there = if point.at_reference {
+            point.output_speed
+        } else {
+            Some(point.reference_speed)
+        };
+        let by_ratio = torque_there.zip(speed_there).map(|(t, w)| (t * w).abs());
         // Each quantity from its own column first: other columns may be rounded, or say something else.
         let of_efficiency = value("efficiency").and_then(|eta| {
             if shown > 0.0 {
@@ -58,9 +67,10 @@ impl Seen {
         let own = value("loss");
         // Rigs write the torque of the brake with either sign; where power goes in, the sign here tells. Noise may make the
         // difference negative.
-        let of_ports = there.map(|there| if shown > 0.0 { shown - there } else { there + shown });
+        let lost = |there: f64| if shown > 0.0 { shown - there } else { there + shown };
         let left = |loss: Option<f64>| loss.map(|loss| loss - added);
-        let loss = left(own.or(of_torque).or(of_ports).or(of_efficiency));
+        let of_ports = there.map(lost);
+        let loss = left(own.or(of_torque).or(of_ports).or(of_efficiency).or(by_ratio.map(lost)));
         let efficiency = if rig.is_silent() { value("efficiency") } else { None }.or_else(|| {
             let loss = left(of_efficiency).or(loss)?;
             if here > 0.0 {
@@ -70,7 +80,11 @@ impl Seen {
             }
         });
         let loss_torque = left(of_torque).or(loss).map(|loss| loss / reference);
-        let accuracy = |quantity: &str| value(quantity).map(|a| a / measured.divisor);
+        // The accuracy as it is stated, and the standard error of the mean of a steady stretch beside it.
+        let accuracy = |quantity: &str, reading: Option<f64>| {
+            let stated = measured.stated_accuracy(row, quantity, reading)? / measured.divisor;
+            Some(stated.hypot(measured.standard_error(row, quantity).unwrap_or(0.0)))
+        };
         Self {
             efficiency: efficiency.filter(|eta| eta.is_finite()),
             loss,
@@ -79,10 +93,10 @@ impl Seen {
             here,
             reference,
             accuracies: [
-                accuracy("efficiency_accuracy"),
-                accuracy("loss_accuracy"),
-                accuracy("loss_torque_accuracy"),
-                accuracy("oil_temperature_accuracy").or(measured.oil_temperature),
+                accuracy("efficiency", point.efficiency.or(efficiency)),
+                accuracy("loss", point.loss.or(loss)),
+                accuracy("loss_torque", point.loss_torque.or(loss_torque)),
+                accuracy("oil_temperature", value("oil_temperature")).or(measured.oil_temperature),
             ],
             instruments: measured.instruments.zip(powers(point)),
             calculated: [point.efficiency, point.loss_torque],
@@ -177,10 +191,11 @@ pub fn counted(quantity: Quantity, difference: Difference, accuracy: f64, measur
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use serde_json::json;
+
     use super::*;
-    use crate::description::Ordered;
     use crate::flow::Status;
-    use crate::measured::{FaultyRows, MeasuredEntry, RigEntry, StatedAs};
+    use crate::measured::MeasuredEntry;
 
     /// A point with given torque at a port that turns at 10 rad/s while the reference port turns at 100 rad/s.
     fn seen(text: &str) -> Seen {
@@ -189,19 +204,8 @@ mod tests {
 
     /// The same with an offset of the meter at `in`.
     fn on(text: &str, offset: f64) -> Seen {
-        let entry = MeasuredEntry {
-            about: None,
-            file: String::new(),
-            columns: Ordered::default(),
-            units: Ordered::default(),
-            separator: None,
-            decimal: None,
-            encoding: None,
-            faulty_rows: FaultyRows::Refuse,
-            stated_as: StatedAs::Standard,
-            coverage_factor: 2.0,
-            rig: RigEntry::default(),
-        };
+        let entry: MeasuredEntry =
+            serde_json::from_value(json!({ "file": "rig.csv", "stated_as": "standard" })).unwrap();
         let measured = entry.read(text.as_bytes(), &[]).unwrap();
         let point = PointResult {
             torque: measured.value(&measured.rows[0], "torque").unwrap(),

@@ -15,7 +15,7 @@ use crate::document::{Code, Diagnostic, Places, Sources, read_yaml};
 use crate::files::{LONGEST_DATA, LONGEST_TEXT, read_bytes, read_text};
 use crate::gearbox::{DocumentKind, Findings, Gearbox, other_kind};
 use crate::language::Language;
-use crate::measured::{Measured, MeasuredEntry};
+use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
 use crate::resolve::{Choice, Resolved, expand_set, meets, sets_of};
 use crate::transmission::{Case, Transmission, WHEELS};
 
@@ -344,6 +344,7 @@ impl Study {
                 }
             }
         }
+        found.extend(self.faults_of_data());
         let grids: Vec<&str> = self.entry.grids.ids().collect();
         for (name, analysis) in self.entry.analyses.iter() {
             let path = format!("analyses.{name}");
@@ -354,10 +355,11 @@ impl Study {
                 sets,
                 gears,
                 data,
+                bind: _,
                 cycles,
                 vehicle,
             } = analysis.uses();
-            for (key, name) in data {
+            for (key, name) in data.iter().filter_map(|(key, data)| Some((key, data.name()?))) {
                 if let Err(error) = self.named(&format!("{path}.{key}"), name) {
                     found.push(error);
                 }
@@ -446,25 +448,109 @@ impl Study {
         }
     }
 
-    /// Reads measured points with the bytes that they stand in; `path` is the key that names them, `bind` are columns that change
-    /// the gearbox.
+    /// Reads measured points with the bytes that they stand in, file by file; `path` is the key that names them, `bind` are
+    /// columns that change the gearbox.
     ///
     /// # Errors
-    /// If nothing has the name, the file cannot be read, or what is wrong in it, with line and column.
-    pub fn measured(&self, path: &str, data: &Data, bind: &[&str]) -> Result<(Measured, Vec<u8>), Findings> {
+    /// If nothing has the name, a file cannot be read, or everything that is wrong in it, with line and column.
+    pub fn measured(
+        &self,
+        path: &str,
+        data: &Data,
+        bind: &[&str],
+    ) -> Result<(Measured, Vec<(String, Vec<u8>)>), Findings> {
         let entry = self.measurement(path, data)?;
-        let wrong = |message: String, mend: String| {
-            self.findings(vec![
-                Diagnostic::error(path, format!("{}: {message}", entry.file)).mend(mend),
-            ])
+        let elsewhere = data.name().map_or_else(Vec::new, |name| self.bound_columns(name));
+        let analysis = path.rsplit_once('.').map_or(path, |(analysis, _)| analysis);
+        let found = |list| self.findings(list);
+        let own = own_place(path, data);
+        let contents = self.contents(entry, &own).map_err(found)?;
+        let measured = entry.read_files(&contents, bind, &elsewhere);
+        let measured = measured.map_err(|faults| found(diagnostics(faults, &own, analysis)))?;
+        let files = entry.file.list().into_iter().map(|file| file.file.to_owned());
+        Ok((measured, files.zip(contents).collect()))
+    }
+
+    /// Columns that any analysis binds of a measurement.
+    fn bound_columns(&self, name: &str) -> Vec<&str> {
+        let analyses = self.entry.analyses.iter().map(|(_, analysis)| analysis.uses());
+        let used = analyses.filter(|uses| uses.data.iter().any(|(_, data)| data.name().is_some_and(|n| n == name)));
+        used.filter_map(|uses| uses.bind).flat_map(Ordered::ids).collect()
+    }
+
+    /// The bytes of the files of a measurement.
+    fn contents(&self, entry: &MeasuredEntry, place: &str) -> Result<Vec<Vec<u8>>, Vec<Diagnostic>> {
+        let (mut contents, mut faults) = (Vec::new(), Vec::new());
+        for file in entry.file.list() {
+            match read_bytes(&self.folder.join(file.file), LONGEST_DATA) {
+                Ok(bytes) => contents.push(bytes),
+                Err(e) => {
+                    let error = Diagnostic::error(format!("{place}.file"), format!("{}: cannot read: {e}", file.file));
+                    faults.push(error.mend("file names are relative to the study"));
+                }
+            }
+        }
+        if faults.is_empty() { Ok(contents) } else { Err(faults) }
+    }
+
+    /// Everything that is wrong with the files of points: each file is read once, whatever number of analyses uses it.
+    fn faults_of_data(&self) -> Vec<Diagnostic> {
+        let mut found: Vec<Diagnostic> = Vec::new();
+        let mut add = |list: Vec<Diagnostic>| {
+            for error in list {
+                let known = |other: &Diagnostic| (&other.path, &other.message) == (&error.path, &error.message);
+                if !found.iter().any(known) {
+                    found.push(error);
+                }
+            }
         };
-        let bytes = read_bytes(&self.folder.join(&entry.file), LONGEST_DATA).map_err(|e| {
-            let mend = "file names are relative to the study".to_owned();
-            wrong(format!("cannot read: {e}"), mend)
-        })?;
-        let measured = entry.read(&bytes, bind);
-        let measured = measured.map_err(|fault| wrong(fault.message, fault.mend))?;
-        Ok((measured, bytes))
+        let analyses = self.entry.analyses.iter();
+        let uses: Vec<(String, Uses<'_>)> = analyses
+            .map(|(name, analysis)| (format!("analyses.{name}"), analysis.uses()))
+            .collect();
+        let mut look = |entry: &MeasuredEntry, own: &str, elsewhere: &[&str], users: &[(&str, Vec<&str>)]| {
+            let contents = match self.contents(entry, own) {
+                Ok(contents) => contents,
+                Err(faults) => return add(faults),
+            };
+            for (analysis, bind) in users {
+                if let Err(faults) = entry.read_files(&contents, bind, elsewhere) {
+                    add(diagnostics(faults, own, analysis));
+                }
+            }
+        };
+        for (name, entry) in self.entry.measurements.iter() {
+            let mut users: Vec<(&str, Vec<&str>)> = Vec::new();
+            for (path, uses) in &uses {
+                let named = |(_, data): &&(&str, &Data)| data.name().is_some_and(|own| own == name);
+                let Some((key, _)) = uses.data.iter().find(named) else {
+                    continue;
+                };
+                let bind = uses.bound_of(key);
+                // Files that are read alike are read once.
+                if bind.is_empty() && users.iter().any(|(_, other)| other.is_empty()) {
+                    continue;
+                }
+                users.push((path, bind));
+            }
+            if users.is_empty() {
+                users.push(("", Vec::new()));
+            }
+            look(
+                entry,
+                &format!("measurements.{name}"),
+                &self.bound_columns(name),
+                &users,
+            );
+        }
+        for (path, uses) in &uses {
+            for (key, data) in &uses.data {
+                if let Data::Own(entry) = data {
+                    look(entry, &format!("{path}.{key}"), &[], &[(path, uses.bound_of(key))]);
+                }
+            }
+        }
+        found
     }
 
     fn named(&self, path: &str, name: &str) -> Result<&MeasuredEntry, Diagnostic> {
@@ -484,4 +570,23 @@ impl Study {
             .get(name)
             .ok_or_else(|| self.findings(vec![dangling(&format!("{path}.grid"), "grid", name, &names)]))
     }
+}
+
+/// Where data are described: under `measurements`, or at the key of the analysis.
+fn own_place(path: &str, data: &Data) -> String {
+    data.name()
+        .map_or_else(|| path.to_owned(), |name| format!("measurements.{name}"))
+}
+
+/// Faults of data at their places: the description of the data, or the columns that an analysis binds.
+fn diagnostics(faults: Vec<MeasuredFault>, own: &str, analysis: &str) -> Vec<Diagnostic> {
+    let at_place = |fault: MeasuredFault| {
+        let path = match fault.place {
+            FaultPlace::Entry(key) if key.is_empty() => own.to_owned(),
+            FaultPlace::Entry(key) => format!("{own}.{key}"),
+            FaultPlace::Bind(column) => format!("{analysis}.bind.{column}"),
+        };
+        Diagnostic::error(path, fault.message).mend(fault.mend)
+    };
+    faults.into_iter().map(at_place).collect()
 }

@@ -19,7 +19,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Ou
     let (_, gearbox) = runner.study.gearbox(&path, entry.gearbox.as_ref())?;
     let built = runner.built(gearbox, &entry.model_sets)?;
     let measured = match &entry.measured {
-        Some(data) => runner.read(&format!("{path}.measured"), data, &[])?,
+        Some(data) => runner.read_at_ports(&format!("{path}.measured"), data, &[])?,
         None => Measured::default(),
     };
     for note in &measured.notes {

@@ -420,17 +420,14 @@ fn deviations(models: &[Model<'_>], points: &[(f64, f64)], measured: &[Measured]
 
 /// Reads measured points.
 fn measured(runner: &Runner<'_>, path: &str, data: &Data) -> Result<Vec<Measured>, Failure> {
-    let read = runner.read(path, data, &[])?;
+    let read = runner.read_at_ports(path, data, &[])?;
     let mut points = Vec::new();
     for row in &read.rows {
         let value = |quantity: &str| read.value(row, quantity);
         let loss = value("loss").filter(|watts| *watts > 0.0);
         let (Some(torque), Some(speed), Some(watts)) = (value("torque"), value("speed"), loss) else {
-            let message = format!(
-                "{}: line {}: no loss above zero",
-                runner.data(path, data)?.file,
-                row.line
-            );
+            let file = &runner.data(path, data)?.file;
+            let message = format!("{file}: {}: no loss above zero", read.origin(row));
             return Err(runner.wrong(path, message, "give the loss of the component in a column `loss [W]`"));
         };
         points.push(Measured { torque, speed, watts });

@@ -64,7 +64,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
     };
     if runner.only_checks {
         if let Some(data) = &entry.measured {
-            runner.read(&format!("{path}.measured"), data, &[])?;
+            runner.read_at_ports(&format!("{path}.measured"), data, &[])?;
         }
         return Ok(());
     }
@@ -78,7 +78,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> 
         out.line(format!("{name}: {line}"))?;
     }
     let measured = match &entry.measured {
-        Some(data) => runner.read(&format!("{path}.measured"), data, &[])?,
+        Some(data) => runner.read_at_ports(&format!("{path}.measured"), data, &[])?,
         None => Measured::default(),
     };
     for note in &measured.notes {

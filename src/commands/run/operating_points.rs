@@ -124,9 +124,19 @@ fn beside<'a>(
             row,
             point,
             stack: shares[*place].stack(point),
-            measured: MEASURED.map(|(quantity, _)| listed.value(row, quantity)),
+            measured: MEASURED.map(|(quantity, _)| measured(listed, row, point, quantity)),
         })
         .collect()
+}
+
+/// What was measured: a quantity, or its accuracy as it is stated.
+fn measured(listed: &Measured, row: &Row, point: &PointResult, quantity: &str) -> Option<f64> {
+    let Some(of) = quantity.strip_suffix("_accuracy") else {
+        return listed.value(row, quantity);
+    };
+    let reading = listed.value(row, of);
+    let calculated = point.loss.filter(|_| of == "loss");
+    listed.stated_accuracy(row, of, reading.and(calculated.or(reading)))
 }
 
 fn cells(set: &str, gear: &str, shares: usize, at: &At<'_>) -> Vec<String> {

@@ -117,7 +117,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &RmsSurfaceEntry, out: &mut O
             row.push(cell(*rms));
             table.push(row);
         }
-        results.push(show::result(file, entry, &measured, &counted, surface));
+        results.push(show::result(&file.to_string(), entry, &measured, &counted, surface));
     }
     let mut value = head(
         runner,

@@ -2,8 +2,9 @@
 
 use gearloss_framework::analysis::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
 use gearloss_framework::description::Ordered;
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::measured::{Measured, MeasuredEntry, PortSpeeds};
+use gearloss_framework::measured::{Measured, MeasuredEntry, PortSpeeds, Row};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::Data;
 use serde_json::Value;
@@ -38,12 +39,37 @@ impl Runner<'_> {
         if let Some(about) = &entry.about {
             self.report.borrow_mut().verdict(&format!("{}: {about}", entry.file));
         }
-        let (measured, bytes) = self.study.measured(path, data, bind)?;
-        let known = (entry.file.clone(), hash(&bytes));
-        if !self.read.borrow().contains(&known) {
-            self.read.borrow_mut().push(known);
+        let (measured, files) = self.study.measured(path, data, bind)?;
+        for (file, bytes) in files {
+            let known = (file, hash(&bytes));
+            if !self.read.borrow().contains(&known) {
+                self.read.borrow_mut().push(known);
+            }
         }
         Ok(measured)
+    }
+
+    /// As [`Runner::read`], for analyses that do not ask a gearbox at which speed and torque its ports turn: torque and speed have
+    /// to be those at the ports of the conditions.
+    pub(super) fn read_at_ports(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Failure> {
+        let measured = self.read(path, data, bind)?;
+        let given = [
+            (measured.torque_at_other_port, "torque"),
+            (measured.speed_at_other_port, "speed"),
+        ];
+        match given.into_iter().find(|(other, _)| *other) {
+            Some((_, quantity)) => Err(self.wrong(
+                path,
+                format!(
+                    "{}: `{quantity}_out` alone does not give the {quantity} that this analysis needs",
+                    self.data(path, data)?.file
+                ),
+                &format!(
+                    "name a column of the {quantity} at the port of the conditions: `columns: {{ {quantity}: ... }}`"
+                ),
+            )),
+            None => Ok(measured),
+        }
     }
 
     /// Solves every row under each set, with the torques that the rig leaves for the transmission; solves none where an analysis is
@@ -117,12 +143,32 @@ impl Runner<'_> {
         gearbox: &Gearbox,
         choice: &Choice,
     ) -> Result<Vec<BuiltFrom>, Failure> {
-        let transmissions = rows.build(self.language, gearbox, choice)?;
+        let transmissions = rows.build(self.language, gearbox, choice).map_err(|findings| {
+            // What belongs to no key of the gearbox belongs to the analysis.
+            if findings.list.iter().any(|error| !error.path.is_empty()) {
+                return findings;
+            }
+            let path = format!("analyses.{}", self.analysis.borrow());
+            let at_analysis = |error| Diagnostic {
+                path: path.clone(),
+                ..error
+            };
+            self.study
+                .findings(findings.list.into_iter().map(at_analysis).collect())
+        })?;
         for (place, points) in rows.kinds(&transmissions) {
             self.case(gearbox, &transmissions[place].1, &points)?;
         }
         Ok(transmissions)
     }
+}
+
+/// A row in results, with its file where there are several.
+pub fn in_file(mut value: Value, measured: &Measured, row: &Row) -> Value {
+    if let (Some(file), Some(value)) = (measured.file(row), value.as_object_mut()) {
+        value.insert("file".to_owned(), file.into());
+    }
+    value
 }
 
 /// A row that was solved: its point, and why it has no loss where it has none.

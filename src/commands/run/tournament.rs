@@ -122,7 +122,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
             spread::show(runner, name, entry, gear, &own, &field, out)
         }
         (None, Some(data)) => {
-            let measured = runner.read(&format!("{path}.data"), data, &[])?;
+            let measured = runner.read_at_ports(&format!("{path}.data"), data, &[])?;
             for note in &measured.notes {
                 out.line(format!("{name}: {}: {note}", runner.data(&path, data)?.file))?;
             }
@@ -207,7 +207,7 @@ fn measurements(
     let seen = points.map(|(row, point)| {
         let seen = Seen::of(measured, row, point);
         let Some(loss) = seen.loss else {
-            let message = format!("line {}: no measured loss follows", row.line);
+            let message = format!("{}: no measured loss follows", measured.origin(row));
             let mend = "give the loss, the loss torque, the efficiency, or torque and speed at both ports";
             return Err(runner.wrong(&format!("{path}.data"), message, mend));
         };

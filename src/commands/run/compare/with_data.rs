@@ -10,7 +10,7 @@ use super::super::super::solve::RPM;
 use super::super::deviations::{self, Deviation};
 use super::super::map::tidy;
 use super::super::measurable::{is_measurable, note};
-use super::super::rows::Solved;
+use super::super::rows::{Solved, in_file};
 use super::super::write::{cell, head, picture, write};
 use super::super::{Built, Runner};
 use crate::output::{Failure, Out, Table, number};
@@ -96,7 +96,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, data: &Data, o
     for c in &all {
         for pair in &c.pairs {
             let row = &measured.rows[pair.row];
-            let mut cells = vec![c.name.clone(), row.line.to_string()];
+            let mut cells = vec![c.name.clone(), measured.line(row)];
             cells.push(row.name.clone().unwrap_or_default());
             cells.push(pair.gear.clone());
             cells.extend([cell(Some(pair.torque)), cell(Some(tidy(pair.speed * RPM)))]);
@@ -230,13 +230,13 @@ fn show(
         "loss_difference_percent_of_loss": of_loss,
         "bands": groups,
         "notes": c.notes,
-        "points": c.pairs.iter().map(|p| json!({
+        "points": c.pairs.iter().map(|p| in_file(json!({
             "line": measured.rows[p.row].line, "name": measured.rows[p.row].name, "gear": p.gear,
             "torque_nm": p.torque, "speed_rpm": tidy(p.speed * RPM), "oil_temperature_degc": p.oil,
             "measured": p.measured, "model": p.model, "difference": p.difference,
             "loss_difference_percent_of_loss": p.of_loss,
             "accuracy": p.accuracy,
-        })).collect::<Vec<_>>(),
+        }), measured, &measured.rows[p.row])).collect::<Vec<_>>(),
     }))
 }
 

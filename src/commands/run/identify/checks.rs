@@ -60,9 +60,9 @@ impl Checks {
     /// What there is to say, in sentences.
     pub fn words(&self, identification: &Identification<'_>) -> Vec<String> {
         let measured = identification.measured();
-        let line = |place: &usize| measured.rows[identification.observations()[*place].row].line;
+        let line = |place: &usize| measured.line(&measured.rows[identification.observations()[*place].row]);
         let list = |places: &[usize]| {
-            let shown: Vec<String> = places.iter().take(8).map(|p| line(p).to_string()).collect();
+            let shown: Vec<String> = places.iter().take(8).map(line).collect();
             let more = if places.len() > 8 { ", ..." } else { "" };
             let noun = if places.len() == 1 { "line" } else { "lines" };
             format!("{noun} {}{more}", shown.join(", "))

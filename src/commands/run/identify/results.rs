@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
 use super::super::map::tidy;
+use super::super::rows::in_file;
 use super::hold_out;
 use super::outcome::Outcome;
 use super::posterior;
@@ -223,7 +224,7 @@ fn points(o: &Outcome<'_>) -> Value {
             };
             shares.mechanisms.iter().enumerate().map(of).collect::<Vec<_>>()
         });
-        json!({
+        let point = json!({
             "line": row.line, "name": row.name, "gear": gear, "torque_nm": measured.value(row, "torque"),
             "speed_rpm": tidy(point.speed * RPM), "oil_temperature_degc": point.oil,
             "quantity": observation.quantity.name(), "accuracy": observation.deviation,
@@ -232,7 +233,8 @@ fn points(o: &Outcome<'_>) -> Value {
             "residual": (after.model - after.measured) / observation.deviation,
             "standardised_residual": o.checks.standardised[i], "leverage": o.fitted.inference.leverage()[i],
             "losses": losses,
-        })
+        });
+        in_file(point, measured, row)
     };
     Value::Array(o.identification.observations().iter().enumerate().map(point).collect())
 }

@@ -73,11 +73,7 @@ fn points(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
             let [before, after] = [0, 1].map(|k| o.pairs[k][i]);
             let residual =
                 |pair: gearloss_framework::identify::Pair| (pair.model - pair.measured) / observation.deviation;
-            let mut cells = vec![
-                o.name.clone(),
-                row.line.to_string(),
-                row.name.clone().unwrap_or_default(),
-            ];
+            let mut cells = vec![o.name.clone(), measured.line(row), row.name.clone().unwrap_or_default()];
             cells.push(gear.clone());
             cells.extend([
                 cell(measured.value(row, "torque")),
@@ -139,7 +135,7 @@ fn shares(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
                 let ends = share.and_then(|(_, ends)| ends);
                 let mut cells = vec![
                     o.name.clone(),
-                    o.identification.measured().rows[i].line.to_string(),
+                    o.identification.measured().line(&o.identification.measured().rows[i]),
                     gear.clone(),
                 ];
                 cells.extend([

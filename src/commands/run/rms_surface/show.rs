@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::super::Runner;
 use super::super::map::spread;
+use super::super::rows::in_file;
 use super::super::write::picture;
 use super::least::Flat;
 use super::{Axis, Counted, Surface};
@@ -175,7 +176,11 @@ pub fn result(file: &str, entry: &RmsSurfaceEntry, measured: &Measured, counted:
     let end = |k: usize| least.ends[k].map(Side::name);
     let left_out = |(i, why): &(usize, String)| {
         let row = &measured.rows[*i];
-        json!({ "line": row.line, "name": row.name, "reason": why })
+        in_file(
+            json!({ "line": row.line, "name": row.name, "reason": why }),
+            measured,
+            row,
+        )
     };
     let pairs = s.pairs.iter().zip(&s.rms).map(|(pair, rms)| {
         json!({ "x": pair.at[0], "y": pair.at[1], "rms": rms, "reason": pair.differences.as_ref().err() })
