@@ -13,6 +13,7 @@ mod walk;
 mod yaml;
 
 pub use by_type::records_by_type;
+pub(crate) use diagnostic::distance;
 pub use diagnostic::{Code, Diagnostic, Severity, Sources, did_you_mean};
 pub use node::{Content, Key, Node, Span};
 pub use places::{Place, Places};

@@ -9,7 +9,7 @@ use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, Span, r
 use crate::files::{LONGEST_TEXT, read_text};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
-use crate::resolve::{Came, Choice, Resolved, expand_set, meets, resolve, sets_of};
+use crate::resolve::{Came, Choice, Resolved, called_own, expand_set, meets, resolve, sets_of};
 use crate::transmission::Transmission;
 
 /// The most files that may extend each other.
@@ -200,6 +200,7 @@ impl Gearbox {
         let own = self.value.get("model_sets").and_then(Value::as_object);
         let names = own.into_iter().flatten().map(|(name, _)| name);
         let mut found: Vec<Diagnostic> = Vec::new();
+        found.extend(called_own(names.clone()));
         for error in names.filter_map(|name| expand_set(&sets, name).err()) {
             if found.iter().all(|other| other.path != error.path) {
                 found.push(error.code(Code::Choice));

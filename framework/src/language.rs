@@ -1,6 +1,7 @@
 //! The language of documents: what the linked mechanisms and models allow to be written, composed once per program.
 
 mod compose;
+mod readable;
 
 use std::collections::BTreeMap;
 

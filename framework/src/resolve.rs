@@ -5,6 +5,7 @@
 
 mod catalogue;
 mod choice;
+mod designation;
 mod network;
 mod paths;
 
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value};
 
 pub use catalogue::{CatalogueRow, CatalogueTable, without_suffix};
-pub use choice::{Choice, ModelSet, expand_set, sets_of};
+pub use choice::{Choice, ModelSet, OWN_MODELS, called_own, expand_set, sets_of};
 pub use paths::{lookup, matches};
 
 pub(crate) use paths::{meets, no_match};

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use gearloss_framework::analysis::{Note, STATIC_SAFETY, evidence, merge, notes};
 use gearloss_framework::coefficients::changed_from_source;
-use gearloss_framework::document::{Sources, read_yaml};
+use gearloss_framework::document::{Sources, did_you_mean, read_yaml};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
@@ -90,13 +90,27 @@ fn belongs_to_gearboxes(args: &CheckArgs, file: &std::path::Path) -> Result<(), 
     }
 }
 
+/// Grades from the best to the weakest.
+const GRADES: [&str; 8] = [
+    "several_sources",
+    "derived",
+    "one_source",
+    "user",
+    "recalled",
+    "reconstructed",
+    "disputed",
+    "assumed",
+];
+
 /// The grade of a name.
 pub fn grade(name: &str) -> Result<Evidence, Failure> {
     Evidence::of_name(name).ok_or_else(|| {
-        Failure::input(
-            format!("no grade of evidence is called `{name}`"),
-            "write several_sources, derived, one_source, user, recalled, reconstructed, disputed or assumed",
-        )
+        let grades = GRADES.join(", ");
+        let help = match did_you_mean(name, GRADES) {
+            Some(close) => format!("write {close}; the grades are {grades}"),
+            None => format!("write one of {grades}"),
+        };
+        Failure::input(format!("no grade of evidence is called `{name}`"), help)
     })
 }
 
@@ -149,13 +163,20 @@ fn gearbox(
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
     let weakest = known.first().map(|w| w.grade);
     let mut text = String::new();
-    for warning in &transmission.warnings {
-        text.push_str(&gearbox.sources.render(warning));
-        text.push_str("\n\n");
-    }
     if print {
-        match serde_saphyr::to_string(&resolved.value) {
+        match serde_saphyr::to_string(&language.readable(&resolved.value)) {
             Ok(yaml) => {
+                text.push_str(&format!(
+                    "# {} with every default, catalogue value and model; names of files are relative to its folder\n",
+                    file.display()
+                ));
+                // As comments, so that what is printed can be read as a gearbox.
+                for warning in &transmission.warnings {
+                    for line in gearbox.sources.render(warning).lines() {
+                        text.push_str(format!("# {line}").trim_end());
+                        text.push('\n');
+                    }
+                }
                 text.push_str(&yaml);
                 // As comments: they are no keys of a gearbox.
                 text.push_str("# derived geometry\n");
@@ -175,6 +196,10 @@ fn gearbox(
             }
         }
         return Ok((text, weakest));
+    }
+    for warning in &transmission.warnings {
+        text.push_str(&gearbox.sources.render(warning));
+        text.push_str("\n\n");
     }
     let states: Vec<&str> = transmission.states().iter().map(|s| s.name.as_str()).collect();
     text.push_str(&format!(

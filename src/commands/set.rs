@@ -3,7 +3,7 @@
 use gearloss_framework::document::{Diagnostic, Sources, Span, read_yaml};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
-use gearloss_framework::resolve::{Choice, Resolved, lookup, matches};
+use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved, lookup, matches};
 
 use crate::args::ChoiceArgs;
 
@@ -57,7 +57,7 @@ pub fn choice(args: &ChoiceArgs) -> Result<Choice, Findings> {
         overrides.push((path.trim().to_owned(), read.node.to_json()));
     }
     Ok(Choice {
-        set: args.models.clone(),
+        set: args.models.clone().filter(|set| set != OWN_MODELS),
         overrides,
         ..Choice::default()
     })

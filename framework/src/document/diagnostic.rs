@@ -238,10 +238,31 @@ fn clip(text: &str, span: Span) -> std::ops::Range<usize> {
     start..line.max(start)
 }
 
-/// The candidate that was probably meant: at most a third of its letters differ.
+/// The candidate that was probably meant: one letter differs, or it is the only one of which the word is a part, as `pitch` of
+/// `pitch_point`, or at most a third of its letters differ.
 pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let candidates: Vec<&'a str> = candidates.into_iter().collect();
+    let misspelt = misspelt(word, &candidates);
+    let one_letter = misspelt.filter(|(away, _)| *away <= 1);
+    let close = one_letter.or_else(|| abbreviated(word, &candidates).map(|candidate| (0, candidate)));
+    close.or(misspelt).map(|(_, candidate)| candidate)
+}
+
+/// The only candidate that has the word between its underscores.
+fn abbreviated<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    let has_part = |candidate: &&&str| candidate.to_lowercase().split('_').any(|part| part == word);
+    let mut found = candidates.iter().filter(has_part);
+    // Parts of one or two letters are numbers and sides, which many names have.
+    let first = found.next().filter(|_| word.chars().count() > 2)?;
+    found.all(|other| other == first).then_some(first)
+}
+
+/// The candidate with the fewest edits, and their number.
+fn misspelt<'a>(word: &str, candidates: &[&'a str]) -> Option<(usize, &'a str)> {
     candidates
-        .into_iter()
+        .iter()
+        .copied()
         .filter_map(|candidate| {
             let length = word.chars().count().max(candidate.chars().count());
             if length > 64 {
@@ -251,11 +272,10 @@ pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
             (away * 3 <= length + 1 && away < length).then_some((away, candidate))
         })
         .min_by_key(|(away, _)| *away)
-        .map(|(_, candidate)| candidate)
 }
 
 /// Edits, with a swap of neighbours as one (optimal string alignment).
-pub(super) fn distance(a: &str, b: &str) -> usize {
+pub(crate) fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
     for i in 0..=a.len() {
@@ -287,6 +307,14 @@ mod tests {
         assert_eq!(did_you_mean("palmgrem", ["coulomb", "palmgren"]), Some("palmgren"));
         assert_eq!(did_you_mean("facewdith", ["facewidth", "face"]), Some("facewidth"));
         assert_eq!(did_you_mean("xyz", ["facewidth"]), None);
+    }
+
+    #[test]
+    fn a_part_of_one_word_finds_it() {
+        assert_eq!(did_you_mean("pitch", ["path", "pitch_point"]), Some("pitch_point"));
+        assert_eq!(did_you_mean("gear", ["gears", "gear_mesh"]), Some("gears"));
+        assert_eq!(did_you_mean("pitch", ["pitch_point", "pitch_speed"]), None);
+        assert_eq!(did_you_mean("in", ["torque_in"]), None);
     }
 
     #[test]

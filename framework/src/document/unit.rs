@@ -279,6 +279,12 @@ impl Unit {
         UNITS.iter().find(|u| u.symbol == symbol)
     }
 
+    /// The unit in which quantities of a dimension are held: one of it is one in SI.
+    pub fn si(dimension: Dimension) -> Option<&'static Unit> {
+        let own = |u: &&Unit| u.dimension == dimension && u.factor.to_bits() == 1.0_f64.to_bits() && u.offset == 0.0;
+        UNITS.iter().find(own)
+    }
+
     /// The unit in brackets at the end of a doc comment.
     pub fn of_doc(doc: &str) -> Option<&'static Unit> {
         let inner = doc.trim_end().strip_suffix(']')?;
@@ -343,6 +349,18 @@ mod tests {
             }
         }
         assert!((Unit::of_symbol("degF").unwrap().to_si(212.0) - 100.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn every_dimension_has_a_unit_of_one_in_si() {
+        for u in UNITS {
+            assert_eq!(
+                Unit::si(u.dimension).map(|si| si.dimension),
+                Some(u.dimension),
+                "{}",
+                u.symbol
+            );
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The columns of a file that hold wanted quantities.
 
 use crate::description::Ordered;
+use crate::document::did_you_mean;
 use crate::measured::text::{self, Form, Table};
 use crate::measured::{MeasuredFault, fault, scale};
 
@@ -43,10 +44,12 @@ impl Sheet {
         for key in columns.ids().chain(units.ids()) {
             if wanted.iter().all(|(name, _)| *name != key) {
                 let all: Vec<&str> = wanted.iter().map(|(name, _)| *name).collect();
-                found.push(fault(
-                    format!("`{key}` is no quantity of such a file"),
-                    format!("the quantities are {}", all.join(", ")),
-                ));
+                let list = format!("the quantities are {}", all.join(", "));
+                let help = match did_you_mean(key, all.iter().copied()) {
+                    Some(close) => format!("write `{close}`; {list}"),
+                    None => list,
+                };
+                found.push(fault(format!("`{key}` is no quantity of such a file"), help));
             }
         }
         let mut places = Vec::new();
@@ -83,7 +86,10 @@ impl Sheet {
                         table.header_line,
                         names()
                     ),
-                    "name one of them",
+                    match did_you_mean(header, table.names.iter().map(String::as_str)) {
+                        Some(close) => format!("write `{close}`"),
+                        None => "name one of them".to_owned(),
+                    },
                 ));
             }
             places.push(column);

@@ -19,8 +19,9 @@ const FEWEST: usize = 5;
 /// A gap between samples longer than this share of the window ends a stretch. An assumption.
 const GAP: f64 = 0.5;
 
-/// Most lags of the autocorrelation that are summed.
+/// Most lags of the autocorrelation that are summed, and most products.
 const MOST_LAGS: usize = 1000;
+const MOST_PRODUCTS: usize = 20_000_000;
 
 /// How steady stretches of a time series are found; each becomes one point.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -190,6 +191,7 @@ impl Series<'_> {
     /// Steady stretches from the first to the last, without overlap.
     fn found(&self) -> Result<Vec<Span>, MeasuredFault> {
         let (mut found, mut windows, mut sparse) = (Vec::new(), 0, 0);
+        let mut sliding = Sliding::new(self);
         for [first, last] in self.pieces() {
             let mut start = first;
             while let Some(end) = self.window_after(start, last) {
@@ -197,11 +199,11 @@ impl Series<'_> {
                 if end - start + 1 < FEWEST {
                     sparse += 1;
                 }
-                if end - start + 1 < FEWEST || !self.is_steady([start, end]) {
+                if end - start + 1 < FEWEST || !sliding.is_steady([start, end]) {
                     start += 1;
                     continue;
                 }
-                let end = self.grown([start, end], last);
+                let end = self.grown(&mut sliding, [start, end], last);
                 found.push([start, end]);
                 start = end + 1;
             }
@@ -257,18 +259,13 @@ impl Series<'_> {
         line
     }
 
-    fn is_steady(&self, [start, end]: Span) -> bool {
-        let duration = self.times[end] - self.times[start];
-        (self.limits.iter()).all(|limited| self.line(limited, [start, end]).keeps(limited, duration))
-    }
-
     /// Last sample of the stretch that begins with a steady window.
-    fn grown(&self, [start, end]: Span, last: usize) -> usize {
+    fn grown(&self, sliding: &mut Sliding<'_>, [start, end]: Span, last: usize) -> usize {
         let mut lines: Vec<Line> = self.limits.iter().map(|l| self.line(l, [start, end])).collect();
         for next in end + 1..=last {
             let window = self.window_before(start, next);
             let duration = self.times[next] - self.times[start];
-            let fits = self.is_steady([window, next])
+            let fits = sliding.is_steady([window, next])
                 && self.limits.iter().zip(&mut lines).all(|(limited, line)| {
                     line.add(self.times[next], self.rows[next].values[limited.place]);
                     line.keeps(limited, duration)
@@ -353,6 +350,56 @@ fn shown(quantity: &str, difference: f64) -> String {
     format!("{:.2e}{symbol}", difference / factor)
 }
 
+/// Lines over a window that moves forward, sample by sample.
+struct Sliding<'a> {
+    series: &'a Series<'a>,
+    /// One for each limited quantity.
+    lines: Vec<Line>,
+    span: Option<Span>,
+    /// Samples removed since the lines were fitted anew.
+    removed: usize,
+}
+
+impl<'a> Sliding<'a> {
+    fn new(series: &'a Series<'a>) -> Self {
+        Self {
+            series,
+            lines: Vec::new(),
+            span: None,
+            removed: 0,
+        }
+    }
+
+    fn is_steady(&mut self, span: Span) -> bool {
+        self.move_to(span);
+        let duration = self.series.times[span[1]] - self.series.times[span[0]];
+        (self.series.limits.iter().zip(&self.lines)).all(|(limited, line)| line.keeps(limited, duration))
+    }
+
+    fn move_to(&mut self, [start, end]: Span) {
+        let series = self.series;
+        // Rounding of what was removed adds up, so the lines are fitted anew once a whole window was.
+        let goes_on = self.span.filter(|[first, last]| {
+            *first <= start && start <= *last && *last <= end && self.removed + start - first <= end - start
+        });
+        match goes_on {
+            Some([first, last]) => {
+                for (limited, line) in series.limits.iter().zip(&mut self.lines) {
+                    let value = |k: usize| series.rows[k].values[limited.place];
+                    (last + 1..=end).for_each(|k| line.add(series.times[k], value(k)));
+                    (first..start).for_each(|k| line.remove(series.times[k], value(k)));
+                }
+                self.removed += start - first;
+            }
+            None => {
+                self.lines = series.limits.iter().map(|l| series.line(l, [start, end])).collect();
+                self.removed = 0;
+            }
+        }
+        self.span = Some([start, end]);
+    }
+}
+
 /// A line fitted to samples as they come, by the updating formulas of Welford.
 #[derive(Debug, Clone, Copy, Default)]
 struct Line {
@@ -376,6 +423,21 @@ impl Line {
         self.time_time += dt * (time - self.time);
         self.time_value += dt * (value - self.value);
         self.value_value += dv * (value - self.value);
+    }
+
+    fn remove(&mut self, time: f64, value: Option<f64>) {
+        let Some(value) = value else { return };
+        if self.count <= 1.0 {
+            *self = Self::default();
+            return;
+        }
+        self.count -= 1.0;
+        let (dt, dv) = (time - self.time, value - self.value);
+        self.time -= dt / self.count;
+        self.value -= dv / self.count;
+        self.time_time = (self.time_time - dt * (time - self.time)).max(0.0);
+        self.time_value -= dv * (time - self.time);
+        self.value_value = (self.value_value - dv * (value - self.value)).max(0.0);
     }
 
     fn slope(&self) -> f64 {
@@ -414,7 +476,7 @@ fn standard_error(deviations: &[f64]) -> Option<f64> {
         return Some(0.0);
     }
     let mut time = 1.0;
-    for lag in 1..=MOST_LAGS.min(count / 4) {
+    for lag in 1..=MOST_LAGS.min(count / 4).min(MOST_PRODUCTS / count) {
         let correlation = at_lag(lag) / squares;
         if correlation <= 0.0 {
             break;
@@ -561,6 +623,28 @@ mod tests {
         let own = (red.iter().map(|x| x * x).sum::<f64>() / 4000.0).sqrt() / 4000.0_f64.sqrt();
         let ratio = standard_error(&red).unwrap() / own;
         assert!((ratio / 19.0_f64.sqrt() - 1.0).abs() < 0.25, "{ratio}");
+    }
+
+    #[test]
+    fn a_window_that_slides_has_the_line_of_its_samples() {
+        let entry = entry(None);
+        let (times, rows): (Vec<f64>, Vec<Row>) = rows(program, 100.0, 0.3).into_iter().unzip();
+        let limits = limited(&entry, &QUANTITIES).unwrap();
+        let series = Series {
+            entry: &entry,
+            limits,
+            times,
+            rows,
+        };
+        let mut sliding = Sliding::new(&series);
+        for start in 0..800 {
+            let span = [start, start + 100 + start % 7 / 6];
+            sliding.move_to(span);
+            let anew = series.line(&series.limits[0], span);
+            let own = sliding.lines[0];
+            assert!((own.slope() - anew.slope()).abs() < 1e-9 && (own.scatter() - anew.scatter()).abs() < 1e-9);
+            assert!((own.value - anew.value).abs() < 1e-9 && (own.count - anew.count).abs() < 0.5);
+        }
     }
 
     #[test]

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
+use super::designation::suggest;
 use super::{Came, absent, entries_mut};
-use crate::document::{Diagnostic, Dimension, Unit, did_you_mean};
+use crate::attach::dangling;
+use crate::document::{Diagnostic, Dimension, Unit};
 use crate::language::{LUBRICANTS, Language};
 use crate::registry::Files;
 
@@ -126,10 +128,11 @@ pub(super) fn fill(
             Ok(table) if section == LUBRICANTS || language.registry().sections().any(|(_, s)| s.name == section) => {
                 own.insert(section.clone(), table);
             }
-            Ok(_) => found.push(Diagnostic::error(
-                path,
-                format!("no section of components is called `{section}`"),
-            )),
+            Ok(_) => {
+                let sections = language.registry().sections().map(|(_, s)| s.name);
+                let known: Vec<&str> = sections.chain([LUBRICANTS]).collect();
+                found.push(dangling(&path, "section of components", section, &known));
+            }
             Err(reason) => {
                 found.push(Diagnostic::error(path, reason).mend("file names are relative to the gearbox document"));
             }
@@ -162,7 +165,6 @@ pub(super) fn fill(
                         names.len(),
                         if section == LUBRICANTS { "oils" } else { section }
                     ));
-                    let close = did_you_mean(&designation, names.iter().copied());
                     if let Some((base, suffix)) = without_suffix(&designation, names.iter().copied()) {
                         found.push(error.mend(format!(
                             "write `{base}`, whose dimensions and ratings these are; no row says what `{suffix}` changes, such as seals, \
@@ -175,10 +177,9 @@ pub(super) fn fill(
                     } else {
                         "state bore, outside, kind and ratings here"
                     };
-                    found.push(match close {
-                        Some(close) => error.mend(format!("write `{close}`, or {here}")),
-                        None => error.mend(format!("{here}, or name a CSV under `catalogues`")),
-                    });
+                    let rows = shipped.into_iter().chain(own.get(section)).flat_map(|t| &t.0);
+                    let rows: Vec<(&str, &CatalogueRow)> = rows.map(|(name, row)| (name.as_str(), row)).collect();
+                    found.push(suggest(error, &designation, &rows, here));
                 }
                 continue;
             };

@@ -89,6 +89,20 @@ pub fn sets_of(language: &Language, gearbox: &Value, study: &Map<String, Value>)
     sets
 }
 
+/// The name that stands for the own models of a gearbox wherever sets of models are named.
+pub const OWN_MODELS: &str = "own";
+
+/// Refuses a set that takes the name of the own models.
+pub fn called_own<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<Diagnostic> {
+    names.find(|name| *name == OWN_MODELS).map(|name| {
+        Diagnostic::error(
+            format!("model_sets.{name}"),
+            format!("`{name}` stands for the gearbox's own models, so no set can be called so"),
+        )
+        .mend("give the set another name")
+    })
+}
+
 /// Expands a set with everything that it extends.
 ///
 /// # Errors

@@ -16,7 +16,7 @@ use crate::files::{LONGEST_DATA, LONGEST_TEXT, read_bytes, read_text};
 use crate::gearbox::{DocumentKind, Findings, Gearbox, other_kind};
 use crate::language::Language;
 use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
-use crate::resolve::{Choice, Resolved, expand_set, meets, sets_of};
+use crate::resolve::{Choice, OWN_MODELS, Resolved, called_own, expand_set, meets, sets_of};
 use crate::transmission::{Case, Transmission, WHEELS};
 
 /// A study as read, with its gearboxes.
@@ -157,7 +157,8 @@ impl Study {
         }
     }
 
-    /// A set that an analysis names: `SET` of the given gearbox, or `PRODUCT/SET`; the set `own` stands for none.
+    /// A set that an analysis names: `SET` of the given gearbox, or `PRODUCT/SET`; the set `own` stands for the own models of
+    /// the gearbox.
     ///
     /// # Errors
     /// If there is no such product.
@@ -168,10 +169,10 @@ impl Study {
         gearbox: &'a Gearbox,
     ) -> Result<(&'a Gearbox, Option<&'a str>), Findings> {
         let Some((product, set)) = name.split_once('/') else {
-            return Ok((gearbox, Some(name)));
+            return Ok((gearbox, Some(name).filter(|set| *set != OWN_MODELS)));
         };
         let (_, gearbox) = self.gearbox(path, Some(&product.to_owned()))?;
-        Ok((gearbox, Some(set).filter(|set| *set != "own")))
+        Ok((gearbox, Some(set).filter(|set| *set != OWN_MODELS)))
     }
 
     /// The choice of a set, with the overrides of the conditions.
@@ -188,7 +189,7 @@ impl Study {
         let mut sets = self.sets.clone();
         self.promised.fill(&mut sets);
         Choice {
-            set: set.map(str::to_owned),
+            set: set.filter(|set| *set != OWN_MODELS).map(str::to_owned),
             sets,
             overrides: wheels.chain(changes).collect(),
         }
@@ -335,6 +336,7 @@ impl Study {
     /// Everything that is wrong.
     pub fn check(&self, language: &Language) -> Result<(), Findings> {
         let mut found: Vec<Diagnostic> = Vec::new();
+        found.extend(called_own(self.sets.keys()));
         for (_, gearbox) in &self.gearboxes {
             gearbox.check_sets(language)?;
             let at_hand = sets_of(language, &gearbox.value, &self.sets);

@@ -2,7 +2,7 @@
 
 use crate::attach::dangling;
 use crate::description::{GearboxEntry, NetworkChoice, NetworkEntry, NodeEntry};
-use crate::document::Diagnostic;
+use crate::document::{Diagnostic, did_you_mean};
 
 /// Where the heat of a part goes.
 #[derive(Debug, Clone, PartialEq)]
@@ -159,7 +159,10 @@ pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>
                         format!("`{pattern}` meets no part that loses power"),
                     )
                     .note(format!("there are: {}", parts.join(", ")))
-                    .mend("name a part, such as `bearings.B1` or `meshes.*`"),
+                    .mend(match did_you_mean(pattern, parts.iter().copied()) {
+                        Some(close) => format!("write `{close}`"),
+                        None => "name a part, such as `bearings.B1` or `meshes.*`".to_owned(),
+                    }),
                 );
             }
         }

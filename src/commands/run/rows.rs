@@ -5,7 +5,7 @@ use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::measured::{Measured, MeasuredEntry, PortSpeeds, Row};
-use gearloss_framework::resolve::Choice;
+use gearloss_framework::resolve::{Choice, OWN_MODELS};
 use gearloss_framework::study::Data;
 use serde_json::Value;
 
@@ -89,7 +89,7 @@ impl Runner<'_> {
                 Some(name) => self.study.reference("analyses", name, gearbox)?,
                 None => (gearbox, None),
             };
-            let name = set.map_or("own", String::as_str);
+            let name = set.map_or(OWN_MODELS, String::as_str);
             let choice = self.study.choice(choice);
             let transmissions = self.rows_fit(&rows, gearbox, &choice)?;
             if self.only_checks {

@@ -8,7 +8,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
-use gearloss_framework::resolve::Resolved;
+use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::study::{Analysis, Grid, Study};
 use gearloss_framework::transmission::{Case, Transmission};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -35,7 +35,7 @@ impl Built<'_> {
     /// The set as a choice names it: without the product, absent for the gearbox's own models.
     pub fn set(&self) -> Option<&str> {
         let set = self.name.rsplit('/').next();
-        set.filter(|set| *set != "own")
+        set.filter(|set| *set != OWN_MODELS)
     }
 }
 
@@ -165,7 +165,7 @@ impl Runner<'_> {
                 .collect();
             let (resolved, transmission) = self.study.built(self.language, gearbox, &choice, &places)?;
             Ok(Built {
-                name: name.unwrap_or("own").to_owned(),
+                name: name.unwrap_or(OWN_MODELS).to_owned(),
                 gearbox,
                 resolved,
                 transmission,

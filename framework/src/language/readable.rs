@@ -1,0 +1,84 @@
+//! A resolved description written as a document again: every number with a unit from which the same bits are read.
+
+use serde_json::{Map, Value};
+
+use super::Language;
+use crate::document::Unit;
+
+impl Language {
+    /// A resolved description as it would be written: quantities with their units, in place of SI numbers. Read and resolved, it is
+    /// the same description to the bit. Names of files remain relative to the folder of the gearbox.
+    pub fn readable(&self, resolved: &Value) -> Value {
+        self.readable_at(resolved, "", resolved)
+    }
+
+    fn readable_at(&self, document: &Value, path: &str, value: &Value) -> Value {
+        let below = |key: &str| {
+            if path.is_empty() {
+                key.to_owned()
+            } else {
+                format!("{path}.{key}")
+            }
+        };
+        match value {
+            Value::Object(map) => {
+                // A key without a value is one that is not written.
+                let written = map.iter().filter(|(_, value)| !value.is_null());
+                let written = written.map(|(key, value)| (key.clone(), self.readable_at(document, &below(key), value)));
+                Value::Object(written.collect::<Map<String, Value>>())
+            }
+            Value::Array(list) => {
+                let items = list.iter().enumerate();
+                Value::Array(
+                    items
+                        .map(|(i, item)| self.readable_at(document, &below(&i.to_string()), item))
+                        .collect(),
+                )
+            }
+            Value::Number(number) => match (number.as_f64(), self.number_at(document, path)) {
+                (Some(si), Some((unit, ..))) => quantity(si, unit).unwrap_or_else(|| value.clone()),
+                _ => value.clone(),
+            },
+            other => other.clone(),
+        }
+    }
+}
+
+/// A quantity in its documented unit where the same bits are read from it, else in SI; absent for plain numbers.
+fn quantity(si: f64, documented: &'static Unit) -> Option<Value> {
+    if documented.symbol == Unit::ONE.symbol {
+        return None;
+    }
+    let own = documented.from_si(si);
+    let tidy: f64 = format!("{own:.12e}").parse().unwrap_or(own);
+    let exact = [tidy, own]
+        .into_iter()
+        .find(|number| documented.to_si(*number).to_bits() == si.to_bits());
+    match exact {
+        Some(number) => Some(Value::from(format!("{number} {}", documented.symbol))),
+        None => Some(Value::from(format!("{si} {}", Unit::si(documented.dimension)?.symbol))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::document::parse_quantity;
+
+    #[test]
+    fn quantities_are_read_with_the_same_bits() {
+        for symbol in Unit::all_symbols() {
+            let unit = Unit::of_symbol(symbol).unwrap();
+            for number in [0.1, 20.0, 133.4, 1.0 / 3.0, 8.9e-7, -40.0, 0.0] {
+                let si = unit.to_si(number);
+                let Some(Value::String(text)) = quantity(si, unit) else {
+                    assert_eq!(symbol, "-");
+                    continue;
+                };
+                assert_eq!(parse_quantity(&text, unit).unwrap().to_bits(), si.to_bits(), "{text}");
+            }
+        }
+        assert_eq!(quantity(0.1334, Unit::of_symbol("mm").unwrap()).unwrap(), "133.4 mm");
+    }
+}
