@@ -12,6 +12,9 @@
 //! (2000); the second-order correction is that of Transtrum and Sethna, arXiv:1201.5885; the test by relative offset that of
 //! Bates and Watts, "Nonlinear Regression Analysis" (1988).
 //!
+//! Where laws with kinks and jumps stop a search, [`Options::polish`] finishes it without derivatives, by implicit filtering in steps of
+//! standard errors, and the fit names the kinks that hold its minimum, [`Fit::kinks`].
+//!
 //! There is no clock and no chance in any decision, and sums run in the order of their indices: the same problem gives the
 //! same bits on any number of threads.
 //!
@@ -31,8 +34,10 @@ mod difference;
 mod dogleg;
 mod evaluate;
 mod fault;
+mod finish;
 mod fit;
 mod iterate;
+mod kink;
 mod linear;
 mod linearised;
 mod multistart;
@@ -40,6 +45,7 @@ mod noise;
 mod optimality;
 mod options;
 mod points;
+mod polish;
 mod problem;
 mod robust;
 mod second_order;
@@ -47,9 +53,11 @@ mod solve;
 mod space;
 mod subproblem;
 mod trial;
+mod unite;
 
 pub use fault::{Fault, Finding};
 pub use fit::{Counts, Derivative, Fit, Iteration, Reason, Side, Status};
+pub use kink::Kink;
 pub use multistart::{Kinship, Minima, Minimum, multistart};
 pub use options::{Differences, Noise, Options, Steps, Subproblem, Tolerances};
 pub use points::{halton, spread};

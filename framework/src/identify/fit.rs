@@ -101,6 +101,7 @@ impl<'s> Settings<'s> {
             differences: Differences::Forward,
             noise: Noise::Known(UNEVEN),
             jumps: JUMPS,
+            polish: std::env::var("NOPOLISH").is_err(),
             // Other starts take the place of other steps.
             attempts: false,
             interrupt: self.interrupt,

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::kink::Kink;
 use super::subproblem::How;
 
 /// Why a run ended.
@@ -17,6 +18,8 @@ pub enum Reason {
     Step,
     /// The cost changes no more.
     Cost,
+    /// A pattern of neighbours that shrank to a thousandth of a standard error has none that is lower: the end of [`super::Options::polish`].
+    Pattern,
     /// The ball has shrunk to nothing without a step that lowers the cost.
     Radius,
     /// As many steps as were allowed.
@@ -38,6 +41,7 @@ impl Reason {
             Self::RelativeOffset => "relative offset",
             Self::Step => "step",
             Self::Cost => "cost",
+            Self::Pattern => "pattern",
             Self::Radius => "radius",
             Self::IterationLimit => "iteration limit",
             Self::EvaluationLimit => "evaluation limit",
@@ -50,7 +54,12 @@ impl Reason {
     pub fn is_convergence(self) -> bool {
         matches!(
             self,
-            Self::ZeroResidual | Self::FirstOrder | Self::RelativeOffset | Self::Step | Self::Cost
+            Self::ZeroResidual
+                | Self::FirstOrder
+                | Self::RelativeOffset
+                | Self::Step
+                | Self::Cost
+                | Self::Pattern
         )
     }
 }
@@ -123,6 +132,8 @@ pub struct Iteration {
 pub struct Counts {
     /// Calls of the residual function, those for differences among them.
     pub evaluations: usize,
+    /// Those of them that finished searches without derivatives.
+    pub polishing: usize,
     /// Calls that had no value.
     pub undefined: usize,
     /// Steps that were tried.
@@ -181,6 +192,8 @@ pub struct Fit {
     pub log: Vec<Iteration>,
     /// How much work it was.
     pub counts: Counts,
+    /// Kinks and jumps that hold the minimum; none where the search ended by its derivatives.
+    pub kinks: Vec<Kink>,
     /// What the user should know: moved starts, fixed and unseen parameters, failures on the way.
     pub notes: Vec<String>,
 }

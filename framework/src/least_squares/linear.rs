@@ -74,6 +74,20 @@ pub(super) fn independence(columns: &DMatrix<f64>) -> f64 {
     decompose(small, false).map_or(0.0, |svd| svd.singular_values.min() / svd.singular_values.max())
 }
 
+/// Right singular vectors with their singular values, the greatest first. Absent where none are found, or where there are fewer rows
+/// than columns.
+pub(super) fn directions(a: DMatrix<f64>) -> Option<Vec<(DVector<f64>, f64)>> {
+    if a.ncols() == 0 {
+        return Some(Vec::new());
+    }
+    if a.nrows() < a.ncols() {
+        return None;
+    }
+    let svd = decompose(a.qr().r(), true)?;
+    let rows = svd.v_t?;
+    Some(rows.row_iter().zip(&svd.singular_values).map(|(row, s)| (row.transpose(), *s)).collect())
+}
+
 fn decompose(a: DMatrix<f64>, vectors: bool) -> Option<SVD<f64, Dyn, Dyn>> {
     if !a.iter().all(|x| x.is_finite()) {
         return None;

@@ -10,8 +10,9 @@ use super::options::Options;
 use super::points;
 use super::problem::Problem;
 use super::robust::Robust;
-use super::solve::solve_from;
+use super::solve::search;
 use super::space::Space;
+use super::unite::unite;
 
 /// Relative difference of costs that are the same, and the same over the cost at the start.
 const SAME: [f64; 2] = [1e-6, 1e-12];
@@ -22,7 +23,7 @@ const APART: f64 = 1e-3;
 /// Room in usual sizes for starts, where a bound is missing.
 const AWAY: f64 = 10.0;
 /// Points between two minima that are looked at.
-const BETWEEN: usize = 7;
+pub(super) const BETWEEN: usize = 7;
 /// Starts that are looked at for each one that is taken, before too many count as without value.
 const PATIENCE: usize = 20;
 
@@ -76,9 +77,9 @@ pub struct Minima {
 pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -> Result<Minima, Fault> {
     let space = Space::of(problem.parameters())?;
     // Before all others, for its faults.
-    let first = solve_from(problem, options, &space)?;
+    let first = search(problem, options, &space)?;
     let (others, looked) = even_starts(problem, options, &space, starts.saturating_sub(1))?;
-    let solve_other = |start: &Vec<f64>| solve_from(problem, options, &space.starting(start));
+    let solve_other = |start: &Vec<f64>| search(problem, options, &space.starting(start));
     let others: Vec<Fit> = others
         .par_iter()
         .with_max_len(1)
@@ -89,20 +90,13 @@ pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -
     let mut fits: Vec<(usize, Fit)> = std::iter::once(first).chain(others).enumerate().collect();
     fits.sort_by(|(i, a), (j, b)| a.cost.total_cmp(&b.cost).then(i.cmp(j)));
     let mut evaluations = looked + fits.iter().map(|(_, fit)| fit.counts.evaluations).sum::<usize>();
-    let share = 1.0 / fits.len() as f64;
-    let mut minima: Vec<Minimum> = Vec::new();
-    for (i, fit) in fits {
-        let old = minima
-            .iter_mut()
-            .find(|old| level(&old.fit, &fit, begun) && near(&space, &old.fit, &fit));
-        if let Some(old) = old {
-            old.starts.push(i);
-            old.share += share;
-        } else {
-            let starts = vec![i];
-            minima.push(Minimum { fit, starts, share });
-        }
-    }
+    let minima = if options.polish {
+        let (minima, more) = unite(problem, options, &space, fits, begun)?;
+        evaluations += more;
+        minima
+    } else {
+        gather(&space, fits, begun)
+    };
     let mut notes = Vec::new();
     if !minima[0].starts.contains(&0) {
         notes.push("the start that was given does not lead to the lowest minimum".to_owned());
@@ -119,6 +113,25 @@ pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -
         evaluations,
         notes,
     })
+}
+
+/// Fits at the same place with the same cost as one minimum each; the lowest come first.
+fn gather(space: &Space<'_>, fits: Vec<(usize, Fit)>, begun: f64) -> Vec<Minimum> {
+    let share = 1.0 / fits.len() as f64;
+    let mut minima: Vec<Minimum> = Vec::new();
+    for (i, fit) in fits {
+        let old = minima
+            .iter_mut()
+            .find(|old| level(&old.fit, &fit, begun) && near(space, &old.fit, &fit));
+        if let Some(old) = old {
+            old.starts.push(i);
+            old.share += share;
+        } else {
+            let starts = vec![i];
+            minima.push(Minimum { fit, starts, share });
+        }
+    }
+    minima
 }
 
 /// Starts that fill the bounds and have residuals, and how many calls it took to find them.
@@ -160,12 +173,12 @@ fn even_starts(
 }
 
 /// Whether two costs are the same.
-fn level(a: &Fit, b: &Fit, begun: f64) -> bool {
+pub(super) fn level(a: &Fit, b: &Fit, begun: f64) -> bool {
     (a.cost - b.cost).abs() <= SAME[0] * a.cost.min(b.cost) + SAME[1] * begun
 }
 
 /// Whether a fit lies where a better one does: in its standard errors, or by its coordinates where those have no end.
-fn near(space: &Space<'_>, better: &Fit, fit: &Fit) -> bool {
+pub(super) fn near(space: &Space<'_>, better: &Fit, fit: &Fit) -> bool {
     let free = |j: &usize| better.active[*j].is_none();
     let apart = |i: usize| fit.u[i] - better.u[i];
     match &better.derivative {

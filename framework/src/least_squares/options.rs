@@ -87,6 +87,8 @@ pub struct Options<'a> {
     pub central: Tolerances,
     /// How far the first attempt steps.
     pub steps: Steps,
+    /// Whether a run that short differences no longer bring forward, as beside a kink or jump of a law, is finished without derivatives.
+    pub polish: bool,
     /// Whether a run that ends badly is tried again with other steps.
     pub attempts: bool,
     /// The most steps of one attempt.
@@ -136,6 +138,7 @@ impl Options<'_> {
                 memory: 0.7,
                 second_order: true,
             },
+            polish: false,
             attempts: true,
             iterations: 400,
             evaluations: 100_000,

@@ -7,6 +7,8 @@ use super::evaluate::{Evaluator, Miss};
 use super::fault::{Fault, Finding};
 use super::fit::{Derivative, Fit, Reason, Status};
 use super::iterate::{self, Context, End, Point, Record};
+use super::finish::{finish, is_stuck};
+use super::kink::Kink;
 use super::options::{Noise, Options, Steps};
 use super::problem::Problem;
 use super::robust::{Loss, Robust};
@@ -31,11 +33,15 @@ const FAILURES: f64 = 0.2;
 /// says by status and reason what it is worth.
 pub fn solve(problem: &Problem<'_>, options: &Options<'_>) -> Result<Fit, Fault> {
     let space = Space::of(problem.parameters())?;
-    solve_from(problem, options, &space)
+    let fit = search(problem, options, &space)?;
+    if options.polish && is_stuck(&fit) {
+        return finish(problem, options, &space, fit, None);
+    }
+    Ok(fit)
 }
 
-/// As [`solve`], from the start of a space.
-pub(super) fn solve_from(problem: &Problem<'_>, options: &Options<'_>, space: &Space<'_>) -> Result<Fit, Fault> {
+/// As [`solve`], from the start of a space, and without a finish.
+pub(super) fn search(problem: &Problem<'_>, options: &Options<'_>, space: &Space<'_>) -> Result<Fit, Fault> {
     options.check()?;
     let (evaluator, r) = Evaluator::start(problem, space, options.interrupt)?;
     let start = Point {
@@ -60,21 +66,10 @@ pub(super) fn solve_from(problem: &Problem<'_>, options: &Options<'_>, space: &S
             "residuals are noisy ({noise:.1e} of them): one-sided differences end the search"
         ));
     }
-    let mut context = Context {
-        evaluator: &evaluator,
-        options,
-        robust: Robust {
-            loss: options.loss,
-            scale: options.loss_scale,
-            rows: evaluator.rows,
-        },
-        noise,
-        rough: noise.max(options.jumps),
-        noisy: noise > NOISIEST,
-    };
+    let mut context = Context::new(&evaluator, options, options.loss_scale, noise);
     let mut record = Record::default();
     let (end, attempt) = robust_attempts(&mut context, start, &mut record);
-    Ok(context.fit(end, attempt, record, notes))
+    Ok(context.fit(end, attempt, record, (notes, Vec::new())))
 }
 
 /// All attempts from a start that a soft_l1 fit leaves, where a loss has minima of its own or its scale is to be found.
@@ -147,9 +142,27 @@ fn attempts(context: &Context<'_>, start: Point, record: &mut Record) -> (End, u
     (best, number)
 }
 
+impl<'a> Context<'a> {
+    /// Of calls with a relative noise.
+    pub(super) fn new(evaluator: &'a Evaluator<'a>, options: &'a Options<'a>, loss_scale: f64, noise: f64) -> Self {
+        Self {
+            evaluator,
+            options,
+            robust: Robust {
+                loss: options.loss,
+                scale: loss_scale,
+                rows: evaluator.rows,
+            },
+            noise,
+            rough: noise.max(options.jumps),
+            noisy: noise > NOISIEST,
+        }
+    }
+}
+
 impl Context<'_> {
     /// Central derivatives at an end that has none yet.
-    fn derive(&self, end: &mut End) {
+    pub(super) fn derive(&self, end: &mut End) {
         let (u, r) = (&end.point.u, &end.point.r);
         if end.jacobian.is_none() && end.reason != Reason::Interrupted {
             let differences = Differences {
@@ -189,7 +202,14 @@ impl Context<'_> {
         }
     }
 
-    fn fit(&self, end: End, attempt: usize, record: Record, mut notes: Vec<String>) -> Fit {
+    /// What became of a problem at an end.
+    pub(super) fn fit(
+        &self,
+        end: End,
+        attempt: usize,
+        record: Record,
+        (mut notes, kinks): (Vec<String>, Vec<Kink>),
+    ) -> Fit {
         let space = self.evaluator.space;
         let all = space.parameters.len();
         let status = self.status(&end);
@@ -242,6 +262,7 @@ impl Context<'_> {
             loss_scale: self.robust.scale,
             log: record.log,
             counts,
+            kinks,
             notes,
         }
     }

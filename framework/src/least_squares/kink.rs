@@ -1,0 +1,110 @@
+//! Kinks and jumps that hold a minimum.
+//!
+//! Along the direction in which one parameter moves and all others follow, twice the cost of a smooth minimum rises by the square of the
+//! distance in standard errors. Where it rises by several times that on one side or the other, slopes or values of residuals jump
+//! between both sides, and standard errors from derivatives say nothing about that parameter. The rows concerned are those whose three
+//! values, on both sides and in between, lie farthest from a straight line.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::evaluate::Miss;
+use super::iterate::{Context, Point};
+use super::polish::{Axes, moved};
+
+/// Distance of both sides from the minimum, in standard errors: so near that the square is small beside a kink that counts. \[-\]
+const ASIDE: f64 = 0.05;
+/// Distance of a second pair, which tells a jump from a kink: a jump is as high there.
+const NEARER: f64 = ASIDE / 8.0;
+/// Rise over that of a smooth minimum from which on a kink holds it. \[-\]
+const STEEP: f64 = 4.0;
+/// Share of the greatest deviation from a straight line from which on a row is concerned. \[-\]
+const CONCERNED: f64 = 0.25;
+/// Share of a deviation that is left at the nearer pair from which on it is a jump. \[-\]
+const JUMP: f64 = 0.5;
+
+/// A kink or jump that holds a minimum along one parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kink {
+    /// The parameter that moves; all others follow.
+    pub parameter: usize,
+    /// Rows whose slope or value jumps, in their order.
+    pub rows: Vec<usize>,
+    /// All parameters on the lower and on the upper side, in their own units.
+    pub sides: [Vec<f64>; 2],
+    /// Rise of twice the cost to either side over that of a smooth minimum; absent where there is no value. \[-\]
+    pub steepness: [Option<f64>; 2],
+    /// Whether the strongest row jumps in value, rather than in slope alone.
+    pub jumps: bool,
+}
+
+/// The kinks at a minimum, with the derivatives there.
+///
+/// # Errors
+/// If it is interrupted.
+pub(super) fn kinks(context: &Context<'_>, point: &Point, jacobian: &DMatrix<f64>) -> Result<Vec<Kink>, Miss> {
+    let Some(axes) = Axes::principal(context, point, jacobian) else {
+        return Ok(Vec::new());
+    };
+    let found: Vec<Option<Kink>> = (0..context.evaluator.space.len())
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|j| along(context, point, &axes, j))
+        .collect::<Result<_, _>>()?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// The kink along one parameter, if there is one.
+fn along(context: &Context<'_>, point: &Point, axes: &Axes, j: usize) -> Result<Option<Kink>, Miss> {
+    let (space, evaluator) = (context.evaluator.space, context.evaluator);
+    // One standard error of the parameter, with all others following: its row of the root times the root.
+    let mut step = DVector::zeros(space.len());
+    for axis in &axes.steps {
+        step += axis * axis[j];
+    }
+    let deviation = axes.steps.iter().map(|axis| axis[j].powi(2)).sum::<f64>().sqrt();
+    if deviation == 0.0 {
+        return Ok(None);
+    }
+    step /= deviation;
+    let sides = |distance: f64| [-distance, distance].map(|length| moved(space, &point.u, &(&step * length)));
+    let wide = sides(ASIDE);
+    let mut values = Vec::with_capacity(2);
+    for u in &wide {
+        values.push(evaluator.try_residual(u)?);
+    }
+    let smooth = axes.variance * ASIDE * ASIDE;
+    let steepness = |r: &Option<DVector<f64>>| {
+        let rise = |r: &DVector<f64>| -2.0 * context.robust.fall(&point.r, r) / smooth;
+        r.as_ref().map(rise)
+    };
+    let steepness = [steepness(&values[0]), steepness(&values[1])];
+    if !steepness.iter().flatten().any(|rise| *rise > STEEP) {
+        return Ok(None);
+    }
+    let [Some(below), Some(above)] = [&values[0], &values[1]] else {
+        return Ok(None);
+    };
+    let bend = |below: &DVector<f64>, above: &DVector<f64>| below + above - &point.r * 2.0;
+    let bent = bend(below, above);
+    let greatest = bent.amax();
+    if greatest == 0.0 {
+        return Ok(None);
+    }
+    let rows: Vec<usize> = (0..evaluator.rows)
+        .filter(|i| bent[*i].abs() >= CONCERNED * greatest)
+        .collect();
+    let near = sides(NEARER);
+    let nearer = [evaluator.try_residual(&near[0])?, evaluator.try_residual(&near[1])?];
+    let jumps = match &nearer {
+        [Some(below), Some(above)] => bend(below, above)[bent.iamax()].abs() >= JUMP * greatest,
+        _ => false,
+    };
+    Ok(Some(Kink {
+        parameter: space.free[j],
+        rows,
+        sides: wide.map(|u| space.theta(&u)),
+        steepness,
+        jumps,
+    }))
+}

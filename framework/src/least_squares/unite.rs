@@ -1,0 +1,142 @@
+//! Which ends of searches are one minimum.
+//!
+//! On a sum of squares with many small steps hardly two searches end at the same place. Ends are one minimum where the data cannot tell
+//! them apart: where twice their costs differ by less than the square of half a standard error, and twice the cost rises by no
+//! more on the straight line between them. Standard errors are those by the scatter of the residuals.
+
+use super::evaluate::Evaluator;
+use super::fault::Fault;
+use super::finish::{finish, is_stuck};
+use super::fit::Fit;
+use super::multistart::{BETWEEN, Minimum, level, near};
+use super::options::Options;
+use super::problem::Problem;
+use super::robust::Robust;
+use super::space::Space;
+
+/// Rise of twice the cost over the variance that the data do not tell: half a standard error. \[-\]
+const TOLD: f64 = 0.25;
+/// Fall of the same between two ends from which on the place between them is worth a search. \[-\]
+const LOWER: f64 = 1e-3;
+/// Searches from places between ends at most.
+const SEARCHES: usize = 10;
+
+/// What lies between two ends.
+enum Between {
+    /// They are one minimum.
+    Nothing,
+    /// The data tell them apart.
+    Barrier,
+    /// Coordinates where the cost is lower than at both.
+    Lower(Vec<f64>),
+}
+
+/// Ends of searches, the lowest first, as minima; those that are stuck are finished where that is needed.
+///
+/// # Errors
+/// If the problem has no residuals where it had some.
+pub(super) fn unite(
+    problem: &Problem<'_>,
+    options: &Options<'_>,
+    space: &Space<'_>,
+    fits: Vec<(usize, Fit)>,
+    begun: f64,
+) -> Result<(Vec<Minimum>, usize), Fault> {
+    let mut minima: Vec<Minimum> = Vec::new();
+    let share = 1.0 / fits.len().max(1) as f64;
+    let (mut evaluations, mut searches) = (0, 0);
+    for (i, fit) in fits {
+        let mut fit = fit;
+        let mut joined = None;
+        loop {
+            let mut lower = None;
+            for (k, old) in minima.iter().enumerate() {
+                if level(&old.fit, &fit, begun) && near(space, &old.fit, &fit) {
+                    joined = Some(k);
+                    break;
+                }
+                match between(problem, options, space, [&old.fit, &fit], &mut evaluations)? {
+                    Between::Nothing => joined = Some(k),
+                    Between::Lower(u) => lower = Some(u),
+                    Between::Barrier => continue,
+                }
+                break;
+            }
+            let from = match lower {
+                Some(u) if searches < SEARCHES => {
+                    searches += 1;
+                    Some(u)
+                }
+                None if joined.is_none() && is_stuck(&fit) => None,
+                _ => break,
+            };
+            let before = fit.counts.evaluations;
+            fit = finish(problem, options, space, fit, from.as_deref())?;
+            evaluations += fit.counts.evaluations - before;
+        }
+        match joined {
+            Some(k) => {
+                let old = &mut minima[k];
+                old.starts.push(i);
+                old.share += share;
+                if fit.cost < old.fit.cost && fit.converged() {
+                    old.fit = fit;
+                }
+            }
+            None => minima.push(Minimum {
+                fit,
+                starts: vec![i],
+                share,
+            }),
+        }
+    }
+    minima.sort_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
+    Ok((minima, evaluations))
+}
+
+/// What lies between two ends, at places on a straight line.
+fn between(
+    problem: &Problem<'_>,
+    options: &Options<'_>,
+    space: &Space<'_>,
+    [a, b]: [&Fit; 2],
+    evaluations: &mut usize,
+) -> Result<Between, Fault> {
+    let least = a.cost.min(b.cost);
+    let freedom = a.residuals.len().saturating_sub(space.len()).max(1);
+    let variance = 2.0 * least / freedom as f64;
+    let rise = |cost: f64| 2.0 * (cost - least) / variance;
+    // A combination that changes nothing is a valley, and said to be one.
+    let known = a.converged() && b.derivative.is_some();
+    if !known || !(rise(a.cost.max(b.cost)) <= TOLD) {
+        return Ok(Between::Barrier);
+    }
+    let [from, to] = [a, b].map(|fit| -> Vec<f64> { space.free.iter().map(|i| fit.u[*i]).collect() });
+    let start = space.starting(&from);
+    let (evaluator, _) = Evaluator::start(problem, &start, options.interrupt)?;
+    let robust = Robust {
+        loss: options.loss,
+        scale: a.loss_scale,
+        rows: evaluator.rows,
+    };
+    let mut found = Between::Nothing;
+    let mut lowest = least;
+    for k in 1..=BETWEEN {
+        let share = k as f64 / (BETWEEN + 1) as f64;
+        let u: Vec<f64> = from.iter().zip(&to).map(|(a, b)| a + share * (b - a)).collect();
+        let Some(cost) = evaluator.residual(&u).ok().map(|r| robust.cost(&r)) else {
+            found = Between::Barrier;
+            break;
+        };
+        if rise(cost) > TOLD {
+            found = Between::Barrier;
+            break;
+        }
+        if cost < lowest && rise(cost) < -LOWER {
+            lowest = cost;
+            found = Between::Lower(u);
+        }
+    }
+    *evaluations += evaluator.evaluations();
+    Ok(found)
+}
