@@ -6,6 +6,7 @@
 
 mod fit;
 mod hold_out;
+mod kinks;
 mod next;
 mod parameter;
 mod posterior;
@@ -15,6 +16,7 @@ mod shares;
 
 pub use fit::{Fitted, Profiled, Settings};
 pub use hold_out::{HoldOut, group_words};
+pub use kinks::ModelKink;
 pub use next::{Candidate, NextPlan};
 pub use parameter::{Identified, RigQuantity, Target};
 pub use posterior::Posterior;

@@ -66,3 +66,4 @@ pub use robust::Loss;
 pub(crate) use robust::{FLOOR, median_spread};
 pub use solve::{SINGULAR, solve};
 pub use subproblem::How;
+pub use unite::UNTOLD;

@@ -10,14 +10,15 @@ use gearloss_framework::document::read_yaml;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::identify::{Identification, Settings};
+use gearloss_framework::identify::{Fitted, Identification, ModelKink, Settings};
 use gearloss_framework::language::Language;
+use gearloss_framework::least_squares::{Reason, Status};
 use gearloss_framework::measured::Measured;
 use gearloss_framework::registry::Registry;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::study::{Analysis, StudyEntry};
 use gearloss_plugins as _;
-use serde_json::{Value, json};
+use serde_json::json;
 
 const RPM: f64 = std::f64::consts::PI / 30.0;
 /// Relative standard deviation of a measured loss.
@@ -25,8 +26,9 @@ const NOISE: f64 = 0.005;
 const SEED: u64 = 20261123;
 /// Torques in Nm and speeds in rpm at the input, and temperatures of the oil in degC: 48 points. Chosen before anything was fitted, as
 /// the seed and what is hidden were.
-fn env(n: &str, d: &str) -> String { std::env::var(n).unwrap_or(d.to_owned()) }
-fn list(n: &str, d: &str) -> Vec<f64> { env(n, d).split(',').map(|x| x.parse().unwrap()).collect() }
+const TORQUES: [f64; 3] = [0.5, 2.0, 4.0];
+const SPEEDS: [f64; 8] = [3000.0, 6000.0, 9000.0, 12000.0, 15000.0, 18000.0, 20000.0, 22000.0];
+const OILS: [f64; 2] = [40.0, 80.0];
 /// What the models are not told.
 const HIDDEN: [(&str, f64); 7] = [
     ("lubricants.sump.viscosity.factor", 0.85),
@@ -80,24 +82,23 @@ impl Normal {
     }
 }
 
-/// The two-speed example with 3 l of oil that reach far up, under models whose churning has flow regimes.
-fn choice(overrides: &[(&str, f64)]) -> Choice {
-    let churn = if overrides.is_empty() { env("CHURN","changenet_2011") } else { env("TRUE", &env("CHURN","changenet_2011")) };
+/// The two-speed example with 3 l of oil that reach far up, and a law of churning.
+fn choice(churning: &str, overrides: &[(&str, f64)]) -> Choice {
     let models = json!({
         "gear_mesh": { "type": "iso14179_2" },
-        "gear_drag": { "churning": { "type": churn } },
-        "bearing": if env("BEARING","skf") == "skf" { json!({ "type": "skf", "mu_bl": 0.12 }) } else { json!({ "type": env("BEARING","skf") }) },
+        "gear_drag": { "churning": { "type": churning } },
+        "bearing": { "type": "skf", "mu_bl": 0.12 },
         "seal": { "type": "iso14179_2" },
         "synchronizer": { "type": "cone_gap" },
     });
     let charge = [
-        ("housing.oil.volume".to_owned(), json!(env("VOLUME","3").parse::<f64>().unwrap())),
-        ("housing.oil.running_level".to_owned(), json!(env("LEVEL","-30").parse::<f64>().unwrap())),
+        ("housing.oil.volume".to_owned(), json!(3.0)),
+        ("housing.oil.running_level".to_owned(), json!(-30.0)),
     ];
     let own = overrides.iter().map(|(path, value)| ((*path).to_owned(), json!(value)));
     Choice {
         set: Some("churned".to_owned()),
-        sets: [("churned".to_owned(), models)].into_iter().collect(),
+        sets: std::iter::once(("churned".to_owned(), models)).collect(),
         overrides: charge.into_iter().chain(own).collect(),
     }
 }
@@ -111,35 +112,30 @@ fn gearbox(language: &Language) -> Gearbox {
     Gearbox::read(language, &file).unwrap_or_else(|f| panic!("{}", f.render()))
 }
 
-/// The synthetic measurement, and the share of churning in all losses.
-fn csv(language: &Language, gearbox: &Gearbox) -> (String, f64) {
+/// The synthetic measurement after a law of churning.
+fn csv(language: &Language, gearbox: &Gearbox, churning: &str) -> String {
     let t = gearbox
-        .transmission(language, &choice(&HIDDEN))
+        .transmission(language, &choice(churning, &HIDDEN))
         .unwrap_or_else(|f| panic!("{}", f.render()));
     let case = t.case("first", &["input"], &["input"]).unwrap();
-    let (mut scratch, mut noise) = (t.scratch(&case), Normal(env("SEED","20261123").parse().unwrap()));
+    let (mut scratch, mut noise) = (t.scratch(&case), Normal(SEED));
     let mut csv = "torque [Nm],speed [rpm],loss [W],accuracy [W],oil [degC]\n".to_owned();
-    let (mut churning, mut all) = (0.0, 0.0);
-    for oil in list("OILS","40,80") {
-        for torque in list("TORQUES","0.5,2,4") {
-            for speed in list("SPEEDS","3000,6000,9000,12000,15000,18000,20000,22000") {
+    for oil in OILS {
+        for torque in TORQUES {
+            for speed in SPEEDS {
                 let point = Point {
                     speeds: &[speed * RPM],
                     torques: &[torque],
                     flow: PowerFlow::Real,
                     tolerance: Tolerance::default(),
                 };
-                let solution = t.evaluate(&case, &point, &[oil], &mut scratch);
-                let loss = solution.loss().unwrap();
-                let drag = solution.parts().filter(|(info, _)| info.mechanism == "gear_drag");
-                churning += drag.map(|(_, part)| part.watts()).sum::<f64>();
-                all += loss;
-                let seen = loss * (1.0 + env("NOISE","0.005").parse::<f64>().unwrap() * noise.next());
+                let loss = t.evaluate(&case, &point, &[oil], &mut scratch).loss().unwrap();
+                let seen = loss * (1.0 + NOISE * noise.next());
                 let _ = writeln!(csv, "{torque},{speed},{seen},{},{oil}", NOISE * loss);
             }
         }
     }
-    (csv, churning / all)
+    csv
 }
 
 fn study(language: &Language) -> StudyEntry {
@@ -153,6 +149,7 @@ fn identification<'a>(
     gearbox: &'a Gearbox,
     study: &'a StudyEntry,
     measured: &'a Measured,
+    churning: &str,
 ) -> Identification<'a> {
     let Some(Analysis::Identify(entry)) = study.analyses.get("churned") else {
         panic!("the study identifies");
@@ -170,7 +167,7 @@ fn identification<'a>(
     let found = Identification::new(
         language,
         gearbox,
-        choice(&[]),
+        choice(churning, &[]),
         rows,
         entry.parameters.iter(),
         &entry.residuals,
@@ -178,24 +175,60 @@ fn identification<'a>(
     found.unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-#[test]
-fn thirty_starts_find_the_minimum_at_a_kink() {
+/// Fits a law of churning to points after another one from 30 starts: no law is what was measured.
+fn fitted(measured: &str, churning: &str, check: impl FnOnce(&Fitted)) {
     let language = language();
     let (gearbox, study) = (gearbox(&language), study(&language));
-    let (csv, churning) = csv(&language, &gearbox);
-    eprintln!("{churning}");
+    let csv = csv(&language, &gearbox, measured);
     let measured = study.measurements.get("rig").unwrap().read(csv.as_bytes(), &[]).unwrap();
-    let mut identification = identification(&language, &gearbox, &study, &measured);
-    let settings = Settings { starts: 30, ..Settings::default() };
-    let begun = std::time::Instant::now();
+    let mut identification = identification(&language, &gearbox, &study, &measured, churning);
+    let settings = Settings {
+        starts: 30,
+        ..Settings::default()
+    };
     let fitted = identification.fit(&settings).unwrap();
-    eprintln!("{:?} {} evaluations", begun.elapsed(), fitted.minima.evaluations);
-    for m in &fitted.minima.minima {
-        eprintln!("{:?} {:?} {} {:.4?} {:?} {:?}", m.fit.status, m.fit.reason, m.fit.cost, m.fit.theta, m.starts, m.fit.log.last().map(|l| l.relative_offset));
+    let minima = &fitted.minima.minima;
+    assert_eq!(minima.iter().map(|m| m.starts.len()).sum::<usize>(), 30);
+    for minimum in minima {
+        assert_eq!(minimum.fit.status, Status::Converged, "{:?} {:?}", minimum.fit.reason, minimum.starts);
     }
-    for k in 0..7 {
-        eprintln!("{:?}", fitted.inference.deviation(k));
-    }
-    eprintln!("{:?} {:?}", fitted.minima.kinship, fitted.minima.notes);
-    let _: Value = json!(null);
+    check(&fitted);
+}
+
+/// Regimes by Reynolds number, where the loss jumps by 0.2 %: before there was a finish without derivatives, each of the 30 starts failed
+/// in another minimum within 0.1 % of the cost.
+#[test]
+fn thirty_starts_find_the_minimum_at_a_kink() {
+    fitted("changenet_2007", "changenet_2011", |fitted| {
+        let minima = &fitted.minima.minima;
+        assert_eq!(minima.len(), 1, "{:?}", minima.iter().map(|m| m.fit.cost).collect::<Vec<_>>());
+        assert_eq!(fitted.fit().reason, Reason::Pattern);
+        for kink in &fitted.kinks {
+            eprintln!("{} {:?}", kink.sentence(), kink.parameters);
+        }
+        let kink = fitted.kinks.first().unwrap();
+        let named = |kink: &ModelKink| {
+            kink.model == "changenet_2011"
+                && kink.regimes.as_ref().is_some_and(|r| r.iter().any(|r| r.starts_with("viscous")))
+                && kink.jumps
+        };
+        assert!(fitted.kinks.iter().any(named), "{:?}", fitted.kinks);
+        assert!(kink.sentence().starts_with("minimum at a kink of `changenet_2011` of gears."), "{}", kink.sentence());
+        // The kink lies across the viscosity, by which the Reynolds number changes.
+        assert!(fitted.is_kinked(0), "{:?}", fitted.kinks);
+    });
+}
+
+/// Regimes that meet without a jump, of another slope: there are several minima, far apart, and the result says which.
+#[test]
+fn minima_that_the_points_tell_apart_stay_apart() {
+    fitted("changenet_2011", "changenet_2007", |fitted| {
+        let minima = &fitted.minima.minima;
+        assert!((2..10).contains(&minima.len()), "{:?}", minima.iter().map(|m| m.fit.cost).collect::<Vec<_>>());
+        for pair in minima.windows(2) {
+            let rise = 2.0 * (pair[1].fit.cost - pair[0].fit.cost) / fitted.fit().scatter();
+            let away = (0..HIDDEN.len()).filter_map(|k| fitted.distance(&pair[1], k));
+            assert!(rise > 0.0 && away.fold(0.0_f64, |most, d| most.max(d.abs())) > 1.0);
+        }
+    });
 }

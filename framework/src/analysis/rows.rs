@@ -5,10 +5,10 @@ use serde_json::Value;
 use super::{Field, Given, OilTemperature, PointResult, Points, merge, run_grid};
 use crate::description::ThermalMode;
 use crate::document::Diagnostic;
-use crate::evaluate::PowerFlow;
+use crate::evaluate::{Point, PowerFlow};
 use crate::gearbox::{Findings, Gearbox};
 use crate::language::Language;
-use crate::loss::Extent;
+use crate::loss::{Extent, Step};
 use crate::measured::{Measured, PortSpeeds, Rig, Row, sense};
 use crate::resolve::{Choice, Resolved};
 use crate::transmission::Transmission;
@@ -220,6 +220,41 @@ impl Rows<'_> {
             rows,
             seen,
         }))
+    }
+
+    /// Branches that the models of a part take at a solved point of [`Self::solve`], each with the path of its model; none where the
+    /// point cannot be prescribed.
+    pub fn branches(
+        &self,
+        transmission: &Transmission,
+        gear: &str,
+        point: &PointResult,
+        part: usize,
+    ) -> Vec<(String, &'static str)> {
+        let points = self.points(gear, transmission, Vec::new());
+        let Ok(case) = points.case(transmission) else {
+            return Vec::new();
+        };
+        let torques = vec![point.torque; transmission.state(gear).map_or(0, |s| transmission.torques_needed(s)).min(1)];
+        let mut scratch = transmission.scratch(&case);
+        let prescribed = Point {
+            speeds: &[point.speed],
+            torques: &torques,
+            flow: self.flow,
+            ..Point::default()
+        };
+        let wanted = match (transmission.thermal_mode, point.oil) {
+            (ThermalMode::Fixed, Some(oil)) => OilTemperature::Fixed(oil),
+            _ => points.oil,
+        };
+        let warm = wanted.find(transmission, &case, &prescribed, &mut scratch);
+        let solution = transmission.evaluate(&case, &prescribed, warm.temperatures(), &mut scratch);
+        let (_, trace) = solution.explain(part);
+        let branch = |step: Step| match step {
+            Step::Branch { instance, taken } => Some((transmission.instances()[instance].path.clone(), taken)),
+            Step::Value { .. } => None,
+        };
+        trace.into_steps().into_iter().filter_map(branch).collect()
     }
 
     /// The gear state of a row.

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::Identification;
+use super::{Identification, ModelKink};
 use crate::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation};
 use crate::least_squares::{
-    Differences, Fault, Loss, Minima, Noise, Options, Problem, Reason, SINGULAR, Scale, Status, multistart, solve,
+    Differences, Fault, Loss, Minima, Minimum, Noise, Options, Problem, Scale, Status, UNTOLD, multistart, solve,
 };
 use crate::study::Quantity;
 
@@ -28,9 +28,8 @@ const UNEVEN: f64 = 1e-7;
 /// of differences are a hundredth of usual sizes, so that a jump inside of one is no slope. The needle cages of the two-speed example
 /// jump by 2e-5 of its residuals where Palmgren's product of viscosity and speed passes 2000.
 pub(super) const JUMPS: f64 = 1e-5;
-/// Remaining shift in standard errors up to which a search that shrank to nothing stands at a minimum beside a jump.
-const BESIDE: f64 = 0.25;
-/// Relative step at which a search ends: beside a jump no direction lowers the misfit, and what derivatives promise is never met.
+/// Relative step at which a search ends: beside a jump no direction lowers the misfit, and what derivatives promise is never met. Such a search
+/// is finished without derivatives.
 const SMALLEST: f64 = 1e-5;
 
 /// A hook that says whether to stop.
@@ -72,12 +71,25 @@ pub struct Fitted {
     pub factors: Vec<(Quantity, f64)>,
     /// What it says of the parameters.
     pub inference: inference::Fit,
+    /// Models whose kinks hold the minimum; none at a smooth one.
+    pub kinks: Vec<ModelKink>,
 }
 
 impl Fitted {
     /// The fit.
     pub fn fit(&self) -> &crate::least_squares::Fit {
         &self.minima.minima[0].fit
+    }
+
+    /// Whether a kink lies across a parameter, so that its linearised interval is a guess.
+    pub fn is_kinked(&self, parameter: usize) -> bool {
+        self.fit().kinks.iter().any(|kink| kink.parameter == parameter)
+    }
+
+    /// Distance of a parameter at another minimum, in its standard errors at the fit; absent where it has none.
+    pub fn distance(&self, minimum: &Minimum, parameter: usize) -> Option<f64> {
+        let deviation = self.inference.deviation(parameter).filter(|d| *d > 0.0)?;
+        Some((minimum.fit.u[parameter] - self.fit().u[parameter]) / deviation)
     }
 
     /// Values of the parameters, each in the unit of its path.
@@ -101,7 +113,7 @@ impl<'s> Settings<'s> {
             differences: Differences::Forward,
             noise: Noise::Known(UNEVEN),
             jumps: JUMPS,
-            polish: std::env::var("NOPOLISH").is_err(),
+            polish: true,
             // Other starts take the place of other steps.
             attempts: false,
             interrupt: self.interrupt,
@@ -116,20 +128,6 @@ impl<'s> Settings<'s> {
     }
 }
 
-/// A search that shrank to nothing while derivatives promised hardly anything stands beside a jump of a law, and at a minimum.
-fn beside_a_jump(fit: &mut crate::least_squares::Fit) {
-    let left = fit.log.last().and_then(|step| step.relative_offset);
-    let Some(derivative) = &fit.derivative else { return };
-    if fit.reason == Reason::Radius && left.is_some_and(|left| left < BESIDE) {
-        // A combination that changes nothing is no success here either.
-        fit.status = if derivative.independence < SINGULAR {
-            Status::Singular
-        } else {
-            Status::Converged
-        };
-    }
-}
-
 impl Identification<'_> {
     /// Finds the parameters.
     ///
@@ -140,7 +138,6 @@ impl Identification<'_> {
         let mut minima = multistart(&self.problem(), &options, settings.starts.max(1))?;
         for minimum in &mut minima.minima {
             self.keep_unseen(&mut minimum.fit);
-            beside_a_jump(&mut minimum.fit);
         }
         let mut fitted = self.fitted(minima, &options)?;
         if settings.accuracy_factors && self.accuracy == inference::Accuracy::Given {
@@ -194,7 +191,6 @@ impl Identification<'_> {
             let mut again = multistart(&problem, options, 1)?;
             let mut fit = again.minima.swap_remove(0).fit;
             self.keep_unseen(&mut fit);
-            beside_a_jump(&mut fit);
             // Other starts and minima are those of the first round.
             let mut minima = fitted.minima.clone();
             minima.minima[0].fit = fit;
@@ -264,6 +260,7 @@ impl Identification<'_> {
         Ok(Fitted {
             inference: inference.map_err(none)?,
             factors: Vec::new(),
+            kinks: self.model_kinks(fit).map_err(none)?,
             minima,
         })
     }
@@ -321,6 +318,8 @@ impl Identification<'_> {
             differences: Differences::Forward,
             noise: Noise::Known(NOISE),
             jumps: JUMPS,
+            // Where kinks hold the minimum they hold the ends of these searches, too.
+            polish: !fitted.kinks.is_empty(),
             attempts: false,
             interrupt,
             ..Options::fit()
@@ -339,10 +338,13 @@ impl Identification<'_> {
         });
         let mut u = fit.u;
         u[k] = v;
-        Ok(Refit {
-            objective: 2.0 * fit.cost + own,
-            u,
-        })
+        let mut objective = 2.0 * fit.cost + own;
+        // Beside a kink the minimum is one of many that the data cannot tell apart: a hair below it is no better optimum.
+        let least = fitted.inference.objective();
+        if !fitted.kinks.is_empty() && least - objective <= UNTOLD * fitted.fit().scatter() {
+            objective = objective.max(least);
+        }
+        Ok(Refit { objective, u })
     }
 
     /// Errors of each fold, predicted with the parameters that the others give. The folds are those of

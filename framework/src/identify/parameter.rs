@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::document::{Diagnostic, Unit, parse_quantity};
+use crate::document::{Diagnostic, Dimension, Unit, parse_quantity};
 use crate::inference;
 use crate::language::Language;
 use crate::least_squares::{self, Prior};
@@ -89,6 +89,26 @@ pub struct Identified {
     pub scale: ScaleEntry,
     /// What is known of it beside the points.
     pub prior: Option<Prior>,
+    /// Size by which its interval is judged, where its value may be zero so that it tells none: [`usual_size`] for a path; for an
+    /// offset of a torque meter the median of the measured loss torques there, to which it adds.
+    pub size: Option<f64>,
+}
+
+/// Length by which an interval about a length is judged that may be zero, such as an offset of the oil level: an assumption, about the
+/// depth of teeth and dips of a car's gears. \[m\]
+const LENGTH: f64 = 0.01;
+/// The same of a temperature: an assumption, within which oils change their viscosity by a third. \[K\]
+const TEMPERATURE: f64 = 10.0;
+
+/// Size by which an interval is judged, in the unit of a path whose values may have either sign; absent where the value itself tells it.
+fn usual_size(unit: &Unit, range: [f64; 2]) -> Option<f64> {
+    let signed = range[0] < 0.0 && range[1] > 0.0;
+    match unit.dimension {
+        Dimension::Temperature | Dimension::TemperatureDifference => Some(TEMPERATURE / unit.factor),
+        Dimension::Length if signed => Some(LENGTH / unit.factor),
+        Dimension::None if signed => Some(1.0),
+        _ => None,
+    }
 }
 
 /// A path of the study below the analysis, with what is wrong there.
@@ -108,7 +128,7 @@ impl Identified {
         (language, resolved): (&Language, &Resolved),
     ) -> Result<Vec<Self>, Diagnostic> {
         let place = |key: &str| format!("parameters.{name}.{key}");
-        let (target, unit, stated, range) = if entry.path.starts_with("rig.") {
+        let (target, unit, stated, range): (_, &'static Unit, _, _) = if entry.path.starts_with("rig.") {
             let known = RIG.iter().find(|(path, _)| *path == entry.path);
             let Some((_, quantity)) = known else {
                 let names = RIG.map(|(path, _)| path).join(", ");
@@ -249,6 +269,7 @@ impl Identified {
             bounds,
             scale: entry.scale,
             prior,
+            size: usual_size(unit, range),
         };
         let Some(over) = &entry.over else {
             return Ok(vec![one]);
@@ -342,7 +363,7 @@ impl Identified {
             ScaleEntry::Linear => inference::Scale::Linear,
             ScaleEntry::Log => inference::Scale::Log,
         };
-        inference::Parameter::new(&self.name, scale, theta, self.bounds)
+        Ok(inference::Parameter::new(&self.name, scale, theta, self.bounds)?.sized(self.size))
     }
 
     /// Overrides that write values of all parameters into the gearbox.

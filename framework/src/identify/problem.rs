@@ -274,6 +274,35 @@ impl<'a> Identification<'a> {
         Problem::new(|theta: &[f64]| self.residuals(theta), parameters)
     }
 
+    /// Judges offsets of torque meters by the loss torques to which they add.
+    fn size_offsets(&mut self, start: &Calculated) {
+        for port in [0, 1] {
+            let torque = |(i, row): (usize, &crate::measured::Row)| {
+                let seen = Seen::on(&start.rig, self.rows.measured, row, start.point(i));
+                let there = match (port, start.point(i).output_speed) {
+                    (0, _) => 1.0,
+                    (_, Some(speed)) => start.point(i).reference_speed / speed,
+                    (_, None) => return None,
+                };
+                let torque = (seen.quantity(Quantity::LossTorque)? * there).abs();
+                torque.is_finite().then_some(torque)
+            };
+            let mut torques: Vec<f64> = self.rows.measured.rows.iter().enumerate().filter_map(torque).collect();
+            torques.sort_by(f64::total_cmp);
+            let median = torques.get(torques.len() / 2).copied();
+            for parameter in &mut self.parameters {
+                let own = match parameter.target {
+                    Target::Rig(RigQuantity::OffsetIn) => port == 0,
+                    Target::Rig(RigQuantity::OffsetOut) => port == 1,
+                    _ => false,
+                };
+                if own {
+                    parameter.size = median;
+                }
+            }
+        }
+    }
+
     /// Refuses quantities that follow from the same measured numbers.
     fn counted_once(&self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
         let wrong = |message: String, mend: &str| Err(vec![Diagnostic::error("residuals", message).mend(mend)]);
@@ -421,6 +450,7 @@ impl<'a> Identification<'a> {
                 "state the instruments under `rig`, or columns such as `loss_accuracy`",
             ));
         }
+        self.size_offsets(&start);
         self.accuracy = if with > 0 { Accuracy::Given } else { Accuracy::Estimated };
         self.observations = found.into_iter().map(|(observation, _)| observation).collect();
         let free = self.parameters.iter().filter(|p| p.bounds[0] < p.bounds[1]);

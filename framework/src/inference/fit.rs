@@ -288,12 +288,21 @@ impl Fit {
     }
 
     /// Singular values of the columns times the ranges of the parameters, over the standard deviation of a residual, the greatest
-    /// first. Along a direction of value s the half-width of the 95 % interval is 1.96/s of the range: those above four tell
-    /// how many combinations the data resolve.
+    /// first. Along a direction of value s the half-width of the 95 % interval is 1.96/s of the range.
     pub fn ranged_singular_values(&self) -> Vec<f64> {
+        self.scaled_singular_values(Parameter::range)
+    }
+
+    /// The same with the sizes of the parameters in place of their ranges, [`Parameter::own_size`]: values above four tell how many
+    /// combinations the data resolve, whatever the bounds are.
+    pub fn sized_singular_values(&self) -> Vec<f64> {
+        self.scaled_singular_values(Parameter::own_size)
+    }
+
+    fn scaled_singular_values(&self, size: impl Fn(&Parameter) -> f64) -> Vec<f64> {
         let factors = &self.factors;
         let noise = self.variance.sqrt().max(f64::MIN_POSITIVE);
-        let length = |(j, norm): (&usize, &f64)| norm * self.parameters[*j].range() / noise;
+        let length = |(j, norm): (&usize, &f64)| norm * size(&self.parameters[*j]) / noise;
         let lengths: Vec<f64> = factors.columns.iter().zip(&factors.norms).map(length).collect();
         factors.scaled(&lengths).unwrap_or_default()
     }

@@ -85,6 +85,8 @@ pub struct Parameter {
     pub bounds: [f64; 2],
     /// Whether it can move.
     pub standing: Standing,
+    /// Size by which its interval is judged, in the coordinate, where its own value does not tell one, [`Parameter::sized`].
+    pub size: Option<f64>,
 }
 
 impl Parameter {
@@ -115,7 +117,25 @@ impl Parameter {
             u,
             bounds,
             standing,
+            size: None,
         })
+    }
+
+    /// With a size by which its interval is judged: for an offset, which may be zero, one that is usual for the quantity.
+    pub fn sized(self, size: Option<f64>) -> Self {
+        let size = size.filter(|size| *size > 0.0 && size.is_finite());
+        Self { size, ..self }
+    }
+
+    /// Size by which half-widths are judged whatever the bounds are, in the coordinate: one for a logarithm, whose half-width is
+    /// relative as it is; else the size that was given, or the magnitude of the value, or one where that is zero.
+    pub fn own_size(&self) -> f64 {
+        match (self.scale, self.size) {
+            (Scale::Log, _) => 1.0,
+            (Scale::Linear, Some(size)) => size,
+            (Scale::Linear, None) if self.u != 0.0 => self.u.abs(),
+            (Scale::Linear, None) => 1.0,
+        }
     }
 
     /// The value in its own unit.
@@ -123,7 +143,7 @@ impl Parameter {
         self.scale.theta(self.u)
     }
 
-    /// Size by which half-widths are judged, in the coordinate: the distance of the bounds. Without two of them a parameter
+    /// Size by which plans of measurements and slopes count, in the coordinate: the distance of the bounds. Without two of them a parameter
     /// is judged by its own size: a logarithm by one, else the magnitude, or one where that is zero.
     pub fn range(&self) -> f64 {
         let width = self.bounds[1] - self.bounds[0];

@@ -1,17 +1,22 @@
 //! Which parameters the data determine, in words.
 //!
-//! Intervals are judged by the range of the parameter; parameters that are known only together are found by correlations, and
-//! where these say nothing by singular vectors (Belsley, Kuh, Welsch: Regression Diagnostics, Wiley 1980, chapter 3). The
-//! limits are conventions.
+//! Intervals are judged by the size of the parameter, [`super::Parameter::own_size`], and not by the bounds that a user gives: wider
+//! bounds are no better data. How much of the bounds an interval fills is a second statement. Parameters that are known only together
+//! are found by correlations, and where these say nothing by singular vectors (Belsley, Kuh, Welsch: Regression Diagnostics, Wiley
+//! 1980, chapter 3). The limits are conventions.
 
 use super::{Fit, Side, Standing};
 
 /// Confidence of the half-widths.
 const CONFIDENCE: f64 = 0.95;
-/// Half-width over the range up to which a parameter is well determined.
+/// Half-width over the size up to which a parameter is well determined.
 const WELL: f64 = 0.1;
+/// The same up to which it is roughly determined.
+const ROUGHLY: f64 = 0.5;
 /// The same if all others were known, above which the data do not see a parameter.
-const UNSEEN: f64 = 0.5;
+const UNSEEN: f64 = 1.0;
+/// Share of the range from which on it is told that an interval fills it.
+pub(super) const FILLS: f64 = 0.5;
 /// Part of a column that no other explains, below which a parameter is known only in combination.
 const OWN: f64 = 0.2;
 /// Correlation from which on a parameter is a partner.
@@ -26,14 +31,16 @@ pub enum Verdict {
     Held,
     /// It is on a bound and would go on.
     OnBound(Side),
-    /// Over its whole range it moves the results less than the instruments can see.
+    /// A change by its own size moves the results less than the instruments can see.
     NotSeen,
-    /// Its interval is a tenth of its range or less.
+    /// The half-width of its interval is a tenth of its size or less.
     WellDetermined,
     /// Only together with others.
     OnlyInCombination,
-    /// The rest.
+    /// The half-width of its interval is half of its size or less.
     RoughlyDetermined,
+    /// The rest: its interval is nearly as wide as its size, or wider.
+    NotDetermined,
 }
 
 /// A combination of two parameters that is better known than either: u - factor v.
@@ -54,6 +61,13 @@ pub struct Combination {
 pub struct Determination {
     /// What the data say.
     pub verdict: Verdict,
+    /// Half-width of the 95 % interval over the size of the parameter, [`super::Parameter::own_size`]; absent where there is no standard
+    /// deviation. The verdict follows from it. \[-\]
+    pub relative: Option<f64>,
+    /// The same if all other parameters were known; absent where the column is zero or the parameter does not move. \[-\]
+    pub relative_alone: Option<f64>,
+    /// Share of the range between the bounds that the interval fills; absent without two bounds or a standard deviation. \[-\]
+    pub filled: Option<f64>,
     /// Half-width of the 95 % interval over the range; absent where there is no standard deviation.
     pub width: Option<f64>,
     /// The same if all other parameters were known; absent where the column is zero or the parameter does not move.
@@ -74,6 +88,9 @@ impl Fit {
     pub fn determination_widened(&self, parameter: usize, widening: f64) -> Determination {
         let mut found = Determination {
             verdict: Verdict::Held,
+            relative: None,
+            relative_alone: None,
+            filled: None,
             width: None,
             alone: None,
             own: 0.0,
@@ -87,27 +104,39 @@ impl Fit {
             }
             Standing::Free => {}
         }
-        let range = self.parameters()[parameter].range();
+        let at = &self.parameters()[parameter];
+        let (range, size) = (at.range(), at.own_size());
         // Rows are more than parameters wherever Student's quantile is asked for.
         let quantile = self.quantile(CONFIDENCE).unwrap_or(f64::MAX);
         let alone = self.variance().sqrt() / self.column(parameter);
         let deviation = self.deviation(parameter);
-        found.width = deviation.map(|d| widening * quantile * d / range);
-        found.alone = Some(widening * quantile * alone / range).filter(|w| w.is_finite());
+        let half = deviation.map(|d| widening * quantile * d);
+        let half_alone = Some(widening * quantile * alone).filter(|w| w.is_finite());
+        found.relative = half.map(|half| half / size);
+        found.relative_alone = half_alone.map(|half| half / size);
+        let [low, high] = at.bounds;
+        found.filled = half
+            .filter(|_| (high - low).is_finite() && high > low)
+            .map(|half| ((at.u + half).min(high) - (at.u - half).max(low)) / (high - low));
+        found.width = half.map(|half| half / range);
+        found.alone = half_alone.map(|half| half / range);
         found.own = match deviation {
             Some(d) if d > 0.0 => (alone / d).min(1.0),
             // Without any scatter every parameter is known exactly.
             Some(_) => 1.0,
             None => 0.0,
         };
-        found.verdict = if found.alone.is_none_or(|w| w > UNSEEN) {
+        let within = |limit: f64| found.relative.is_some_and(|relative| relative <= limit);
+        found.verdict = if found.relative_alone.is_none_or(|w| w > UNSEEN) {
             Verdict::NotSeen
-        } else if found.width.is_some_and(|w| w <= WELL) {
+        } else if within(WELL) {
             Verdict::WellDetermined
         } else if found.own < OWN {
             Verdict::OnlyInCombination
-        } else {
+        } else if within(ROUGHLY) {
             Verdict::RoughlyDetermined
+        } else {
+            Verdict::NotDetermined
         };
         if found.verdict == Verdict::OnlyInCombination {
             found.partners = self.partners(parameter);

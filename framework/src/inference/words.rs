@@ -1,14 +1,26 @@
 //! Verdicts on parameters as sentences.
 
-use super::{Fit, Parameter, Scale, Verdict};
+use super::verdict::FILLS;
+use super::{Determination, Fit, Parameter, Scale, Verdict};
 
 /// Confidence of the intervals in sentences, and how they name it.
 const CONFIDENCE: (f64, &str) = (0.95, "95 %");
 
 impl Fit {
-    /// What the data say of a parameter, as a sentence without an end.
+    /// What the data say of a parameter, as a sentence without an end; where its interval fills half of the range or more, that too.
     pub fn sentence(&self, parameter: usize) -> String {
         let found = self.determination(parameter);
+        let said = self.said(parameter, &found);
+        match found.filled {
+            Some(filled) if filled >= FILLS && found.verdict != Verdict::NotSeen => {
+                format!("{said}; its interval fills {:.0} % of the range given", 100.0 * filled)
+            }
+            _ => said,
+        }
+    }
+
+    /// The verdict in words.
+    fn said(&self, parameter: usize, found: &Determination) -> String {
         let at = &self.parameters()[parameter];
         match found.verdict {
             Verdict::Held => format!("held at {}", digits(at.theta())),
@@ -21,9 +33,9 @@ impl Fit {
                 )
             }
             Verdict::NotSeen => {
-                "changing it over its whole range moves the result less than the instruments can see".to_owned()
+                "changing it by its own size moves the result less than the instruments can see".to_owned()
             }
-            Verdict::WellDetermined | Verdict::RoughlyDetermined => self.alone(parameter),
+            Verdict::WellDetermined | Verdict::RoughlyDetermined | Verdict::NotDetermined => self.alone(parameter),
             Verdict::OnlyInCombination => {
                 let Some(first) = found.partners.first() else {
                     return format!(

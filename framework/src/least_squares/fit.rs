@@ -204,6 +204,15 @@ impl Fit {
         self.status == Status::Converged
     }
 
+    /// Variance of a residual by the scatter of all; 1 where there are no more residuals than free parameters. \[-\]
+    pub fn scatter(&self) -> f64 {
+        let free = self.fixed.iter().filter(|fixed| !**fixed).count();
+        match self.residuals.len().checked_sub(free) {
+            Some(freedom) if freedom > 0 => self.chi2() / freedom as f64,
+            _ => 1.0,
+        }
+    }
+
     /// Twice the cost: the sum of squares, where the loss is linear.
     pub fn chi2(&self) -> f64 {
         2.0 * self.cost

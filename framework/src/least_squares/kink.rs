@@ -10,12 +10,14 @@ use rayon::prelude::*;
 
 use super::evaluate::Miss;
 use super::iterate::{Context, Point};
-use super::polish::{Axes, moved};
+use super::polish::{Axes, inside, moved};
 
 /// Distance of both sides from the minimum, in standard errors: so near that the square is small beside a kink that counts. \[-\]
 const ASIDE: f64 = 0.05;
-/// Distance of a second pair, which tells a jump from a kink: a jump is as high there.
-const NEARER: f64 = ASIDE / 8.0;
+/// Distance of a second pair over that of the first, which tells a jump from a kink: a jump is as high there. \[-\]
+const NEARER: f64 = 0.125;
+/// Share of the distance that a bound must leave. \[-\]
+const CUT: f64 = 0.2;
 /// Rise over that of a smooth minimum from which on a kink holds it. \[-\]
 const STEEP: f64 = 4.0;
 /// Share of the greatest deviation from a straight line from which on a row is concerned. \[-\]
@@ -59,21 +61,28 @@ fn along(context: &Context<'_>, point: &Point, axes: &Axes, j: usize) -> Result<
     let (space, evaluator) = (context.evaluator.space, context.evaluator);
     // One standard error of the parameter, with all others following: its row of the root times the root.
     let mut step = DVector::zeros(space.len());
-    for axis in &axes.steps {
+    let principal = &axes.steps[..axes.principal];
+    for axis in principal {
         step += axis * axis[j];
     }
-    let deviation = axes.steps.iter().map(|axis| axis[j].powi(2)).sum::<f64>().sqrt();
+    let deviation = principal.iter().map(|axis| axis[j].powi(2)).sum::<f64>().sqrt();
     if deviation == 0.0 {
         return Ok(None);
     }
     step /= deviation;
+    // As far on either side as a bound leaves room: both sides are compared.
+    let room = [-ASIDE, ASIDE].map(|length| inside(space, &point.u, &step, length).abs());
+    let aside = room[0].min(room[1]);
+    if aside < CUT * ASIDE {
+        return Ok(None);
+    }
     let sides = |distance: f64| [-distance, distance].map(|length| moved(space, &point.u, &(&step * length)));
-    let wide = sides(ASIDE);
+    let wide = sides(aside);
     let mut values = Vec::with_capacity(2);
     for u in &wide {
         values.push(evaluator.try_residual(u)?);
     }
-    let smooth = axes.variance * ASIDE * ASIDE;
+    let smooth = axes.variance * aside * aside;
     let steepness = |r: &Option<DVector<f64>>| {
         let rise = |r: &DVector<f64>| -2.0 * context.robust.fall(&point.r, r) / smooth;
         r.as_ref().map(rise)
@@ -94,7 +103,7 @@ fn along(context: &Context<'_>, point: &Point, axes: &Axes, j: usize) -> Result<
     let rows: Vec<usize> = (0..evaluator.rows)
         .filter(|i| bent[*i].abs() >= CONCERNED * greatest)
         .collect();
-    let near = sides(NEARER);
+    let near = sides(NEARER * aside);
     let nearer = [evaluator.try_residual(&near[0])?, evaluator.try_residual(&near[1])?];
     let jumps = match &nearer {
         [Some(below), Some(above)] => bend(below, above)[bent.iamax()].abs() >= JUMP * greatest,

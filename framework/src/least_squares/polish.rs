@@ -42,8 +42,10 @@ const CALLS: usize = 400;
 
 /// Axes along which neighbours are compared, over the coordinates of the free parameters.
 pub(super) struct Axes {
-    /// Steps of one standard error.
+    /// Steps of one standard error: along the principal axes, then along coordinates that a bound holds.
     pub steps: Vec<DVector<f64>>,
+    /// How many of them are principal axes.
+    pub principal: usize,
     /// Variance of a residual by the scatter of all. \[-\]
     pub variance: f64,
 }
@@ -86,12 +88,17 @@ impl Axes {
             }
             steps.push(no_longer_than_usual(space, step));
         }
+        let principal = steps.len();
         for j in (0..space.len()).filter(|j| active[*j].is_some()).filter(seen) {
             let mut step = DVector::zeros(space.len());
             step[j] = deviation / norms[j];
             steps.push(no_longer_than_usual(space, step));
         }
-        (!steps.is_empty()).then_some(Self { steps, variance })
+        (!steps.is_empty()).then_some(Self {
+            steps,
+            principal,
+            variance,
+        })
     }
 
     /// The axes turned as a whole by a mirror whose normal comes from an even sequence.
@@ -121,7 +128,7 @@ fn no_longer_than_usual(space: &Space<'_>, step: DVector<f64>) -> DVector<f64> {
 }
 
 /// Part of a step that leaves no bound.
-fn inside(space: &Space<'_>, u: &[f64], step: &DVector<f64>, length: f64) -> f64 {
+pub(super) fn inside(space: &Space<'_>, u: &[f64], step: &DVector<f64>, length: f64) -> f64 {
     let room = |j: usize| match length * step[j] {
         d if d > 0.0 => (space.upper[j] - u[j]) / d,
         d if d < 0.0 => (space.lower[j] - u[j]) / d,

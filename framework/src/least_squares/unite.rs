@@ -14,8 +14,8 @@ use super::problem::Problem;
 use super::robust::Robust;
 use super::space::Space;
 
-/// Rise of twice the cost over the variance that the data do not tell: half a standard error. \[-\]
-const TOLD: f64 = 0.25;
+/// Rise of twice the cost over the variance by scatter, [`Fit::scatter`], that the data do not tell: half a standard error. \[-\]
+pub const UNTOLD: f64 = 0.25;
 /// Fall of the same between two ends from which on the place between them is worth a search. \[-\]
 const LOWER: f64 = 1e-3;
 /// Searches from places between ends at most.
@@ -103,12 +103,11 @@ fn between(
     evaluations: &mut usize,
 ) -> Result<Between, Fault> {
     let least = a.cost.min(b.cost);
-    let freedom = a.residuals.len().saturating_sub(space.len()).max(1);
-    let variance = 2.0 * least / freedom as f64;
+    let variance = if a.cost <= b.cost { a.scatter() } else { b.scatter() };
     let rise = |cost: f64| 2.0 * (cost - least) / variance;
     // A combination that changes nothing is a valley, and said to be one.
     let known = a.converged() && b.derivative.is_some();
-    if !known || !(rise(a.cost.max(b.cost)) <= TOLD) {
+    if !known || !(rise(a.cost.max(b.cost)) <= UNTOLD) {
         return Ok(Between::Barrier);
     }
     let [from, to] = [a, b].map(|fit| -> Vec<f64> { space.free.iter().map(|i| fit.u[*i]).collect() });
@@ -128,7 +127,7 @@ fn between(
             found = Between::Barrier;
             break;
         };
-        if rise(cost) > TOLD {
+        if rise(cost) > UNTOLD {
             found = Between::Barrier;
             break;
         }

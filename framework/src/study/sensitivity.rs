@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::parameters::NameOr;
 use super::{RangeEntry, Write};
 
-/// What the losses over a grid depend on: the mean loss, that of every mechanism and term, and the mean efficiency.
+/// What the losses over a grid depend on: the mean loss, that of every mechanism and term, the mean efficiency, and the relative change of
+/// the loss at the points (`relative_loss`: root of its mean square from the values of the gearbox, not for `local`).
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SensitivityEntry {
     /// Gearbox; absent, the first.

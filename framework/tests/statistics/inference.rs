@@ -201,6 +201,44 @@ fn check_7_2_verdicts() {
     assert_eq!(fit.determination(F_L).partners, [F_MU]);
 }
 
+/// Wider bounds are no better data, and no worse ones.
+#[test]
+fn verdicts_do_not_hang_on_the_width_of_the_bounds() {
+    let narrow = optimum();
+    for factor in [0.5, 2.0, 10.0] {
+        let wider = parameters(&OPTIMUM).into_iter().map(|mut parameter| {
+            parameter.bounds = parameter.bounds.map(|bound| parameter.u + factor * (bound - parameter.u));
+            parameter
+        });
+        let wide = fit(wider.collect());
+        for k in 0..8 {
+            let [a, b] = [&narrow, &wide].map(|fit| fit.determination(k));
+            assert_eq!((a.verdict, &a.partners), (b.verdict, &b.partners), "{} {factor}", NAMES[k]);
+            // Steps of differences follow the range, and leave as many digits.
+            near(a.relative.unwrap(), b.relative.unwrap(), 1e-6);
+            near(a.width.unwrap(), factor * b.width.unwrap(), 1e-6);
+            assert!(a.filled.unwrap() <= 1.0);
+        }
+        let resolved = |fit: &Fit| fit.sized_singular_values().iter().filter(|s| **s > 4.0).count();
+        assert_eq!(resolved(&narrow), resolved(&wide));
+    }
+}
+
+#[test]
+fn an_interval_that_fills_the_range_is_told_so() {
+    let list = parameters(&OPTIMUM).into_iter().enumerate().map(|(k, mut parameter)| {
+        if k == H {
+            parameter.bounds = [parameter.u - 0.1, parameter.u + 0.15];
+        }
+        parameter
+    });
+    let fit = fit(list.collect());
+    let found = fit.determination(H);
+    assert!((0.8..=1.0).contains(&found.filled.unwrap()), "{found:?}");
+    let words = format!("its interval fills {:.0} % of the range given", 100.0 * found.filled.unwrap());
+    assert!(fit.sentence(H).ends_with(&words), "{}", fit.sentence(H));
+}
+
 #[test]
 fn check_7_2_sharp_combination() {
     let fit = optimum();

@@ -156,6 +156,18 @@ impl GearDragModel for Churning {
             "m/s2",
             omega * omega * (radius * b * gear.normal_module).cbrt(),
         );
+        at.branch(if re < 4000.0 {
+            "viscous: Re below its limit"
+        } else {
+            "inertial: Re at its limit or above"
+        });
+        at.branch(if gamma <= 750.0 {
+            "slow: gamma up to its lower limit"
+        } else if gamma >= 1250.0 {
+            "fast: gamma from its upper limit on"
+        } else {
+            "gamma between its limits"
+        });
         let c_m = at.observe(
             &C_M,
             c_m(

@@ -14,7 +14,7 @@ use gearloss_framework::study::{Method, SensitivityEntry};
 use indicatif::ProgressBar;
 use serde_json::Value;
 
-use self::outputs::Outputs;
+use self::outputs::{Kind, Outputs};
 use super::ranges::{Range, once};
 use super::trial::{Left, Trial, left};
 use super::write::{head, write};
@@ -86,8 +86,12 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SensitivityEntry, out: &mut 
 }
 
 impl Found<'_> {
-    /// Slopes of an output over a parameter, without an elasticity where the parameter is zero: it has no relative change.
+    /// Slopes of an output over a parameter, without an elasticity where the parameter is zero: it has no relative change. None of the
+    /// relative change over the points, which is least at the values of the gearbox and has a kink there.
     fn slopes(&self, output: usize, parameter: usize) -> Option<Local> {
+        if self.outputs.list[output].kind == Kind::RelativeLoss {
+            return None;
+        }
         let local = self.local.as_ref()?[output][parameter];
         let zero = self.ranges[parameter].varied.start() == Some(0.0);
         Some(Local {
@@ -141,7 +145,11 @@ fn found<'a>(
         return Ok(None);
     }
     let nominal = runner.solve(&built, points)?.points;
-    let outputs = Outputs::of(&built.transmission, &nominal);
+    let outputs = Outputs::of(
+        &built.transmission,
+        &nominal,
+        wanted(Method::Morris) || wanted(Method::Sobol),
+    );
     let values = outputs.values(&built.transmission, &nominal).map_err(no_value)?;
     let bar = runner.bar(count as u64, &built.name);
     let trial = Trial::new(runner, &built);

@@ -1,6 +1,7 @@
 //! Identifications as JSON.
 
-use gearloss_framework::inference::{Accuracy, BandMean, Reach, Standing, Verdict};
+use gearloss_framework::identify::ModelKink;
+use gearloss_framework::inference::{Accuracy, BandMean, Reach, Scale, Standing, Verdict};
 use gearloss_framework::study::{Difference, FoldsEntry, IdentifyEntry};
 use serde_json::{Value, json};
 
@@ -34,8 +35,8 @@ pub fn of(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {
         "singular_values": inference.singular_values(),
         "condition": inference.condition(),
         "singular_values_of_ranges": ranged,
-        "resolved_combinations": ranged.iter().filter(|value| **value > RESOLVED).count(),
         "posterior": posterior::value(o),
+        "resolved_combinations": inference.sized_singular_values().iter().filter(|value| **value > RESOLVED).count(),
         "checks": checks(o),
         "folds": folds(o, entry),
         "hold_out": hold_out::json_of(o),
@@ -47,7 +48,20 @@ pub fn of(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {
 
 fn search(o: &Outcome<'_>) -> Value {
     let (fit, minima) = (o.fitted.fit(), &o.fitted.minima);
-    let minimum = |m: &gearloss_framework::least_squares::Minimum| json!({ "cost": m.fit.cost, "share_of_starts": m.share, "starts": m.starts, "parameters": m.fit.theta });
+    let minimum = |m: &gearloss_framework::least_squares::Minimum| {
+        let distances: Vec<Option<f64>> = (0..m.fit.theta.len()).map(|k| o.fitted.distance(m, k)).collect();
+        json!({
+            "cost": m.fit.cost, "share_of_starts": m.share, "starts": m.starts, "parameters": m.fit.theta,
+            "standard_errors_away": distances,
+        })
+    };
+    let kink = |k: &ModelKink| {
+        let names = k.parameters.iter().map(|p| o.identification.parameters()[*p].name.as_str());
+        json!({
+            "path": k.path, "model": k.model, "regimes": k.regimes, "jumps": k.jumps, "change": k.change, "lines": k.lines,
+            "parameters": names.collect::<Vec<_>>(), "sentence": k.sentence(),
+        })
+    };
     let step = |i: &gearloss_framework::least_squares::Iteration| {
         json!({
             "attempt": i.attempt, "cost": i.cost, "first_order": i.first_order, "relative_offset": i.relative_offset,
@@ -67,6 +81,8 @@ fn search(o: &Outcome<'_>) -> Value {
         "cone_fallbacks": fit.counts.cone_failures,
         "undefined": fit.counts.undefined,
         "attempt": fit.attempt,
+        "evaluations_without_derivatives": fit.counts.polishing,
+        "kinks": o.fitted.kinks.iter().map(kink).collect::<Vec<_>>(),
         "kinship": minima.kinship.map(gearloss_framework::least_squares::Kinship::name),
         "minima": minima.minima.iter().map(minimum).collect::<Vec<_>>(),
         "notes": fit.notes.iter().chain(&minima.notes).collect::<Vec<_>>(),
@@ -111,6 +127,7 @@ fn parameter(o: &Outcome<'_>, k: usize) -> Value {
         Verdict::WellDetermined => "well_determined",
         Verdict::OnlyInCombination => "only_in_combination",
         Verdict::RoughlyDetermined => "roughly_determined",
+        Verdict::NotDetermined => "not_determined",
     };
     let bound = match of.standing {
         Standing::Active(side) => Some(side.name()),
@@ -148,9 +165,14 @@ fn parameter(o: &Outcome<'_>, k: usize) -> Value {
         "interval_without_bounds": interval.map(|i| i.uncut),
         "profile": profile,
         "bound": bound,
+        "kink": o.fitted.is_kinked(k),
         "verdict": word,
         "sentence": inference.sentence(k),
         "partners": names(&found.partners),
+        "size": (of.scale == Scale::Linear).then(|| of.own_size()),
+        "half_width_over_size": found.relative,
+        "half_width_over_size_alone": found.relative_alone,
+        "range_filled": found.filled,
         "width_over_range": found.width,
         "width_over_range_alone": found.alone,
         "own_share": found.own,

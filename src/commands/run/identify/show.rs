@@ -1,8 +1,8 @@
 //! A fit on the terminal: a table of the parameters, and what the points say in sentences.
 
-use gearloss_framework::identify::group_words;
+use gearloss_framework::identify::{Identified, group_words};
 use gearloss_framework::inference::{Accuracy, Fold, Reach, Verdict};
-use gearloss_framework::least_squares::{Reason, Status};
+use gearloss_framework::least_squares::{Minimum, Status};
 use gearloss_framework::study::{Difference, FoldsEntry, IdentifyEntry, RuleEntry};
 
 use super::super::super::solve::RPM;
@@ -14,11 +14,14 @@ use crate::output::{Failure, Out, Table, figures, fixed};
 
 /// Condition of unit columns from which on it is told, and from which on it is a warning.
 const CONDITION: [f64; 2] = [30.0, 1000.0];
-/// Singular value of columns times range above which a combination is resolved: a 95 % half-width under half of the range.
+/// Singular value of columns times sizes above which a combination is resolved: a 95 % half-width under half of the size.
 pub const RESOLVED: f64 = 4.0;
 
-/// Remaining shift in standard errors that is told.
-const LEFT: f64 = 0.02;
+/// Other minima that are printed, and the distance in standard errors from which on a parameter differs there.
+const MINIMA: usize = 5;
+const DIFFERS: f64 = 0.5;
+/// Relative difference from which on a parameter without a standard error differs.
+const APART: f64 = 0.01;
 /// Residual below which nothing but rounding is left.
 const ROUNDING: f64 = 1e-6;
 
@@ -31,6 +34,7 @@ pub fn verdict(verdict: Verdict) -> String {
         Verdict::WellDetermined => "well determined".to_owned(),
         Verdict::OnlyInCombination => "only in combination".to_owned(),
         Verdict::RoughlyDetermined => "roughly determined".to_owned(),
+        Verdict::NotDetermined => "not determined".to_owned(),
     }
 }
 
@@ -78,21 +82,21 @@ pub fn show(
 /// How many combinations of parameters the points tell.
 fn resolved(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
     let inference = &o.fitted.inference;
-    let ranged = inference.ranged_singular_values();
-    if ranged.is_empty() {
+    let sized = inference.sized_singular_values();
+    if sized.is_empty() {
         return runner.verdict(
             format!("{name}: no parameter is free: each is held or stands on a bound"),
             out,
         );
     }
-    let resolved = ranged.iter().filter(|value| **value > RESOLVED).count();
+    let resolved = sized.iter().filter(|value| **value > RESOLVED).count();
     let condition = match inference.condition() {
         None => "columns are parallel".to_owned(),
         Some(c) if c > CONDITION[1] => format!("condition {c:.0}: columns are nearly parallel"),
         Some(c) if c > CONDITION[0] => format!("condition {c:.0}: watch combinations"),
         Some(c) => format!("condition {c:.0}"),
     };
-    let count = ranged.len();
+    let count = sized.len();
     runner.verdict(
         format!("{name}: the points resolve {resolved} of {count} combinations of free parameters ({condition})"),
         out,
@@ -110,6 +114,7 @@ fn search(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
     ))?;
     let starts: usize = minima.minima.iter().map(|m| m.starts.len()).sum();
     let ended = match fit.status {
+        Status::Converged if !fit.kinks.is_empty() => format!("converged at a kink ({})", fit.reason.name()),
         Status::Converged => format!("converged ({})", fit.reason.name()),
         Status::Singular => "converged, but a combination of parameters changes nothing (singular)".to_owned(),
         Status::Failed | Status::Interrupted => format!("{} ({}): no minimum", fit.status.name(), fit.reason.name()),
@@ -131,15 +136,17 @@ fn search(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         "search {ended} after {} steps and {} evaluations of all points{many}",
         fit.counts.steps, minima.evaluations
     ))?;
-    // Of a step that was taken the log tells the offset before it.
-    let last = fit.log.last().filter(|step| !step.accepted);
-    let left = last.and_then(|step| step.relative_offset).filter(|left| *left > LEFT);
-    let small = matches!(fit.reason, Reason::Step | Reason::Cost | Reason::Radius);
-    if let Some(left) = left.filter(|_| fit.converged() && small) {
-        out.line(format!(
-            "the search ends beside a jump of a law: derivatives point {} standard errors further, where the misfit is no smaller",
-            short(left)
-        ))?;
+    for kink in &o.fitted.kinks {
+        out.line(format!("{name}: {}", kink.sentence()))?;
+    }
+    if fit.kinks.len() > o.fitted.kinks.len() && o.fitted.kinks.is_empty() {
+        out.line(format!("{name}: minimum at a kink of the residuals, at which no part's loss jumps"))?;
+    }
+    for other in minima.minima.iter().skip(1).take(MINIMA) {
+        out.line(format!("{name}: {}", another(o, other)))?;
+    }
+    if minima.minima.len() > MINIMA + 1 {
+        out.line(format!("{name}: {} more minima are in the JSON", minima.minima.len() - MINIMA - 1))?;
     }
     for note in fit.notes.iter().chain(&minima.notes) {
         out.line(format!("note: {note}"))?;
@@ -154,6 +161,41 @@ fn search(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         ))?;
     }
     Ok(())
+}
+
+/// Another minimum: its misfit, and the parameters that differ.
+fn another(o: &Outcome<'_>, other: &Minimum) -> String {
+    let fit = o.fitted.fit();
+    let differs = |(k, parameter): (usize, &Identified)| {
+        let (here, there) = (fit.theta[k], other.fit.theta[k]);
+        match o.fitted.distance(other, k) {
+            Some(distance) if distance.abs() >= DIFFERS => Some(format!(
+                "{} {} ({distance:+.1} standard errors)",
+                parameter.name,
+                short(there)
+            )),
+            None if (there - here).abs() > APART * here.abs().max(there.abs()) => {
+                Some(format!("{} {}", parameter.name, short(there)))
+            }
+            _ => None,
+        }
+    };
+    let list: Vec<String> = o.identification.parameters().iter().enumerate().filter_map(differs).collect();
+    let list = if list.is_empty() {
+        "no parameter differs by half a standard error".to_owned()
+    } else {
+        list.join(", ")
+    };
+    let more = if fit.cost > 0.0 {
+        format!("{:.2} % more", 100.0 * (other.fit.cost / fit.cost - 1.0))
+    } else {
+        "more".to_owned()
+    };
+    format!(
+        "another minimum, from {} of the starts, has a sum of squares of {} ({more}): {list}",
+        other.starts.len(),
+        short(other.fit.chi2())
+    )
 }
 
 /// How far the models are from the points, before and after.
@@ -228,6 +270,9 @@ fn parameters(o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
             short(*theta),
             interval(1.0),
         ];
+        if o.fitted.is_kinked(k) {
+            row[4].push_str(" (kink)");
+        }
         row.extend(widening.map(interval));
         row.push(match &o.profiles[k] {
             Some(Ok(profile)) => {
@@ -262,6 +307,16 @@ fn parameters(o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
                 o.identification.parameters()[k].name
             ))?;
         }
+    }
+    let kinked: Vec<&str> = (0..o.identification.parameters().len())
+        .filter(|k| o.fitted.is_kinked(*k))
+        .map(|k| o.identification.parameters()[k].name.as_str())
+        .collect();
+    if !kinked.is_empty() {
+        out.line(format!(
+            "kink: derivatives differ on both sides of the minimum, so that the linearised intervals of {} are a guess; trust those by profile",
+            kinked.join(", ")
+        ))?;
     }
     if o.fitted.inference.is_robust() {
         out.line("a robust loss has no intervals by profile")?;

@@ -1,4 +1,4 @@
-//! What depends: means over the points of a grid.
+//! What depends: means over the points of a grid, and how far the loss moves at single points.
 
 use gearloss_framework::analysis::PointResult;
 use gearloss_framework::study::By;
@@ -21,6 +21,9 @@ pub enum Kind {
     Term,
     /// Power out over power in.
     Efficiency,
+    /// Root of the mean square, over the points, of the relative change of the loss at each point from the values of the gearbox: what
+    /// moves loss from one region to another is seen here, while the mean may stay.
+    RelativeLoss,
 }
 
 impl Kind {
@@ -31,6 +34,7 @@ impl Kind {
             Self::Mechanism => "mechanism",
             Self::Term => "term",
             Self::Efficiency => "efficiency",
+            Self::RelativeLoss => "relative_loss",
         }
     }
 }
@@ -38,7 +42,7 @@ impl Kind {
 /// One output.
 pub struct Output {
     pub kind: Kind,
-    /// `loss`, a mechanism, a mechanism and its term, or `efficiency`.
+    /// `loss`, a mechanism, a mechanism and its term, `efficiency`, or `relative_loss`.
     pub name: String,
     /// Whether a term vanishes with the load; absent for what is no term, and where models of a mechanism differ in it.
     pub load_dependent: Option<bool>,
@@ -47,21 +51,29 @@ pub struct Output {
 impl Output {
     /// Unit in results.
     pub fn unit(&self) -> &'static str {
-        if self.kind == Kind::Efficiency { "-" } else { "w" }
+        match self.kind {
+            Kind::Efficiency | Kind::RelativeLoss => "-",
+            Kind::Loss | Kind::Mechanism | Kind::Term => "w",
+        }
     }
 }
 
-/// All outputs, in the order of their values: the loss, mechanisms, terms, and the efficiency where a point has one.
+/// All outputs, in the order of their values: the loss, mechanisms, terms, the efficiency where a point has one, and the relative change
+/// of the loss over the points where that is asked for.
 pub struct Outputs {
     pub list: Vec<Output>,
     mechanisms: Vec<String>,
     terms: Vec<String>,
     /// Points that have an efficiency at the values of the gearbox: a mean is taken over the same points everywhere.
     efficient: Vec<usize>,
+    /// Losses at the values of the gearbox, of points that have one; none where the relative change is not asked for.
+    nominal: Vec<(usize, f64)>,
 }
 
 impl Outputs {
-    pub fn of(t: &Transmission, nominal: &[PointResult]) -> Self {
+    /// With the points at the values of the gearbox; `relative` asks for the relative change of the loss over the points, which has no
+    /// slope there.
+    pub fn of(t: &Transmission, nominal: &[PointResult], relative: bool) -> Self {
         let [mechanisms, terms] = [By::Mechanism, By::Term].map(|by| together(std::iter::once(t), by));
         let has = |(i, p): (usize, &PointResult)| p.efficiency.map(|_| i);
         let efficient: Vec<usize> = nominal.iter().enumerate().filter_map(has).collect();
@@ -76,11 +88,21 @@ impl Outputs {
         if !efficient.is_empty() {
             list.push(output(Kind::Efficiency, "efficiency"));
         }
+        let loses = |(i, p): (usize, &PointResult)| p.loss.filter(|loss| *loss > 0.0).map(|loss| (i, loss));
+        let nominal: Vec<(usize, f64)> = if relative {
+            nominal.iter().enumerate().filter_map(loses).collect()
+        } else {
+            Vec::new()
+        };
+        if !nominal.is_empty() {
+            list.push(output(Kind::RelativeLoss, "relative_loss"));
+        }
         Self {
             list,
             mechanisms,
             terms,
             efficient,
+            nominal,
         }
     }
 
@@ -113,6 +135,11 @@ impl Outputs {
             };
             let list: Vec<f64> = self.efficient.iter().map(of).collect::<Result<_, _>>()?;
             values.push(list.iter().sum::<f64>() / list.len() as f64);
+        }
+        if !self.nominal.is_empty() {
+            let square = |(i, loss): &(usize, f64)| (all[*i] / loss - 1.0).powi(2);
+            let mean = self.nominal.iter().map(square).sum::<f64>() / self.nominal.len() as f64;
+            values.push(mean.sqrt());
         }
         if values.iter().all(|x| x.is_finite()) {
             Ok(values)

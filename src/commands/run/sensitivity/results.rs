@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::super::write::cell;
 use super::Found;
+use super::outputs::Kind;
 
 pub fn header() -> Vec<String> {
     [
@@ -116,6 +117,7 @@ impl Found<'_> {
         let slopes = |k: usize| self.slopes(output, k).as_ref().map(slope);
         self.local
             .as_ref()
+            .filter(|_| self.outputs.list[output].kind != Kind::RelativeLoss)
             .map(|_| (0..self.ranges.len()).filter_map(slopes).collect())
     }
 

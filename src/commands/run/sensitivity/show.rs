@@ -1,12 +1,15 @@
-//! What is printed: a table for each method, of the mean loss, and what it says.
+//! What is printed: a table for each method, of the mean loss and of the relative change of the loss at the points, and what it says.
 
-use gearloss_framework::sensitivity::{Influence, VarianceShares};
+use gearloss_framework::sensitivity::{Estimate, Influence, VarianceShares};
 
 use super::super::Runner;
 use super::super::ranges::show_published;
 use super::Found;
 use super::outputs::Kind;
 use crate::output::{Failure, Out, Table, number, significant};
+
+/// Share of the variance, with others, below which a parameter counts as not influential: that of the screening.
+const SMALL: f64 = 0.05;
 
 pub fn show(runner: &Runner<'_>, name: &str, f: &Found<'_>, out: &mut Out) -> Result<(), Failure> {
     let set = &f.built.name;
@@ -30,6 +33,13 @@ pub fn show(runner: &Runner<'_>, name: &str, f: &Found<'_>, out: &mut Out) -> Re
         sobol(runner, name, f, out)?;
     }
     Ok(())
+}
+
+impl Found<'_> {
+    /// Number of the output of relative changes at the points.
+    fn relative(&self) -> Option<usize> {
+        self.outputs.list.iter().position(|o| o.kind == Kind::RelativeLoss)
+    }
 }
 
 fn local(name: &str, f: &Found<'_>, out: &mut Out) -> Result<(), Failure> {
@@ -68,18 +78,26 @@ fn morris(runner: &Runner<'_>, name: &str, f: &Found<'_>, out: &mut Out) -> Resu
     let Some(morris) = &f.morris else { return Ok(()) };
     let set = &f.built.name;
     out.line(format!(
-        "{name}: change of the mean loss over the whole range of a parameter in W, {} runs, models {set}",
+        "{name}: change of the mean loss over the whole range of a parameter in W, and mu* of the relative change of the loss at the \
+         points (rms) in %, {} runs, models {set}",
         morris.runs
     ))?;
+    let points = f.relative();
+    let influences_at_points = points.map(|i| morris.influences(i)).unwrap_or_default();
+    let at_points = |k: usize| points.map(|i| 100.0 * morris.effects[i][k].magnitude);
     let influences = morris.influences(0);
-    let mut table = Table::new(&["parameter", "mu", "mu*", "sigma", "says"]);
+    let mut table = Table::new(&["parameter", "mu", "mu*", "sigma", "at points %", "says"]);
     for (k, effect) in morris.effects[0].iter().enumerate() {
         table.row(vec![
             f.ranges[k].varied.pattern.clone(),
             number(Some(effect.mean), 3),
             number(Some(effect.magnitude), 3),
             number(Some(effect.deviation), 3),
-            influences[k].words().to_owned(),
+            number(at_points(k), 3),
+            match influences[k] {
+                Influence::None => format!("{} on the mean loss", influences[k].words()),
+                influence => influence.words().to_owned(),
+            },
         ]);
     }
     out.text(&table.render())?;
@@ -97,7 +115,22 @@ fn morris(runner: &Runner<'_>, name: &str, f: &Found<'_>, out: &mut Out) -> Resu
         )
     };
     if magnitudes[first] > 0.0 && !none.is_empty() {
-        sentence.push_str(&format!("; not influential: {none}"));
+        sentence.push_str(&format!("; not influential on the mean loss: {none}"));
+    }
+    // What moves loss from one region to another.
+    let moves = |k: &&usize| {
+        influences[**k] == Influence::None && influences_at_points.get(**k).is_some_and(|i| *i != Influence::None)
+    };
+    let word = |k: &usize| {
+        let share = at_points(*k).unwrap_or(0.0);
+        format!("{}, by {share:.2} %", f.ranges[*k].varied.pattern)
+    };
+    let moving: Vec<String> = order.iter().filter(moves).map(word).collect();
+    if !moving.is_empty() {
+        sentence.push_str(&format!(
+            "; but influential on the loss at single points (rms over the points): {}",
+            moving.join("; ")
+        ));
     }
     if !curved.is_empty() {
         sentence.push_str(&format!("; nonlinear or interacting: {curved}"));
@@ -111,10 +144,12 @@ fn sobol(runner: &Runner<'_>, name: &str, f: &Found<'_>, out: &mut Out) -> Resul
     let Some(sobol) = &f.sobol else { return Ok(()) };
     let (set, shares) = (&f.built.name, &sobol[0]);
     out.line(format!(
-        "{name}: shares of the variance of the mean loss, deviation {:.3} W, {} samples, models {set}",
+        "{name}: shares of the variance of the mean loss, deviation {:.3} W, and of the relative change of the loss at the points (rms), \
+         {} samples, models {set}",
         shares.variance.sqrt(),
         f.samples
     ))?;
+    let at_points = f.relative().map(|i| &sobol[i]);
     let mut table = Table::new(&[
         "parameter",
         "alone",
@@ -123,16 +158,35 @@ fn sobol(runner: &Runner<'_>, name: &str, f: &Found<'_>, out: &mut Out) -> Resul
         "with others",
         "95 % from",
         "to",
+        "at points alone",
+        "with others",
     ]);
     for (k, range) in f.ranges.iter().enumerate() {
         let mut row = vec![range.varied.pattern.clone()];
         for e in [&shares.first[k], &shares.total[k]] {
             row.extend([e.value, e.interval[0], e.interval[1]].map(|x| number(Some(x), 3)));
         }
+        let there = |which: fn(&VarianceShares) -> &Vec<Estimate>| number(at_points.map(|s| which(s)[k].value), 3);
+        row.extend([there(|s| &s.first), there(|s| &s.total)]);
         table.row(row);
     }
     out.text(&table.render())?;
-    runner.verdict(format!("{name}: `{set}`: {}", together(f, shares)), out)?;
+    let mut sentence = format!("{name}: `{set}`: {}", together(f, shares));
+    if let Some(there) = at_points.filter(|there| there.variance > 0.0) {
+        let moves = |k: &usize| shares.total[*k].value < SMALL && there.total[*k].value >= SMALL;
+        let word = |k: usize| {
+            let share = 100.0 * there.total[k].value;
+            format!("{}, with {share:.0} % of its variance", f.ranges[k].varied.pattern)
+        };
+        let moving: Vec<String> = (0..f.ranges.len()).filter(moves).map(word).collect();
+        if !moving.is_empty() {
+            sentence.push_str(&format!(
+                "; influential on the loss at single points only: {}",
+                moving.join("; ")
+            ));
+        }
+    }
+    runner.verdict(sentence, out)?;
     out.line("")?;
     Ok(())
 }
