@@ -29,6 +29,7 @@
 //! # Ok::<(), gearloss_framework::least_squares::Fault>(())
 //! ```
 
+mod bounded_linear;
 mod cone;
 mod difference;
 mod dogleg;
@@ -55,6 +56,7 @@ mod subproblem;
 mod trial;
 mod unite;
 
+pub use bounded_linear::bounded_linear;
 pub use fault::{Fault, Finding};
 pub use fit::{Counts, Derivative, Fit, Iteration, Reason, Side, Status};
 pub use kink::Kink;

@@ -34,6 +34,7 @@ pub mod registry;
 pub mod report;
 pub mod resolve;
 pub mod sampling;
+pub mod selection;
 pub mod sensitivity;
 pub mod study;
 pub mod table;

@@ -197,6 +197,29 @@ pub struct Entry {
 inventory::collect!(Entry);
 
 impl Entry {
+    /// Keys of the models that this one cannot do without, each with its mechanism: `tooth_friction` of `path_integral`. Read from the schema
+    /// of the parameters, where the slot of a model is a reference to the models of its mechanism.
+    pub fn required_slots(&self) -> Vec<(String, String)> {
+        let schema = (self.schema)(&mut SchemaGenerator::default()).to_value();
+        let is_required = |key: &String| {
+            let required = schema.get("required").and_then(Value::as_array);
+            required.is_some_and(|list| list.iter().any(|own| own.as_str() == Some(key)))
+        };
+        let mechanism = |record: &Value| {
+            let reference = record
+                .get("$ref")
+                .or_else(|| record.pointer("/allOf/0/$ref"))?
+                .as_str()?;
+            let name = reference.strip_prefix("#/definitions/")?.strip_suffix("_model")?;
+            Some(name.to_owned())
+        };
+        let keys = schema.get("properties").and_then(Value::as_object);
+        let slots = keys.into_iter().flatten().filter(|(key, _)| is_required(key));
+        slots
+            .filter_map(|(key, record)| Some((key.clone(), mechanism(record)?)))
+            .collect()
+    }
+
     /// What it is, as a sentence: the first paragraph of the doc comment of its parameters.
     pub fn meaning(&self) -> String {
         let schema = (self.schema)(&mut SchemaGenerator::default());

@@ -8,7 +8,8 @@ use super::{Data, Quantity, Write};
 use crate::description::Ordered;
 
 /// Every combination of the models of some mechanisms. The loss of each is evaluated once and added; against measured points
-/// combinations are ranked by their cross-validated error, without them their spread is the uncertainty of the models.
+/// combinations are ranked by their cross-validated error over the accuracy of the measured loss, without them their spread is the
+/// uncertainty of the models.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct TournamentEntry {
     /// Gearbox; absent, the first.
@@ -24,7 +25,14 @@ pub struct TournamentEntry {
     pub grid: Option<String>,
     /// Measured points that the combinations are ranked by.
     pub data: Option<Data>,
-    /// What errors are counted in: efficiency points, watts, or newton metres.
+    /// Accuracy of the loss at points for which the file states none: of the loss, the loss torque or the efficiency, or of the
+    /// torque meters. Absent too, 5 % of the loss and 1 % of the root mean square of all losses are assumed.
+    pub errors: Option<LossErrorsEntry>,
+    /// Correlation between the errors of any two points: 0 where each point errs on its own, 1 where all err alike, as by a gain or an offset of a
+    /// torque meter; more than 0.99 counts as 0.99. Absent, it is estimated from the residuals of the best combination. [-]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub correlation: Option<f64>,
+    /// The unit in which errors are printed: efficiency points, watts, or newton metres. The ranking is the same for all.
     #[serde(default)]
     pub quantity: Quantity,
     /// Each mechanism's loss may be scaled by a factor, fitted within these bounds for each combination.
@@ -58,9 +66,21 @@ pub struct CandidatesEntry {
     /// Slot of a mechanism of which a gear has several models: `churning` of `gear_drag`.
     pub slot: Option<String>,
     /// Models by name, each as in a gearbox: `{ type: skf }`; absent, all that this gearbox has the inputs
-    /// for, with their defaults. Those of drags are named always, because laws for churning, injection and windage are one mechanism.
+    /// for, with their defaults. A model that takes another one, as `path_integral` takes a `tooth_friction`, takes part with each of them.
+    /// Those of drags are named always, because laws for churning, injection and windage are one mechanism.
     #[serde(default)]
     pub models: Ordered<Value>,
+}
+
+/// Accuracy of measured losses: a share of the loss, a constant, or both, which add as squares.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+pub struct LossErrorsEntry {
+    /// Standard deviation in percent of the loss, above zero. [-]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub percent: Option<f64>,
+    /// Standard deviation at every point, above zero. [W]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub absolute: Option<f64>,
 }
 
 /// Bounds of the factors.

@@ -10,6 +10,7 @@ mod design;
 mod folds;
 mod inference;
 mod models;
+mod paired;
 mod profile;
 mod residuals;
 mod sensitivity;

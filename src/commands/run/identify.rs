@@ -1,6 +1,7 @@
 //! Uncertain parameters, found from measured points, with what the points say about each.
 
 mod checks;
+mod compare;
 mod hold_out;
 mod lines;
 mod next;
@@ -12,8 +13,8 @@ mod show;
 mod tables;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::identify::{Faults, HoldOut, Identification, Identified, Observation, Settings};
-use gearloss_framework::inference::{Accuracy, Comparison, FittedModel, Fold, akaike, ranking};
+use gearloss_framework::identify::{Faults, HoldOut, Identification, Identified, Settings};
+use gearloss_framework::inference::{Accuracy, Fold};
 use gearloss_framework::least_squares::{Fault, Loss};
 use gearloss_framework::measured::Measured;
 use gearloss_framework::study::{FoldsEntry, IdentifiedEntry, IdentifyEntry, RobustLoss};
@@ -24,9 +25,6 @@ use super::write::{head, write_json};
 use super::{Built, Runner, gear_of};
 use crate::interrupt;
 use crate::output::{Failure, Out};
-
-/// Relative difference of accuracies up to which points weigh the same under two sets.
-const ALIKE: f64 = 0.05;
 
 pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
@@ -141,11 +139,13 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     if runner.only_checks {
         return Ok(());
     }
-    compare(runner, name, &outcomes, out)?;
+    let compared = compare::compare(runner, name, &outcomes, out)?;
+    compare::write(runner, name, entry, compared.as_ref())?;
     tables::write(runner, name, entry, &outcomes)?;
     let mut value = head(runner, name, &built.iter().collect::<Vec<&Built<'_>>>());
     value["data"] = serde_json::json!({ "file": file, "points": measured.rows.len(), "notes": measured.notes });
     value["identifications"] = Value::Array(outcomes.iter().map(|o| results::of(o, entry)).collect());
+    value["comparison_of_sets"] = compare::json_of(compared.as_ref());
     write_json(runner, name, &entry.write, &value)?;
     for outcome in &outcomes {
         pictures::write(runner, name, entry, outcome)?;
@@ -238,47 +238,4 @@ fn of_search(runner: &Runner<'_>, path: &str, fault: &Fault) -> Failure {
         .study
         .findings(fault.findings.iter().map(finding).collect())
         .into()
-}
-
-/// Which set describes the points best, and whether they can tell.
-fn compare(runner: &Runner<'_>, name: &str, outcomes: &[Outcome<'_>], out: &mut Out) -> Result<(), Failure> {
-    let model = |o: &Outcome<'_>| {
-        let inference = &o.fitted.inference;
-        let (points, parameters) = (inference.residuals().len(), inference.parameters().len());
-        Some(FittedModel {
-            name: o.name.clone(),
-            parameters,
-            criterion: akaike(inference.chi_square(), points, parameters, inference.accuracy())?,
-            validation: o.folds.as_ref().and_then(|folds| Some(folds.as_ref().ok()?.1.clone())),
-        })
-    };
-    if outcomes.len() < 2 {
-        return Ok(());
-    }
-    // Sets are compared over the same numbers with the same weights only, by sums of squares that were made small.
-    let same = outcomes.windows(2).all(|w| {
-        let [a, b] = [&w[0], &w[1]].map(|o| o.identification.observations());
-        let alike = |(a, b): (&Observation, &Observation)| {
-            (a.row, a.quantity) == (b.row, b.quantity) && (a.deviation / b.deviation - 1.0).abs() < ALIKE
-        };
-        a.len() == b.len() && a.iter().zip(b).all(alike)
-    });
-    let squares = |o: &Outcome<'_>| o.fitted.factors.is_empty() && !o.fitted.inference.is_robust();
-    if !same || !outcomes.iter().all(squares) {
-        let words = "the sets are not compared: they were fitted with different weights, or by another loss";
-        return Ok(out.line(format!("{name}: {words}\n"))?);
-    }
-    let Some(models) = outcomes.iter().map(model).collect::<Option<Vec<_>>>() else {
-        return Ok(());
-    };
-    let order = ranking(&models);
-    let first = &models[order[0]];
-    for place in &order[1..] {
-        let other = &models[*place];
-        let words = Comparison::of(first, other).words(&format!("`{}`", first.name), &format!("`{}`", other.name));
-        let gap = other.criterion - first.criterion;
-        runner.verdict(format!("{name}: {words} (corrected Akaike criterion {gap:+.1})"), out)?;
-    }
-    out.line("")?;
-    Ok(())
 }

@@ -1,0 +1,101 @@
+//! Losses of candidates at measured points, and the measurement.
+
+use crate::inference::neighbours;
+
+/// What every candidate loses at each point, and what everything else loses there.
+#[derive(Debug, Clone)]
+pub struct Losses<'a> {
+    /// Loss of all that is not chosen, by point. \[W\]
+    pub rest: &'a [f64],
+    /// For each mechanism and candidate the loss by point. \[W\]
+    pub mechanisms: Vec<Vec<&'a [f64]>>,
+}
+
+impl Losses<'_> {
+    /// Number of combinations.
+    pub fn count(&self) -> usize {
+        self.mechanisms.iter().map(Vec::len).product()
+    }
+
+    /// The candidates of a combination by its number, one place for each mechanism.
+    pub fn combination(&self, mut number: usize) -> Vec<usize> {
+        let mut places = vec![0; self.mechanisms.len()];
+        for (place, mechanism) in places.iter_mut().zip(&self.mechanisms).rev() {
+            *place = number % mechanism.len();
+            number /= mechanism.len();
+        }
+        places
+    }
+
+    /// Loss of a combination at one point. \[W\]
+    pub fn loss(&self, places: &[usize], factors: &[f64], point: usize) -> f64 {
+        let chosen = self.mechanisms.iter().zip(places).zip(factors);
+        chosen.fold(self.rest[point], |sum, ((mechanism, place), factor)| {
+            sum + factor * mechanism[*place][point]
+        })
+    }
+
+    /// Loss of a combination at every point. \[W\]
+    pub fn all(&self, places: &[usize], factors: &[f64]) -> Vec<f64> {
+        (0..self.rest.len()).map(|i| self.loss(places, factors, i)).collect()
+    }
+}
+
+/// Measured losses with their accuracy, and how they are divided.
+#[derive(Debug, Clone)]
+pub struct MeasuredLosses {
+    /// \[W\]
+    pub losses: Vec<f64>,
+    /// Standard deviations, above zero. \[W\]
+    pub deviations: Vec<f64>,
+    /// How much each point counts; one as a rule. \[-\]
+    pub weights: Vec<f64>,
+    /// Errors in the unit in which they are printed, for an error of one watt; absent where the quantity does not exist.
+    pub units: Vec<Option<f64>>,
+    /// Places of points that are predicted together from all others.
+    pub folds: Vec<Vec<usize>>,
+    /// Places of neighbouring points, for the correlation of errors.
+    pub cells: Vec<Vec<usize>>,
+}
+
+impl MeasuredLosses {
+    /// The same with cells of neighbouring torques and speeds at one temperature of the oil.
+    #[must_use]
+    pub fn with_neighbours(mut self, torques: &[f64], speeds: &[f64], oils: &[f64]) -> Self {
+        self.cells = neighbours(torques, speeds, oils);
+        self
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.losses.len()
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.losses.is_empty()
+    }
+
+    /// Losses as residuals: less the measured ones, over their standard deviations.
+    pub fn residuals(&self, losses: &[f64]) -> Vec<f64> {
+        let all = losses.iter().zip(&self.losses).zip(&self.deviations);
+        all.map(|((loss, measured), deviation)| (loss - measured) / deviation)
+            .collect()
+    }
+
+    /// Residuals times the roots of the weights, whose sum of squares is the misfit.
+    pub fn weighted(&self, residuals: &[f64]) -> Vec<f64> {
+        residuals
+            .iter()
+            .zip(&self.weights)
+            .map(|(r, w)| r * w.max(0.0).sqrt())
+            .collect()
+    }
+
+    /// Differences of two lists of losses in units of the accuracy, with the weights.
+    pub fn differences(&self, first: &[f64], second: &[f64]) -> Vec<f64> {
+        let all = first.iter().zip(second).zip(&self.deviations);
+        let list: Vec<f64> = all.map(|((a, b), deviation)| (a - b) / deviation).collect();
+        self.weighted(&list)
+    }
+}

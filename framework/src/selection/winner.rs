@@ -1,0 +1,128 @@
+//! Which combination is to be used, and which others the points do not tell from it.
+
+use super::{Combination, Losses, MeasuredLosses};
+use crate::inference::{Decision, ErrorModel, FLOOR, Paired, Separation};
+
+/// How one combination stands against another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Standing {
+    /// Errors of the folds, first over second; absent where there are fewer than two in which points count.
+    pub folds: Option<Paired>,
+    /// How far apart the predictions are.
+    pub separation: Separation,
+    /// Whether the first is better: where the folds say so and the set of points sees the difference.
+    pub decision: Decision,
+}
+
+/// Compares two combinations.
+pub fn stand(
+    [first, second]: [&Combination; 2],
+    losses: &Losses<'_>,
+    measured: &MeasuredLosses,
+    errors: ErrorModel,
+) -> Standing {
+    let folds = Paired::from_folds(&first.mean_squares, &second.mean_squares, FLOOR);
+    let [a, b] = [first, second].map(|c| losses.all(&c.places, &c.factors));
+    let separation = Separation::new(&measured.differences(&a, &b), errors);
+    let found = folds.map_or(Decision::NotDecided, |folds| folds.decision());
+    Standing {
+        folds,
+        separation,
+        decision: if separation.is_visible() {
+            found
+        } else {
+            Decision::NotDecided
+        },
+    }
+}
+
+/// The outcome of a ranking.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Winner {
+    /// Place of the winner in the ranking: the best without a mark, unless the best of all is decidedly better than it.
+    pub place: usize,
+    /// Place of the best combination without a mark; absent where all are marked.
+    pub unmarked: Option<usize>,
+    /// The best of all against the best without a mark; absent where they are the same, or all are marked.
+    pub best_against_unmarked: Option<Standing>,
+    /// The winner against every combination of the ranking.
+    pub standings: Vec<Standing>,
+    /// Errors of the measurement, with their correlation.
+    pub errors: ErrorModel,
+    /// Whether the correlation was estimated from the residuals of the best.
+    pub is_estimated: bool,
+}
+
+/// Chooses from a ranking. `correlation` is that between the errors of any two points; absent, it is estimated from the residuals of the best.
+/// Absent where nothing is ranked.
+pub fn winner(
+    ranked: &[Combination],
+    is_marked: &dyn Fn(&Combination) -> bool,
+    losses: &Losses<'_>,
+    measured: &MeasuredLosses,
+    correlation: Option<f64>,
+) -> Option<Winner> {
+    let best = ranked.first()?;
+    let fitted = losses.all(&best.places, &best.factors);
+    let estimated = || ErrorModel::estimated(&measured.weighted(&measured.residuals(&fitted)), &measured.cells);
+    // Without neighbours nothing tells the correlation, and errors count as independent.
+    let errors = correlation.map_or_else(|| estimated().unwrap_or(ErrorModel::stated(0.0)), ErrorModel::stated);
+    let unmarked = ranked.iter().position(|c| !is_marked(c));
+    let against = |a: usize, b: usize| stand([&ranked[a], &ranked[b]], losses, measured, errors);
+    let best_against_unmarked = unmarked.filter(|place| *place > 0).map(|place| against(0, place));
+    let place = match (unmarked, best_against_unmarked) {
+        (Some(place), Some(standing)) if standing.decision != Decision::Better => place,
+        _ => 0,
+    };
+    Some(Winner {
+        place,
+        unmarked,
+        best_against_unmarked,
+        standings: (0..ranked.len()).map(|other| against(place, other)).collect(),
+        errors,
+        is_estimated: correlation.is_none(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::rank;
+    use super::super::ranking::tests::{measured, shapes};
+    use super::*;
+
+    #[test]
+    fn a_marked_combination_wins_only_where_it_is_decidedly_better() {
+        let [load, drag, other] = shapes();
+        let noise = |i: usize| [0.6, -0.9, 0.2, 0.8, -0.5, -0.3, 0.4][i % 7];
+        let measured = measured(load.iter().enumerate().map(|(i, x)| x + noise(i)).collect(), 1.0);
+        let near: Vec<f64> = load.iter().map(|x| x + 0.2).collect();
+        let rest = vec![0.0; drag.len()];
+        let losses = Losses {
+            rest: &rest,
+            mechanisms: vec![vec![load.as_slice(), near.as_slice(), other.as_slice()]],
+        };
+        let ranked = rank(&losses, &measured, None, &|| true);
+        let order: Vec<usize> = ranked.iter().map(|c| c.places[0]).collect();
+        assert_eq!(order, [0, 1, 2]);
+        let chosen = |marked: &[usize]| {
+            let is_marked = |c: &Combination| marked.contains(&c.places[0]);
+            winner(&ranked, &is_marked, &losses, &measured, None).unwrap()
+        };
+        let found = chosen(&[]);
+        assert_eq!(
+            (found.place, found.unmarked, found.best_against_unmarked),
+            (0, Some(0), None)
+        );
+        assert_eq!(found.standings[0].decision, Decision::NotDecided);
+        assert_eq!(found.standings[2].decision, Decision::Better);
+        // The near one is not told from the best, so the mark decides; the far one is.
+        assert_eq!(chosen(&[0]).place, 1);
+        let found = chosen(&[0, 1]);
+        assert_eq!((found.place, found.unmarked), (0, Some(2)));
+        assert_eq!(found.best_against_unmarked.unwrap().decision, Decision::Better);
+        let found = chosen(&[0, 1, 2]);
+        assert_eq!((found.place, found.unmarked), (0, None));
+        assert_eq!(winner(&[], &|_| false, &losses, &measured, None), None);
+    }
+}
