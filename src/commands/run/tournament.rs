@@ -1,18 +1,23 @@
 //! Every combination of the models of some mechanisms: ranked by a measurement, or the spread that they leave.
 
 mod candidates;
+mod marks;
+mod pictures;
 mod rank;
+mod results;
 mod spread;
 
-use gearloss_framework::analysis::{Given, PointResult};
+use gearloss_framework::analysis::{Given, GridResult, PointResult};
+use gearloss_framework::inference::folds;
 use gearloss_framework::measured::{Measured, Row, Seen};
+use gearloss_framework::selection::{LossErrors, Losses, MeasuredLosses};
 use gearloss_framework::study::{Difference, Quantity, TournamentEntry};
 use serde_json::{Value, json};
 
 use self::candidates::Slot;
 use super::super::solve::RPM;
 use super::{Built, Runner, gear_of, grid_axes};
-use crate::output::{Failure, Out, Table, number};
+use crate::output::{Failure, Out, Table, number, significant};
 
 /// The most combinations.
 const MOST: usize = 200_000;
@@ -25,8 +30,9 @@ struct Field<'a> {
     /// Loss of all parts that no mechanism of the tournament covers. \[W\]
     rest: Vec<f64>,
     slots: Vec<Slot>,
-    /// What an error of one watt counts at each point.
-    scale: Vec<f64>,
+    /// What an error of one watt is at each point in the unit in which errors are printed; absent where the quantity does not exist, as an
+    /// efficiency without torque.
+    scale: Vec<Option<f64>>,
     /// Unit of errors, in words.
     unit: &'static str,
 }
@@ -37,25 +43,16 @@ impl Field<'_> {
         self.slots.iter().map(|s| s.candidates.len()).product()
     }
 
-    /// The candidates of a combination by number: one place for each slot.
-    fn combination(&self, mut number: usize) -> Vec<usize> {
-        let mut places = vec![0; self.slots.len()];
-        for (place, slot) in places.iter_mut().zip(&self.slots).rev() {
-            *place = number % slot.candidates.len();
-            number /= slot.candidates.len();
+    /// Losses of all candidates.
+    fn losses(&self) -> Losses<'_> {
+        let mechanisms = self
+            .slots
+            .iter()
+            .map(|slot| slot.candidates.iter().map(|c| c.loss.as_slice()).collect());
+        Losses {
+            rest: &self.rest,
+            mechanisms: mechanisms.collect(),
         }
-        places
-    }
-
-    /// Loss of a combination at every point. \[W\]
-    fn loss(&self, places: &[usize]) -> Vec<f64> {
-        let mut loss = self.rest.clone();
-        for (slot, place) in self.slots.iter().zip(places) {
-            for (sum, own) in loss.iter_mut().zip(&slot.candidates[*place].loss) {
-                *sum += own;
-            }
-        }
-        loss
     }
 
     /// Names of the candidates of a combination.
@@ -89,6 +86,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
         let message = "combinations are ranked by losses, not by temperature";
         return Err(runner.wrong(&format!("{path}.quantity"), message, "write `quantity: loss`"));
     }
+    if let Some(errors) = entry.errors {
+        let both = [errors.percent, errors.absolute];
+        if both.iter().all(Option::is_none) || both.iter().flatten().any(|x| *x <= 0.0) {
+            let message = "accuracies of losses are above zero, and one at least is stated";
+            let mend = "write `{ percent: 2, absolute: 5 W }`, or one of the two";
+            return Err(runner.wrong(&format!("{path}.errors"), message, mend));
+        }
+    }
     if let Some(f) = entry.factors.filter(|f| f.least >= f.greatest) {
         let message = format!("factors from {} to {} leave no room", f.least, f.greatest);
         return Err(runner.wrong(
@@ -103,8 +108,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
     let t = &base.transmission;
     match (&entry.grid, &entry.data) {
         (Some(grid_name), None) => {
-            if entry.factors.is_some() || entry.gear.is_some() {
-                let message = "`factors` and `gear` belong to `data`";
+            let of_data = [
+                entry.factors.is_some(),
+                entry.gear.is_some(),
+                entry.errors.is_some(),
+                entry.correlation.is_some(),
+            ];
+            if of_data.contains(&true) {
+                let message = "`factors`, `gear`, `errors` and `correlation` belong to `data`";
                 return Err(runner.wrong(&path, message, "leave them out, or give `data`"));
             }
             let grid = runner.study.grid(&path, grid_name)?;
@@ -116,9 +127,14 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
             let own = grid_axes(runner, grid_name, grid, t)?;
             let points = runner.points(t, gear, own.0.clone(), own.1.clone());
             if runner.checked(&base, &points)? {
-                return candidates::slots(runner, &path, entry, &base, (&points, &[])).map(|_| ());
+                return candidates::slots(runner, &path, entry, &base, (&points, &GridResult::default())).map(|_| ());
             }
             let field = field(runner, &path, entry, base, &points, out, name)?;
+            if field.scale.iter().any(Option::is_none) {
+                let message = "an efficiency, or a loss torque, needs speed and torque at every point";
+                let mend = "leave zero out, or write `quantity: loss`";
+                return Err(runner.wrong(&path, message, mend));
+            }
             spread::show(runner, name, entry, gear, &own, &field, out)
         }
         (None, Some(data)) => {
@@ -130,7 +146,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
             let (rows, mut list) = rows(runner, &path, &measured, &gear, out)?;
             if runner.checked(&base, &runner.listed(t, &gear, Vec::new()))? {
                 let points = runner.listed(t, &gear, Vec::new());
-                return candidates::slots(runner, &path, entry, &base, (&points, &[])).map(|_| ());
+                return candidates::slots(runner, &path, entry, &base, (&points, &GridResult::default())).map(|_| ());
             }
             if !measured.rig.is_silent() {
                 // The speeds tell what the rig adds; the rest of the torque is left for the transmission.
@@ -142,7 +158,10 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
             }
             let points = runner.listed(t, &gear, list);
             let field = field(runner, &path, entry, base, &points, out, name)?;
-            let seen = measurements(runner, &path, entry, &measured, &rows, &field)?;
+            let seen = measurements(runner, &path, entry, (&measured, &rows), &field)?;
+            for line in &seen.notes {
+                out.line(format!("{name}: {line}"))?;
+            }
             rank::show(runner, name, entry, &gear, &seen, &field, out)
         }
         _ => Err(runner.wrong(
@@ -153,18 +172,22 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &TournamentEntry, out: &mut O
     }
 }
 
-/// A measured point.
-struct Measurement {
+/// The measured points.
+struct Measurements {
     /// \[Nm\]
-    torque: f64,
+    torques: Vec<f64>,
     /// \[rad/s\]
-    speed: f64,
-    /// \[W\]
-    loss: f64,
-    /// In the unit of errors.
-    accuracy: Option<f64>,
-    /// How much it counts.
-    weight: f64,
+    speeds: Vec<f64>,
+    losses: MeasuredLosses,
+    /// What a reader should know of their accuracy.
+    notes: Vec<String>,
+}
+
+impl Measurements {
+    /// Accuracy of a point in the unit in which errors are printed.
+    fn accuracy(&self, i: usize) -> Option<f64> {
+        Some(self.losses.units[i]? * self.losses.deviations[i])
+    }
 }
 
 /// The rows in the gear state of the analysis.
@@ -194,37 +217,90 @@ fn rows<'r>(
     Ok((rows, list))
 }
 
-/// Measured losses beside the solved points.
+/// Measured losses beside the solved points, with the accuracy of each.
 fn measurements(
     runner: &Runner<'_>,
     path: &str,
     entry: &TournamentEntry,
-    measured: &Measured,
-    rows: &[&Row],
+    (measured, rows): (&Measured, &[&Row]),
     field: &Field<'_>,
-) -> Result<Vec<Measurement>, Failure> {
-    let points = rows.iter().zip(&field.points);
-    let seen = points.map(|(row, point)| {
+) -> Result<Measurements, Failure> {
+    let (mut losses, mut stated) = (Vec::new(), Vec::new());
+    for (row, point) in rows.iter().zip(&field.points) {
         let seen = Seen::of(measured, row, point);
         let Some(loss) = seen.loss else {
             let message = format!("{}: no measured loss follows", measured.origin(row));
             let mend = "give the loss, the loss torque, the efficiency, or torque and speed at both ports";
             return Err(runner.wrong(&format!("{path}.data"), message, mend));
         };
-        let points = if entry.quantity == Quantity::Efficiency {
-            100.0
-        } else {
-            1.0
-        };
-        Ok(Measurement {
-            torque: point.torque,
-            speed: point.speed,
-            loss,
-            accuracy: seen.accuracy(entry.quantity).map(|a| points * a),
-            weight: measured.value(row, "weight").unwrap_or(1.0),
-        })
+        losses.push(loss);
+        stated.push(seen.accuracy(Quantity::Loss).filter(|a| *a > 0.0));
+    }
+    let lacking = stated.iter().filter(|a| a.is_none()).count();
+    let errors = entry.errors.map(|errors| LossErrors {
+        percent: errors.percent.unwrap_or(0.0),
+        absolute: errors.absolute.unwrap_or(0.0),
     });
-    seen.collect()
+    let (errors, word) = match errors {
+        Some(errors) => (errors, "stated under `errors`"),
+        None => (LossErrors::assumed(&losses), "assumed: state them under `errors`"),
+    };
+    let mut notes = Vec::new();
+    if lacking > 0 {
+        notes.push(format!(
+            "{lacking} of {} points have no accuracy in the file: {} % of the loss and {} W, as standard deviations that add as squares, \
+             {word}",
+            losses.len(),
+            significant(errors.percent),
+            significant(errors.absolute)
+        ));
+    } else if entry.errors.is_some() {
+        notes.push("the file states the accuracy of every point, so `errors` is not used".to_owned());
+    }
+    let deviations: Vec<f64> = losses
+        .iter()
+        .zip(&stated)
+        .map(|(loss, a)| a.unwrap_or_else(|| errors.standard_deviation(*loss)))
+        .collect();
+    if let Some(i) = deviations.iter().position(|d| !(*d > 0.0 && d.is_finite())) {
+        let message = format!(
+            "line {}: the accuracy of a loss of {} W is zero",
+            rows[i].line, losses[i]
+        );
+        let mend = "state an absolute accuracy too: `errors: { percent: 2, absolute: 5 W }`";
+        return Err(runner.wrong(&format!("{path}.errors"), message, mend));
+    }
+    let torques: Vec<f64> = field.points.iter().map(|p| p.torque).collect();
+    let speeds: Vec<f64> = field.points.iter().map(|p| p.speed).collect();
+    let oils: Vec<f64> = field.points.iter().map(|p| p.oil.unwrap_or(0.0)).collect();
+    let groups = folds(&torques, entry.folds as usize);
+    let groups = groups
+        .map_err(|reason| runner.wrong(&format!("{path}.data"), reason, "give points at two torques at least"))?;
+    let without = field.scale.iter().filter(|s| s.is_none()).count();
+    if without > 0 {
+        let what = entry.quantity.words(Difference::Points).0;
+        notes.push(format!(
+            "{without} points have no {what}: they count by their loss, but not in the errors that are printed in {}",
+            field.unit
+        ));
+    }
+    let measured = MeasuredLosses {
+        losses,
+        deviations,
+        weights: rows
+            .iter()
+            .map(|row| measured.value(row, "weight").unwrap_or(1.0))
+            .collect(),
+        units: field.scale.clone(),
+        folds: groups.into_iter().map(|fold| fold.points).collect(),
+        cells: Vec::new(),
+    };
+    Ok(Measurements {
+        losses: measured.with_neighbours(&torques, &speeds, &oils),
+        torques,
+        speeds,
+        notes,
+    })
 }
 
 fn field<'a>(
@@ -258,7 +334,7 @@ fn field<'a>(
             })
             .collect(),
     );
-    let (slots, left_out) = candidates::slots(runner, path, entry, &base, (&points, &solved.points))?;
+    let (slots, left_out) = candidates::slots(runner, path, entry, &base, (&points, &solved))?;
     if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {
         let message = format!(
             "the set itself has no loss at {} Nm, {:.0} rpm",
@@ -279,6 +355,7 @@ fn field<'a>(
         Quantity::LossTorque => 1.0 / p.reference_speed.abs(),
         Quantity::Loss | Quantity::Temperature => 1.0,
     };
+    let scale = |p: &PointResult| Some(scale(p)).filter(|s| s.is_finite());
     let unit = entry.quantity.words(Difference::Points).1;
     let field = Field {
         scale: solved.points.iter().map(scale).collect(),
@@ -289,10 +366,6 @@ fn field<'a>(
         unit,
         base,
     };
-    if field.scale.iter().any(|s| !s.is_finite()) {
-        let message = "an efficiency, or a loss torque, needs speed and torque at every point";
-        return Err(runner.wrong(path, message, "leave zero out, or write `quantity: loss`"));
-    }
     let counts: Vec<String> = field
         .slots
         .iter()
@@ -308,7 +381,9 @@ fn field<'a>(
     }
     if field.count() > MOST {
         let message = format!("{} combinations are more than {MOST}", field.count());
-        return Err(runner.wrong(path, message, "name fewer models"));
+        let mend = "name those that take part: `mechanisms: [{ mechanism: bearing, models: { skf: { type: skf } } }]`; without names every \
+                    model takes part with every model that it takes";
+        return Err(runner.wrong(path, message, mend));
     }
     let mut table = Table::new(&["mechanism", "model", "mean loss W", "time over that of the set"]);
     for slot in &field.slots {
@@ -338,7 +413,7 @@ fn json_of(field: &Field<'_>) -> Value {
         let candidates = s
             .candidates
             .iter()
-            .map(|c| json!({ "name": c.name, "model": c.model, "losses_w": c.loss }));
+            .map(|c| json!({ "name": c.name, "model": c.model, "losses_w": c.loss, "outside": c.marks.iter().map(|m| &m.words).collect::<Vec<_>>() }));
         json!({ "mechanism": s.name, "candidates": candidates.collect::<Vec<_>>() })
     };
     Value::Array(field.slots.iter().map(slot).collect())

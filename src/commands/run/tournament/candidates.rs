@@ -1,13 +1,15 @@
 //! The models that take part, each evaluated once.
 
-use gearloss_framework::analysis::{Field, PointResult, Points, run_grid};
+use gearloss_framework::analysis::{Field, GridResult, PointResult, Points, run_grid};
 use gearloss_framework::language::{DRAGS, HELD, Language};
+use gearloss_framework::registry::{Entry, Registry};
 use gearloss_framework::resolve::{Came, Resolved};
 use gearloss_framework::study::{CandidatesEntry, TournamentEntry};
 use gearloss_framework::transmission::{PartInfo, Transmission};
 use serde_json::{Map, Value};
 
 use super::super::{Built, Runner};
+use super::marks::{Mark, marks};
 use crate::interrupt;
 use crate::output::Failure;
 
@@ -32,6 +34,8 @@ pub struct Candidate {
     pub loss: Vec<f64>,
     /// Time of all points over that of the set which the tournament starts from.
     pub time: f64,
+    /// Stated ranges that it leaves at the points.
+    pub marks: Vec<Mark>,
 }
 
 impl Slot {
@@ -39,6 +43,22 @@ impl Slot {
     pub fn covers(&self, part: &PartInfo) -> bool {
         let slot = self.drag.as_ref().map(|slot| format!(".drag.{slot}"));
         part.mechanism == self.mechanism && slot.is_none_or(|slot| part.path.ends_with(&slot))
+    }
+
+    /// Paths at which the models of the set are replaced.
+    pub fn replaced(&self, language: &Language, resolved: &Resolved) -> Vec<String> {
+        let all = |section: &str, end: &str| -> Vec<String> {
+            let ids = resolved.value.get(section).and_then(Value::as_object);
+            let paths = ids.into_iter().flatten().map(|(id, _)| format!("{section}.{id}.{end}"));
+            paths.filter(|path| taken_over(resolved, path)).collect()
+        };
+        match &self.drag {
+            Some(slot) => ["gears", "meshes"]
+                .iter()
+                .flat_map(|section| all(section, &format!("drag.{slot}")))
+                .collect(),
+            None => section(language, &self.mechanism).map_or_else(Vec::new, |section| all(section, "model")),
+        }
     }
 
     /// The description with another model, nothing for that of the set, in every place of the mechanism that has no model of its own.
@@ -126,7 +146,7 @@ pub fn slots(
     path: &str,
     entry: &TournamentEntry,
     base: &Built<'_>,
-    (points, solved): (&Points, &[PointResult]),
+    (points, solved): (&Points, &GridResult),
 ) -> Result<(Vec<Slot>, Vec<String>), Failure> {
     let time = if runner.only_checks {
         0.0
@@ -147,7 +167,7 @@ pub fn slots(
                 .filter(|i| slot.covers(&base.transmission.parts()[*i]))
                 .collect();
             let of_own = |p: &PointResult| own.iter().map(|i| p.parts[*i]).sum();
-            let loss: Vec<f64> = solved.iter().map(of_own).collect();
+            let loss: Vec<f64> = solved.points.iter().map(of_own).collect();
             let same = |model: &Value| slot.with(runner.language, &base.resolved, model).map(|r| r.value);
             let twin = |candidate: &Candidate| same(&candidate.model).as_ref() == Ok(&base.resolved.value);
             let twins: Vec<bool> = slot.candidates.iter().map(twin).collect();
@@ -160,6 +180,14 @@ pub fn slots(
                     model: Value::Null,
                     loss,
                     time: 1.0,
+                    marks: match solved.seen.is_empty() {
+                        true => Vec::new(),
+                        false => marks(
+                            &base.transmission,
+                            &solved.seen,
+                            &slot.replaced(runner.language, &base.resolved),
+                        ),
+                    },
                 },
             );
         }
@@ -228,10 +256,9 @@ fn filled(
             .map(|(name, model)| (name.to_owned(), model.clone()))
             .collect()
     } else {
-        let models = runner.language.registry().models(&entry.mechanism);
-        models
-            .filter(|model| model.source != "the user's own" && model.name != "none")
-            .map(|model| (model.name.to_owned(), serde_json::json!({ "type": model.name })))
+        let registry = runner.language.registry();
+        let all = takes_part(registry, &entry.mechanism);
+        all.flat_map(|model| with_nested(registry, model, &slot.name, left_out))
             .collect()
     };
     for (name, model) in models {
@@ -242,11 +269,12 @@ fn filled(
                 return Err(runner.wrong(&format!("{path}.models.{name}"), reason, mend));
             }
             Err(Refused::Because(reason)) => left_out.push(format!("{} {name}: {reason}", slot.name)),
-            Ok((loss, seconds)) => slot.candidates.push(Candidate {
+            Ok((loss, seconds, marks)) => slot.candidates.push(Candidate {
                 name,
                 model,
                 loss,
                 time: if time > 0.0 { seconds / time } else { 1.0 },
+                marks,
             }),
         }
     }
@@ -261,20 +289,69 @@ fn filled(
     Ok(slot)
 }
 
+/// The models of a mechanism that take part where none are named.
+fn takes_part<'a>(registry: &'a Registry, mechanism: &'a str) -> impl Iterator<Item = &'a Entry> {
+    let models = registry.models(mechanism);
+    models.filter(|model| model.source != "the user's own" && model.name != "none")
+}
+
+/// A model with its defaults: where it cannot do without models of its own, as `path_integral` without a `tooth_friction`, once with each of
+/// them. One level deep: a model that takes another one of its own mechanism computes what that one computes, and a law that takes a
+/// further one is for the user to name.
+fn with_nested(registry: &Registry, model: &Entry, slot: &str, left_out: &mut Vec<String>) -> Vec<(String, Value)> {
+    let mut all = vec![(Vec::<String>::new(), serde_json::json!({ "type": model.name }))];
+    for (key, mechanism) in model.required_slots() {
+        if mechanism == model.mechanism {
+            left_out.push(format!(
+                "{slot} {}: it takes another {mechanism}; name it under `models`",
+                model.name
+            ));
+            return Vec::new();
+        }
+        let (deep, plain): (Vec<&Entry>, Vec<&Entry>) =
+            takes_part(registry, &mechanism).partition(|nested| !nested.required_slots().is_empty());
+        for nested in deep {
+            left_out.push(format!(
+                "{slot} {}/{}: its {mechanism} takes a further model; name it under `models`",
+                model.name, nested.name
+            ));
+        }
+        let with = |(names, value): &(Vec<String>, Value)| {
+            let one = |nested: &&Entry| {
+                let (mut names, mut value) = (names.clone(), value.clone());
+                names.push(nested.name.to_owned());
+                value[key.as_str()] = serde_json::json!({ "type": nested.name });
+                (names, value)
+            };
+            plain.iter().map(one).collect::<Vec<_>>()
+        };
+        all = all.iter().flat_map(with).collect();
+    }
+    let named = |(nested, value): (Vec<String>, Value)| {
+        let name = if nested.is_empty() {
+            model.name.to_owned()
+        } else {
+            format!("{}/{}", model.name, nested.join("+"))
+        };
+        (name, value)
+    };
+    all.into_iter().map(named).collect()
+}
+
 /// Why a model cannot take part.
 enum Refused {
     Because(String),
     Interrupted,
 }
 
-/// Losses of the slot's parts under one model, and how long all points took.
+/// Losses of the slot's parts under one model, how long all points took, and the stated ranges that it left.
 fn evaluated(
     runner: &Runner<'_>,
     slot: &Slot,
     base: &Built<'_>,
     points: &Points,
     model: &Value,
-) -> Result<(Vec<f64>, f64), Refused> {
+) -> Result<(Vec<f64>, f64, Vec<Mark>), Refused> {
     let because = |list: &[gearloss_framework::document::Diagnostic]| {
         let first = list.first();
         Refused::Because(first.map_or_else(String::new, |d| format!("{}: {}", d.path, d.message)))
@@ -287,7 +364,7 @@ fn evaluated(
         .build(runner.language, &changed)
         .map_err(|findings| because(&findings.list))?;
     if runner.only_checks {
-        return Ok((Vec::new(), 0.0));
+        return Ok((Vec::new(), 0.0, Vec::new()));
     }
     let solved = run_grid(&transmission, points, &|_| !interrupt::pressed()).map_err(|list| because(&list))?;
     let solved = solved.ok_or(Refused::Interrupted)?;
@@ -309,7 +386,8 @@ fn evaluated(
     let loss = solved.points.iter().map(|p| covered.iter().map(|i| p.parts[*i]).sum());
     let loss = loss.collect();
     let seconds = timed(&transmission, points).map_err(|_| Refused::Interrupted)?;
-    Ok((loss, seconds))
+    let replaced = slot.replaced(runner.language, &base.resolved);
+    Ok((loss, seconds, marks(&transmission, &solved.seen, &replaced)))
 }
 
 /// Time that one thread takes for the points at hand, the least of a few tries. Only its ratio to others counts. \[s\]

@@ -29,6 +29,7 @@ pub fn show(
     field: &Field<'_>,
     out: &mut Out,
 ) -> Result<(), Failure> {
+    let scales: Vec<f64> = field.scale.iter().map(|s| s.unwrap_or(0.0)).collect();
     // Losses of slots add up, so extremes and moments over all combinations are the sums of those of the slots.
     let range = |i: usize| {
         let mut range = Range {
@@ -70,7 +71,7 @@ pub fn show(
         let of = |i: usize| {
             let list = losses(i);
             let mean = list.iter().sum::<f64>() / list.len() as f64;
-            let scale = field.scale[i];
+            let scale = scales[i];
             scale * scale * list.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / list.len() as f64
         };
         (0..field.points.len()).map(of).sum()
@@ -93,7 +94,7 @@ pub fn show(
     out.text(&table.render())?;
     let half = |f: fn(f64, f64) -> f64, start: f64| {
         let of = |(r, scale): (&Range, &f64)| 0.5 * (r.greatest - r.least) * scale;
-        ranges.iter().zip(&field.scale).map(of).fold(start, f)
+        ranges.iter().zip(&scales).map(of).fold(start, f)
     };
     let sentence = format!(
         "half of the distance between the extremes: {:.3} to {:.3} {}; standard deviation {:.3} in the root mean square",
@@ -135,7 +136,7 @@ pub fn show(
         ),
         values: ranges
             .iter()
-            .zip(&field.scale)
+            .zip(&scales)
             .map(|(r, scale)| Some(r.deviation * scale))
             .collect(),
         ..Map::default()

@@ -1,0 +1,64 @@
+//! Stated ranges that a candidate leaves at the points of a tournament.
+
+use gearloss_framework::analysis::{STATIC_SAFETY, notes};
+use gearloss_framework::loss::Extent;
+use gearloss_framework::transmission::Transmission;
+
+use crate::output::{beyond, significant};
+
+/// A quantity of a model that left its stated range.
+pub struct Mark {
+    /// Symbol of the quantity.
+    pub name: &'static str,
+    /// What was left, by how much and how often.
+    pub words: String,
+}
+
+/// The stated ranges that the models at some paths left, or models nested in them. The safety of a component is no range of a model.
+pub fn marks(transmission: &Transmission, seen: &[Extent], paths: &[String]) -> Vec<Mark> {
+    let own = |path: &str| {
+        let below = |own: &String| {
+            path.strip_prefix(own.as_str())
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        paths.iter().any(below)
+    };
+    let mut groups: Vec<gearloss_framework::analysis::Note> = Vec::new();
+    for note in notes(transmission, seen) {
+        if note.outside == 0 || note.name == STATIC_SAFETY || !own(&note.path) {
+            continue;
+        }
+        match groups
+            .iter_mut()
+            .find(|group| (group.name, group.range) == (note.name, note.range))
+        {
+            Some(group) => {
+                group.least = group.least.min(note.least);
+                group.greatest = group.greatest.max(note.greatest);
+                group.points = group.points.saturating_add(note.points);
+                group.outside = group.outside.saturating_add(note.outside);
+            }
+            None => groups.push(note),
+        }
+    }
+    let mark = |note: gearloss_framework::analysis::Note| {
+        let range = note.range?;
+        let unit = if note.unit == "-" {
+            String::new()
+        } else {
+            format!(" {}", note.unit)
+        };
+        let words = format!(
+            "{} {} to {}{unit} is {} at {} of {} points of its components ({})",
+            note.name,
+            significant(note.least),
+            significant(note.greatest),
+            beyond(range.least, range.greatest),
+            note.outside,
+            note.points,
+            range.origin
+        );
+        Some(Mark { name: note.name, words })
+    };
+    groups.into_iter().filter_map(mark).collect()
+}
