@@ -18,6 +18,31 @@ fn the_synthetic_measurement_is_what_the_hidden_parameters_make() {
     assert_eq!(std::fs::read_to_string(&file).unwrap(), csv, "UPDATE=1 writes it");
 }
 
+/// The map of examples/foreign-map is what the gearbox that it hides loses, as a design tool would write it. `UPDATE=1` writes it.
+#[test]
+fn the_foreign_map_is_what_its_hidden_gearbox_loses() {
+    let results = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("foreign-map");
+    let study = common::file("tests/foreign_map/study.yaml");
+    let study = study.display().to_string();
+    let arguments = ["gearloss", "run", &study, "--force", "-o", &results.display().to_string()].map(Into::into);
+    assert_eq!(gearloss::call(arguments), 0);
+    let map: Value = serde_json::from_str(&std::fs::read_to_string(results.join("map.json")).unwrap()).unwrap();
+    let mut csv = "T_wheel_Nm,n_wheel_rpm,T_oil_C,P_loss_W\n".to_owned();
+    for temperature in map["maps"].as_array().unwrap() {
+        for point in temperature["points"].as_array().unwrap() {
+            let number = |key: &str| point[key].as_f64().unwrap();
+            let [torque, speed] = [-number("torque_nm"), number("speed_rpm")];
+            let [oil, loss] = ["oil_temperature_degc", "loss_w"].map(number);
+            csv.push_str(&format!("{torque},{speed},{oil},{loss:.3}\n"));
+        }
+    }
+    let file = common::file("examples/foreign-map/map.csv");
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(&file, &csv).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), csv, "UPDATE=1 writes it");
+}
+
 /// Runs a study on the example with the synthetic file beside it.
 fn run(name: &str, study: &str, rig: &str) -> (std::path::PathBuf, String) {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("rig-{name}"));
