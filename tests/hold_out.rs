@@ -1,5 +1,6 @@
 //! Rows held out of an identification: which they are, what is predicted of them, and how often bands hold what they promise.
 #![allow(clippy::unwrap_used)]
+#![allow(clippy::print_stdout, reason = "the documentation quotes the table of coverage")]
 
 mod common;
 
@@ -454,9 +455,9 @@ fn simulate(language: &Language, gearbox: &Gearbox, truth: &[[f64; 3]]) -> Vec<S
     let mean = truth.iter().map(|p| p[2]).sum::<f64>() / truth.len() as f64;
     let one = |number: u64| {
         let level = (number % 3) as usize;
-        let is_stated = number / 3 % 2 == 0;
+        let is_stated = (number / 3).is_multiple_of(2);
         let set = number / 6;
-        let extrapolates = set % 2 == 0;
+        let extrapolates = set.is_multiple_of(2);
         let mut noise = Normal(7_919 * (number + 1));
         let mut csv =
             "torque [Nm],speed [rpm],loss [W]".to_owned() + if is_stated { ",loss_accuracy [W]\n" } else { "\n" };

@@ -129,10 +129,13 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
         let predicted = held_out
             .as_ref()
             .map(|choice| hold_out::predict(choice, &entry.residuals, &outcome));
-        outcome.held_out = predicted.transpose().map_err(|reason| {
+        let predicted = predicted.transpose().map_err(|reason| {
             let mend = "hold out rows in which what is fitted was measured and the gearbox has a value";
             runner.wrong(&format!("{path}.hold_out"), reason, mend)
         })?;
+        if let Some(predicted) = predicted {
+            outcome.add_held_out(runner, predicted);
+        }
         show::show(runner, name, entry, &outcome, out)?;
         outcomes.push(outcome);
     }

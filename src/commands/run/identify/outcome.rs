@@ -1,10 +1,11 @@
 //! All that is found for one set of models.
 
-use gearloss_framework::analysis::{Note, notes};
+use gearloss_framework::analysis::{Note, merge, notes};
 use gearloss_framework::identify::{
     Calculated, Fitted, Identification, Pair, Posterior, Profiled, Settings, ShareBands,
 };
 use gearloss_framework::inference::{Fold, Validation, Widening};
+use gearloss_framework::loss::Extent;
 use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
 
 use super::super::{Built, Runner};
@@ -105,6 +106,22 @@ impl<'a> Outcome<'a> {
             sheets,
             held_out: None,
         })
+    }
+
+    /// Adds what was held out, and the limits that were left there.
+    pub fn add_held_out(&mut self, runner: &Runner<'_>, held_out: HeldOut<'a>) {
+        let solved = &self.calculated[1].solved;
+        let (transmission, there) = (&solved.transmissions[0].1, &held_out.predictions.calculated.solved.seen);
+        // What fitted rows have left is counted.
+        let newly_left = |(before, own): (&Extent, &Extent)| if before.outside > 0 { Extent::EMPTY } else { *own };
+        runner.seen(
+            transmission,
+            &solved.seen.iter().zip(there).map(newly_left).collect::<Vec<_>>(),
+        );
+        let mut seen = solved.seen.clone();
+        merge(&mut seen, there);
+        self.notes = notes(transmission, &seen);
+        self.held_out = Some(held_out);
     }
 
     /// Root of the mean square of calculated less measured for a quantity, before and after, in efficiency points, W, Nm or K.
