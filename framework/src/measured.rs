@@ -113,7 +113,7 @@ pub struct Row {
     pub values: Vec<Option<f64>>,
     /// Bound values as written, with their units.
     pub bound: Vec<String>,
-    /// All cells of the row by the places of [`Measured::columns`], numbers with a decimal point; empty where several rows were
+    /// All cells of the row by the places of [`Measured::columns`], numbers with a decimal point; means where several rows were
     /// averaged.
     pub cells: Vec<String>,
     /// What was averaged, where the point is a steady stretch of a time series.

@@ -141,12 +141,6 @@ impl Rows<'_> {
         }
     }
 
-    /// The port that rows count from, or the other one.
-    fn port<'s>(&'s self, transmission: &'s Transmission, own: &'s str, other: bool) -> &'s str {
-        let mut ports = transmission.ports().iter().map(|port| port.name.as_str());
-        ports.find(|port| other && *port != own).unwrap_or(own)
-    }
-
     /// Signs that turn torque and speed as they were measured into those of the transmission: other than one only at the other
     /// port, which may turn backward where that of the conditions turns forward.
     fn signs(&self, gear: &str, transmission: &Transmission) -> [f64; 2] {
@@ -165,7 +159,7 @@ impl Rows<'_> {
             (self.torque_at, self.measured.torque_at_other_port),
             (self.speed_at, self.measured.speed_at_other_port),
         ]
-        .map(|(own, other)| self.port(transmission, own, other).to_owned());
+        .map(|(own, other)| port_of(transmission, own, other).to_owned());
         Points {
             gear: gear.to_owned(),
             torque_at: vec![torque_at],
@@ -273,7 +267,7 @@ impl Rows<'_> {
         let row = &self.measured.rows[i];
         let value = |quantity: &str| self.measured.value(row, quantity);
         let fixed = transmission.thermal_mode == ThermalMode::Fixed;
-        let torque_at = self.port(transmission, self.torque_at, self.measured.torque_at_other_port);
+        let torque_at = port_of(transmission, self.torque_at, self.measured.torque_at_other_port);
         let at_in = transmission.port(torque_at).ok() == Some(transmission.reference_port());
         let added = rig.map_or(0.0, |on| on.rig.added(on.speeds[i])[usize::from(!at_in)]);
         Given {
@@ -298,6 +292,12 @@ impl Rows<'_> {
         };
         solved.rows.iter().map(of).collect()
     }
+}
+
+/// The port that rows count from, or the other one.
+fn port_of<'s>(transmission: &'s Transmission, own: &'s str, other: bool) -> &'s str {
+    let mut ports = transmission.ports().iter().map(|port| port.name.as_str());
+    ports.find(|port| other && *port != own).unwrap_or(own)
 }
 
 /// A bound value as it goes into the document: a text with its unit, or a bare number.

@@ -44,20 +44,24 @@ impl Language {
     }
 }
 
-/// A quantity in its documented unit where the same bits are read from it, else in SI; absent for plain numbers.
+/// A quantity in its documented unit where the same bits are read from it, or else in SI; absent for plain numbers.
 fn quantity(si: f64, documented: &'static Unit) -> Option<Value> {
     if documented.symbol == Unit::ONE.symbol {
         return None;
     }
     let own = documented.from_si(si);
     let tidy: f64 = format!("{own:.12e}").parse().unwrap_or(own);
-    let exact = [tidy, own]
-        .into_iter()
-        .find(|number| documented.to_si(*number).to_bits() == si.to_bits());
-    match exact {
-        Some(number) => Some(Value::from(format!("{number} {}", documented.symbol))),
-        None => Some(Value::from(format!("{si} {}", Unit::si(documented.dimension)?.symbol))),
+    let exact = |number: &f64| documented.to_si(*number).to_bits() == si.to_bits();
+    let written = |number: f64, unit: &Unit| format!("{number} {}", unit.symbol);
+    if exact(&tidy) {
+        return Some(Value::from(written(tidy, documented)));
     }
+    // What has many digits in its documented unit may have few in SI.
+    let own = Some(own).filter(exact).map(|own| written(own, documented));
+    let candidates = own
+        .into_iter()
+        .chain(Unit::si(documented.dimension).map(|unit| written(si, unit)));
+    candidates.min_by_key(String::len).map(Value::from)
 }
 
 #[cfg(test)]
@@ -79,6 +83,8 @@ mod tests {
                 assert_eq!(parse_quantity(&text, unit).unwrap().to_bits(), si.to_bits(), "{text}");
             }
         }
-        assert_eq!(quantity(0.1334, Unit::of_symbol("mm").unwrap()).unwrap(), "133.4 mm");
+        let mm = Unit::of_symbol("mm").unwrap();
+        assert_eq!(quantity(133.4 * 1e-3, mm).unwrap(), "133.4 mm");
+        assert_eq!(quantity(0.1334, mm).unwrap(), "0.1334 m");
     }
 }

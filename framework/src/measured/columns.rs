@@ -180,6 +180,15 @@ impl<'a> Finder<'a> {
         self.table.names.join(", ")
     }
 
+    /// Headers of columns that are not stated for any quantity.
+    fn free_headers(&self) -> impl Iterator<Item = &'a str> {
+        let own = self.file.own.into_iter().flat_map(|own| own.columns.iter());
+        let stated = own.chain(self.entry.columns.iter()).map(|(_, column)| column.header());
+        let stated: Vec<&str> = stated.collect();
+        let names = self.table.names.iter().map(String::as_str);
+        names.filter(move |name| !stated.contains(name))
+    }
+
     fn written(&self, quantity: &str) -> Option<&'a ColumnEntry> {
         let own = self.file.own.and_then(|own| own.columns.get(quantity));
         own.or_else(|| self.entry.columns.get(quantity))
@@ -214,7 +223,7 @@ impl<'a> Finder<'a> {
             (None, None) => None,
             (None, Some(_)) => {
                 let message = format!("no column is called `{header}`; there are: {}", self.headers());
-                let help = match did_you_mean(header, self.table.names.iter().map(String::as_str)) {
+                let help = match did_you_mean(header, self.free_headers()) {
                     Some(close) => format!("write `{close}`"),
                     None => "name one of them under `columns`".to_owned(),
                 };

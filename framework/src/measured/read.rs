@@ -101,9 +101,12 @@ impl MeasuredEntry {
                 }
                 read
             });
-            measured.notes.extend(notes.into_iter().map(|note| match several {
-                true => format!("{}: {note}", file.name),
-                false => note,
+            measured.notes.extend(notes.into_iter().map(|note| {
+                if several {
+                    format!("{}: {note}", file.name)
+                } else {
+                    note
+                }
             }));
             let Some(ReadFile { quantities, rows, .. }) = read else {
                 continue;

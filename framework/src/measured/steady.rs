@@ -302,7 +302,7 @@ impl Series<'_> {
                 duration: self.times[end] - self.times[start],
                 standard_errors,
             }),
-            cells: Vec::new(),
+            cells: (0..first.cells.len()).map(|place| averaged(rows, place)).collect(),
             ..first.clone()
         }
     }
@@ -333,6 +333,21 @@ impl Series<'_> {
             ));
         }
         words
+    }
+}
+
+/// The cell of a column over several rows: the mean of its numbers, or the text that all of them hold; otherwise blank.
+fn averaged(rows: &[Row], place: usize) -> String {
+    let cell = |row: &Row| row.cells.get(place).cloned().unwrap_or_default();
+    let first = cell(&rows[0]);
+    let numbers: Option<Vec<f64>> = rows
+        .iter()
+        .map(|row| cell(row).parse::<f64>().ok().filter(|x| x.is_finite()))
+        .collect();
+    match numbers {
+        Some(numbers) => (numbers.iter().sum::<f64>() / numbers.len() as f64).to_string(),
+        None if rows.iter().all(|row| cell(row) == first) => first,
+        None => String::new(),
     }
 }
 
@@ -382,19 +397,16 @@ impl<'a> Sliding<'a> {
         let goes_on = self.span.filter(|[first, last]| {
             *first <= start && start <= *last && *last <= end && self.removed + start - first <= end - start
         });
-        match goes_on {
-            Some([first, last]) => {
-                for (limited, line) in series.limits.iter().zip(&mut self.lines) {
-                    let value = |k: usize| series.rows[k].values[limited.place];
-                    (last + 1..=end).for_each(|k| line.add(series.times[k], value(k)));
-                    (first..start).for_each(|k| line.remove(series.times[k], value(k)));
-                }
-                self.removed += start - first;
+        if let Some([first, last]) = goes_on {
+            for (limited, line) in series.limits.iter().zip(&mut self.lines) {
+                let value = |k: usize| series.rows[k].values[limited.place];
+                (last + 1..=end).for_each(|k| line.add(series.times[k], value(k)));
+                (first..start).for_each(|k| line.remove(series.times[k], value(k)));
             }
-            None => {
-                self.lines = series.limits.iter().map(|l| series.line(l, [start, end])).collect();
-                self.removed = 0;
-            }
+            self.removed += start - first;
+        } else {
+            self.lines = series.limits.iter().map(|l| series.line(l, [start, end])).collect();
+            self.removed = 0;
         }
         self.span = Some([start, end]);
     }
@@ -578,6 +590,16 @@ mod tests {
             "{note}"
         );
         assert!(note.contains("largest standard errors of the means: torque "), "{note}");
+    }
+
+    #[test]
+    fn cells_of_a_stretch_are_means_or_what_all_of_them_hold() {
+        let row = |number: &str, text: &str| Row {
+            cells: vec![number.to_owned(), "warm".to_owned(), text.to_owned()],
+            ..Row::default()
+        };
+        let rows = [row("1", "a"), row("2", "b")];
+        assert_eq!([0, 1, 2].map(|place| averaged(&rows, place)), ["1.5", "warm", ""]);
     }
 
     #[test]
