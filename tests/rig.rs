@@ -138,7 +138,7 @@ fn without_an_efficiency_the_torques_at_both_ports_give_it() {
 fn what_a_comparison_lacks_is_told() {
     for (analysis, said) in [
         (
-            "against: [ours/own], grid: g, data: { file: rig.csv, columns: { torque: T_in, speed: n_in } }".to_owned(),
+            format!("against: [ours/own], grid: g, {DATA}"),
             "needs either `grid` and `base`, or `data`",
         ),
         (

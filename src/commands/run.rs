@@ -84,6 +84,30 @@ pub(super) struct Looked {
     pub notes: Vec<String>,
 }
 
+/// Findings that were reported before the analyses began: path and message.
+#[derive(Default)]
+struct Reported(Vec<(String, String)>);
+
+impl Reported {
+    fn add(&mut self, findings: &Findings) {
+        let list = findings.list.iter();
+        self.0
+            .extend(list.map(|finding| (finding.path.clone(), finding.message.clone())));
+    }
+
+    /// What of a failure was not reported yet.
+    fn rest(&self, failure: Failure) -> Option<Failure> {
+        let Failure::Found(mut findings) = failure else {
+            return Some(failure);
+        };
+        findings.list.retain(|finding| {
+            let known = |(path, message): &(String, String)| finding.path == *path && finding.message == *message;
+            !self.0.iter().any(known)
+        });
+        (!findings.list.is_empty()).then_some(Failure::Found(findings))
+    }
+}
+
 /// Looks a study over as `run` would read it.
 pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
     let study = match read(language, file) {
@@ -96,9 +120,17 @@ pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
         }
     };
     let runner = Runner::for_check(language, &study);
+    let mut reported = Reported::default();
     let mut refused: Vec<Failure> = Vec::new();
+    if let Some(findings) = study.data_findings() {
+        reported.add(&findings);
+        refused.push(findings.into());
+    }
     for (name, analysis) in study.entry.analyses.iter() {
         if let Err(failure) = runner.attempt(name, analysis, &mut Out::nowhere()) {
+            let Some(failure) = reported.rest(failure) else {
+                continue;
+            };
             let text = failure.text();
             if refused.iter().all(|other| other.text() != text) {
                 refused.push(failure);
@@ -199,6 +231,13 @@ pub(super) fn all(
     for note in notes {
         Out::error().line(format!("note: {note}"))?;
     }
+    // What is wrong with files of points is printed once, not by every analysis that uses them.
+    let mut reported = Reported::default();
+    let wrong_data = study.data_findings();
+    if let Some(findings) = &wrong_data {
+        reported.add(findings);
+        Out::error().text(&findings.render())?;
+    }
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
@@ -220,7 +259,9 @@ pub(super) fn all(
                 write::remove(&runner, name);
                 out.line(format!("{name}: failed"))?;
                 runner.report.borrow_mut().text(&format!("failed\n{text}"));
-                Out::error().text(&text)?;
+                if let Some(text) = reported.rest(failure).and_then(|rest| rest.text()) {
+                    Out::error().text(&text)?;
+                }
             }
         }
         done_so_far += 1;
@@ -240,6 +281,11 @@ pub(super) fn all(
             runner.left.get()
         ))?;
         return Ok(End::Finding);
+    }
+    if failed == 0 && wrong_data.is_some() {
+        return Err(Failure::Input(
+            "error: a measurement that no analysis uses cannot be read, see above\n".to_owned(),
+        ));
     }
     if failed == 0 {
         Ok(End::Fine)

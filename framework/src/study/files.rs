@@ -346,7 +346,6 @@ impl Study {
                 }
             }
         }
-        found.extend(self.faults_of_data());
         let grids: Vec<&str> = self.entry.grids.ids().collect();
         for (name, analysis) in self.entry.analyses.iter() {
             let path = format!("analyses.{name}");
@@ -495,7 +494,13 @@ impl Study {
         if faults.is_empty() { Ok(contents) } else { Err(faults) }
     }
 
-    /// Everything that is wrong with the files of points: each file is read once, whatever number of analyses uses it.
+    /// Everything that is wrong with the files of points; absent where nothing is. Each fault is found once, at its key of the
+    /// measurement, whatever number of analyses uses it.
+    pub fn data_findings(&self) -> Option<Findings> {
+        let list = self.faults_of_data();
+        (!list.is_empty()).then(|| self.findings(list))
+    }
+
     fn faults_of_data(&self) -> Vec<Diagnostic> {
         let mut found: Vec<Diagnostic> = Vec::new();
         let mut add = |list: Vec<Diagnostic>| {
