@@ -168,8 +168,13 @@ impl Palmgren {
         };
         let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
         let c = &self.coefficients;
+        let published = c.viscous_from == Constants::PUBLISHED.viscous_from;
         let m0 = if product >= c.viscous_from {
-            at.branch("nu n at least that of the viscous branch, 2000 as published: viscous");
+            at.branch(if published {
+                "nu n at least 2000: viscous"
+            } else {
+                "nu n at least the changed limit: viscous"
+            });
             let power = if c.viscous_exponent == 2.0 / 3.0 {
                 cube_root(product).powi(2)
             } else {
@@ -177,7 +182,11 @@ impl Palmgren {
             };
             c.viscous_factor * f0 * self.cube * power
         } else {
-            at.branch("nu n below that of the viscous branch, 2000 as published: constant");
+            at.branch(if published {
+                "nu n below 2000: constant"
+            } else {
+                "nu n below the changed limit: constant"
+            });
             c.constant_factor * f0 * self.cube
         };
         at.show("f0", "-", f0);

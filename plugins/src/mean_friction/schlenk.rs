@@ -164,7 +164,11 @@ impl Schlenk {
         let line_load = notes.check(&LINE_LOAD, mesh.line_load);
         let c = &self.coefficients;
         let line_load = if self.clamp_line_load && line_load < c.least_line_load {
-            notes.branch("line load below the least one of the formula: held there");
+            notes.branch(if c.least_line_load == Constants::PUBLISHED.least_line_load {
+                "line load below 150 N/mm: held there"
+            } else {
+                "line load below the changed limit: held there"
+            });
             c.least_line_load
         } else {
             line_load

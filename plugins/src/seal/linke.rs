@@ -15,12 +15,10 @@ use serde::Deserialize;
 const LIP: Term = Term::no_load(0, "lip");
 
 coefficients! {
-    /// Constants of the formula of Linke.
+    /// The constant of the formula of Linke.
     struct Constants {
         /// Factor of the power in W, for mm and 1/min.
         factor = 7.69e-6, in 3.845e-6..=15.38e-6;
-        /// Exponent of the diameter.
-        diameter_exponent = 2.0, in 1.0..=3.0;
     }
 }
 
@@ -32,14 +30,8 @@ pub struct Linke {
 }
 
 /// Friction moment from the diameter in mm. \[Nm\]
-fn moment(c: &Constants, d: f64) -> f64 {
-    let square = c.diameter_exponent == 2.0;
-    let factor = if square {
-        c.factor * d * d
-    } else {
-        c.factor * d.powf(c.diameter_exponent)
-    };
-    factor / (std::f64::consts::PI / 30.0)
+fn moment(factor: f64, d: f64) -> f64 {
+    factor * d * d / (std::f64::consts::PI / 30.0)
 }
 
 impl SealModel for Linke {
@@ -50,7 +42,7 @@ impl SealModel for Linke {
         }
         Ok(Loss::MOMENTS.with(
             &LIP,
-            at.show("T", "Nm", moment(&self.coefficients, at.part.diameter.mm())),
+            at.show("T", "Nm", moment(self.coefficients.factor, at.part.diameter.mm())),
         ))
     }
 }
@@ -67,7 +59,7 @@ mod tests {
 
     #[test]
     fn b2_linke() {
-        let watts = moment(&Constants::PUBLISHED, 40.0) * 3000.0 * std::f64::consts::PI / 30.0;
+        let watts = moment(Constants::PUBLISHED.factor, 40.0) * 3000.0 * std::f64::consts::PI / 30.0;
         assert!((watts / 36.9120 - 1.0).abs() < 1e-5, "{watts}");
     }
 }
