@@ -1,11 +1,11 @@
 //! Errors of calculated values, summed up as a whole and region by region: bands of torque, speed and temperature, driving and braking.
 
-use crate::analysis::bands;
+use super::folds;
 
 /// Temperatures of the oil that are farther apart belong to different levels. \[K\]
 const APART: f64 = 3.0;
-/// Levels of temperature at most; where there are more, they are bands of about as many points each.
-const LEVELS: usize = 8;
+/// Bands over one coordinate at most; where there are more levels, some lie in one band.
+const MOST: usize = 12;
 
 /// An error, calculated less measured, and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,7 +120,7 @@ pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
         let found = if over == "oil_temperature" {
             temperature_levels(&list)
         } else {
-            bands(&list)
+            whole_levels(&list)
         };
         if found.len() > 1 {
             all.extend(found.into_iter().map(|(band, own)| {
@@ -139,6 +139,12 @@ pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
     all
 }
 
+/// Bands of neighbouring levels, none of which is split: lower and upper end, and the places in each. Empty where there is one level.
+fn whole_levels(list: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
+    let found = folds(list, MOST).unwrap_or_default().into_iter();
+    found.filter_map(|fold| Some((fold.band?, fold.points))).collect()
+}
+
 /// Levels that a rig held but for its scatter: lower and upper end, and the places in each.
 fn temperature_levels(list: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
     let mut order: Vec<usize> = (0..list.len()).collect();
@@ -147,8 +153,8 @@ fn temperature_levels(list: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
         .chunk_by(|a, b| list[*b] - list[*a] <= APART)
         .map(<[usize]>::to_vec)
         .collect();
-    if levels.len() > LEVELS {
-        return bands(list);
+    if levels.len() > MOST {
+        return whole_levels(list);
     }
     let with_ends = |level: Vec<usize>| ([list[level[0]], list[level[level.len() - 1]]], level);
     levels.into_iter().map(with_ends).collect()
