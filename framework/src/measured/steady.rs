@@ -1,7 +1,7 @@
 //! Steady stretches of a time series: found by their drift, and averaged to one point each.
 //!
-//! A stretch begins where every limited quantity stays within its limits over one window, and grows sample by sample while that
-//! holds over its last window and over all of it. The drift is the slope of a line fitted by least squares times the duration,
+//! A stretch begins where every limited quantity stays within its limits over one window, or up to half a window later where less
+//! is left of a ramp before it, and grows sample by sample while that holds over its last window and over all of it. The drift is the slope of a line fitted by least squares times the duration,
 //! the scatter is the standard deviation about that line. So the ends of a stretch may hold the first samples of a ramp; they
 //! move the mean by about a sixth of the drift limit at most, because a sum S of deviations at one end of n samples
 //! gives a drift of 6 S / n.
@@ -18,6 +18,9 @@ const FEWEST: usize = 5;
 
 /// A gap between samples longer than this share of the window ends a stretch. An assumption.
 const GAP: f64 = 0.5;
+
+/// Share of the drift limit below which the beginning of a stretch need not be looked for further on. An assumption.
+const SETTLED: f64 = 0.25;
 
 /// Most lags of the autocorrelation that are summed, and most products.
 const MOST_LAGS: usize = 1000;
@@ -203,8 +206,9 @@ impl Series<'_> {
                     start += 1;
                     continue;
                 }
-                let end = self.grown(&mut sliding, [start, end], last);
-                found.push([start, end]);
+                let [begin, end] = self.settled(&mut sliding, [start, end], last);
+                let end = self.grown(&mut sliding, [begin, end], last);
+                found.push([begin, end]);
                 start = end + 1;
             }
         }
@@ -257,6 +261,28 @@ impl Series<'_> {
             line.add(self.times[k], self.rows[k].values[limited.place]);
         }
         line
+    }
+
+    /// The first steady window, or one behind it that holds less of a ramp: within half a window the first whose drift is a
+    /// quarter of the limit, or else that with the least drift.
+    fn settled(&self, sliding: &mut Sliding<'_>, first: Span, last: usize) -> Span {
+        let (mut best, mut least) = (first, sliding.drift());
+        let mut start = first[0];
+        while least > SETTLED {
+            start += 1;
+            let near = start <= last && self.times[start] - self.times[first[0]] <= 0.5 * self.entry.window;
+            let Some(end) = near.then(|| self.window_after(start, last)).flatten() else {
+                break;
+            };
+            if end - start + 1 < FEWEST || !sliding.is_steady([start, end]) {
+                break;
+            }
+            // Rounding alone makes no window better.
+            if sliding.drift() < 0.99 * least {
+                (best, least) = ([start, end], sliding.drift());
+            }
+        }
+        best
     }
 
     /// Last sample of the stretch that begins with a steady window.
@@ -389,6 +415,16 @@ impl<'a> Sliding<'a> {
         self.move_to(span);
         let duration = self.series.times[span[1]] - self.series.times[span[0]];
         (self.series.limits.iter().zip(&self.lines)).all(|(limited, line)| line.keeps(limited, duration))
+    }
+
+    /// The largest drift over its limit.
+    fn drift(&self) -> f64 {
+        let duration = self
+            .span
+            .map_or(0.0, |[start, end]| self.series.times[end] - self.series.times[start]);
+        let share = |(limited, line): (&Limited, &Line)| Some(line.slope().abs() * duration / limited.drift?);
+        let shares = self.series.limits.iter().zip(&self.lines).filter_map(share);
+        shares.fold(0.0, f64::max)
     }
 
     fn move_to(&mut self, [start, end]: Span) {
