@@ -178,10 +178,10 @@ fn check_7_2_verdicts() {
     let expected: [(f64, f64, f64, Verdict, &[usize]); 8] = [
         (0.207793, 0.0207919, 0.100061, Verdict::OnlyInCombination, &[F_0]),
         (0.0732024, 0.00703456, 0.0960974, Verdict::WellDetermined, &[]),
-        (0.0737836, 0.02308, 0.312807, Verdict::WellDetermined, &[]),
+        (0.0737836, 0.02308, 0.312807, Verdict::RoughlyDetermined, &[]),
         (0.108025, 0.0132258, 0.122432, Verdict::OnlyInCombination, &[F_MU]),
         (0.13264, 0.00959952, 0.0723725, Verdict::OnlyInCombination, &[F_NU]),
-        (0.0653405, 0.00817699, 0.125144, Verdict::WellDetermined, &[]),
+        (0.0653405, 0.00817699, 0.125144, Verdict::OnlyInCombination, &[M_S, D_T]),
         (0.336978, 0.00801003, 0.0237702, Verdict::OnlyInCombination, &[D_T, H]),
         (0.153098, 0.00326041, 0.0212962, Verdict::OnlyInCombination, &[M_S, H]),
     ];
