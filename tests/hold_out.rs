@@ -323,7 +323,7 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
         (
             "folds: { by: sign }",
             "found.folds.by",
-            "one group, `driving`",
+            "one group, `power in`",
             "differs",
         ),
         (
@@ -408,7 +408,7 @@ fn folds_group_by_what_is_asked() {
         let points: u64 = bands.iter().map(|band| band["points"].as_u64().unwrap()).sum();
         assert_eq!(points, 36);
     }
-    // Braking rows are predicted from driving ones.
+    // Rows in which power leaves are predicted from those in which it enters.
     let both = csv.lines().enumerate().map(|(i, line)| match line.split_once(',') {
         Some((torque, rest)) if i % 3 == 1 => format!("-{torque},{rest}\n"),
         _ => format!("{line}\n"),
@@ -424,7 +424,7 @@ fn folds_group_by_what_is_asked() {
         .iter()
         .map(|b| b["name"].clone())
         .collect();
-    assert_eq!(names, [json!("braking"), json!("driving")], "{text}");
+    assert_eq!(names, [json!("power out"), json!("power in")], "{text}");
 }
 
 /// Noise over the loss, and over the mean loss where nobody states it.

@@ -24,7 +24,15 @@ fn the_foreign_map_is_what_its_hidden_gearbox_loses() {
     let results = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("foreign-map");
     let study = common::file("tests/foreign_map/study.yaml");
     let study = study.display().to_string();
-    let arguments = ["gearloss", "run", &study, "--force", "-o", &results.display().to_string()].map(Into::into);
+    let arguments = [
+        "gearloss",
+        "run",
+        &study,
+        "--force",
+        "-o",
+        &results.display().to_string(),
+    ]
+    .map(Into::into);
     assert_eq!(gearloss::call(arguments), 0);
     let map: Value = serde_json::from_str(&std::fs::read_to_string(results.join("map.json")).unwrap()).unwrap();
     let mut csv = "T_wheel_Nm,n_wheel_rpm,T_oil_C,P_loss_W\n".to_owned();

@@ -136,7 +136,10 @@ fn benches(language: &Language) -> [Bench; 2] {
                     (
                         "bearing",
                         "bearings.*.model",
-                        vec![json!({ "type": "skf", "needle_as_full_complement": true }), json!({ "type": "iso14179_2" })],
+                        vec![
+                            json!({ "type": "skf", "needle_as_full_complement": true }),
+                            json!({ "type": "iso14179_2" }),
+                        ],
                     ),
                 ],
             },

@@ -268,11 +268,25 @@ fn what_moves_loss_between_regions_is_seen_at_single_points() {
     );
     let result = json(&folder, "what")["sensitivities"][0].clone();
     let [loss, points] = ["loss", "relative_loss"].map(|name| output(&result, name));
-    assert!(loss["morris"][0]["influence"] == "none" && points["morris"][0]["influence"] != "none", "{text}");
+    assert!(
+        loss["morris"][0]["influence"] == "none" && points["morris"][0]["influence"] != "none",
+        "{text}"
+    );
     // From the values of the gearbox the moment at 2000 rpm changes by a tenth, that at 8000 rpm by a fortieth.
     let total = number(&points["sobol"]["total"][0]["value"]);
-    assert!(total > 0.05 && number(&loss["sobol"]["total"][0]["value"]) < 0.05, "{text}");
+    assert!(
+        total > 0.05 && number(&loss["sobol"]["total"][0]["value"]) < 0.05,
+        "{text}"
+    );
     assert!(points["local"].is_null() && number(&points["mean"]) == 0.0 && points["unit"] == "-");
-    assert!(text.contains(&format!("not influential on the mean loss: {kv}; but influential on the loss at single points")), "{text}");
-    assert!(text.contains(&format!("influential on the loss at single points only: {kv}")), "{text}");
+    assert!(
+        text.contains(&format!(
+            "not influential on the mean loss: {kv}; but influential on the loss at single points"
+        )),
+        "{text}"
+    );
+    assert!(
+        text.contains(&format!("influential on the loss at single points only: {kv}")),
+        "{text}"
+    );
 }

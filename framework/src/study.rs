@@ -34,8 +34,8 @@ pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
 pub use data::Data;
 pub use files::Study;
 pub use identify::{
-    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry, PosteriorEntry,
-    PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
+    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry,
+    PosteriorEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
 };
 pub use map::MapEntry;
 pub use names::is_device;

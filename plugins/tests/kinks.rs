@@ -180,7 +180,12 @@ fn fitted(measured: &str, churning: &str, check: impl FnOnce(&Fitted)) {
     let language = language();
     let (gearbox, study) = (gearbox(&language), study(&language));
     let csv = csv(&language, &gearbox, measured);
-    let measured = study.measurements.get("rig").unwrap().read(csv.as_bytes(), &[]).unwrap();
+    let measured = study
+        .measurements
+        .get("rig")
+        .unwrap()
+        .read(csv.as_bytes(), &[])
+        .unwrap();
     let mut identification = identification(&language, &gearbox, &study, &measured, churning);
     let settings = Settings {
         starts: 30,
@@ -190,7 +195,13 @@ fn fitted(measured: &str, churning: &str, check: impl FnOnce(&Fitted)) {
     let minima = &fitted.minima.minima;
     assert_eq!(minima.iter().map(|m| m.starts.len()).sum::<usize>(), 30);
     for minimum in minima {
-        assert_eq!(minimum.fit.status, Status::Converged, "{:?} {:?}", minimum.fit.reason, minimum.starts);
+        assert_eq!(
+            minimum.fit.status,
+            Status::Converged,
+            "{:?} {:?}",
+            minimum.fit.reason,
+            minimum.starts
+        );
     }
     check(&fitted);
 }
@@ -201,7 +212,12 @@ fn fitted(measured: &str, churning: &str, check: impl FnOnce(&Fitted)) {
 fn thirty_starts_find_the_minimum_at_a_kink() {
     fitted("changenet_2007", "changenet_2011", |fitted| {
         let minima = &fitted.minima.minima;
-        assert_eq!(minima.len(), 1, "{:?}", minima.iter().map(|m| m.fit.cost).collect::<Vec<_>>());
+        assert_eq!(
+            minima.len(),
+            1,
+            "{:?}",
+            minima.iter().map(|m| m.fit.cost).collect::<Vec<_>>()
+        );
         assert_eq!(fitted.fit().reason, Reason::Pattern);
         for kink in &fitted.kinks {
             eprintln!("{} {:?}", kink.sentence(), kink.parameters);
@@ -209,11 +225,19 @@ fn thirty_starts_find_the_minimum_at_a_kink() {
         let kink = fitted.kinks.first().unwrap();
         let named = |kink: &ModelKink| {
             kink.model == "changenet_2011"
-                && kink.regimes.as_ref().is_some_and(|r| r.iter().any(|r| r.starts_with("viscous")))
+                && kink
+                    .regimes
+                    .as_ref()
+                    .is_some_and(|r| r.iter().any(|r| r.starts_with("viscous")))
                 && kink.jumps
         };
         assert!(fitted.kinks.iter().any(named), "{:?}", fitted.kinks);
-        assert!(kink.sentence().starts_with("minimum at a kink of `changenet_2011` of gears."), "{}", kink.sentence());
+        assert!(
+            kink.sentence()
+                .starts_with("minimum at a kink of `changenet_2011` of gears."),
+            "{}",
+            kink.sentence()
+        );
         // The kink lies across the viscosity, by which the Reynolds number changes.
         assert!(fitted.is_kinked(0), "{:?}", fitted.kinks);
     });
@@ -224,7 +248,11 @@ fn thirty_starts_find_the_minimum_at_a_kink() {
 fn minima_that_the_points_tell_apart_stay_apart() {
     fitted("changenet_2011", "changenet_2007", |fitted| {
         let minima = &fitted.minima.minima;
-        assert!((2..10).contains(&minima.len()), "{:?}", minima.iter().map(|m| m.fit.cost).collect::<Vec<_>>());
+        assert!(
+            (2..10).contains(&minima.len()),
+            "{:?}",
+            minima.iter().map(|m| m.fit.cost).collect::<Vec<_>>()
+        );
         for pair in minima.windows(2) {
             let rise = 2.0 * (pair[1].fit.cost - pair[0].fit.cost) / fitted.fit().scatter();
             let away = (0..HIDDEN.len()).filter_map(|k| fitted.distance(&pair[1], k));

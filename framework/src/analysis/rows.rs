@@ -229,7 +229,13 @@ impl Rows<'_> {
         let Ok(case) = points.case(transmission) else {
             return Vec::new();
         };
-        let torques = vec![point.torque; transmission.state(gear).map_or(0, |s| transmission.torques_needed(s)).min(1)];
+        let torques = vec![
+            point.torque;
+            transmission
+                .state(gear)
+                .map_or(0, |s| transmission.torques_needed(s))
+                .min(1)
+        ];
         let mut scratch = transmission.scratch(&case);
         let prescribed = Point {
             speeds: &[point.speed],

@@ -237,9 +237,9 @@ impl Identification<'_> {
                 let sign = |row: &&Row| {
                     let value = |quantity: &str| measured.value(row, quantity).unwrap_or(0.0);
                     if value("torque") * value("speed") < 0.0 {
-                        "braking"
+                        "power out"
                     } else {
-                        "driving"
+                        "power in"
                     }
                     .to_owned()
                 };

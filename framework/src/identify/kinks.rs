@@ -31,10 +31,17 @@ impl ModelKink {
         let lines = match self.lines.as_slice() {
             [line] => format!("line {line}"),
             [first, .., last] if self.lines.len() > 4 => format!("{} lines, {first} to {last}", self.lines.len()),
-            list => format!("lines {}", list.iter().map(u64::to_string).collect::<Vec<_>>().join(", ")),
+            list => format!(
+                "lines {}",
+                list.iter().map(u64::to_string).collect::<Vec<_>>().join(", ")
+            ),
         };
         let place = format!("`{}` of {}", self.model, self.path);
-        let what = if self.jumps { "loss jumps" } else { "slope of the loss jumps" };
+        let what = if self.jumps {
+            "loss jumps"
+        } else {
+            "slope of the loss jumps"
+        };
         match &self.regimes {
             Some([a, b]) => format!("minimum at a kink of {place} between the regimes \"{a}\" and \"{b}\" ({lines})"),
             None if self.jumps => format!(
@@ -60,7 +67,12 @@ impl Identification<'_> {
         let middle = self.calculate(&fit.theta)?;
         for kink in &fit.kinks {
             let sides = [self.calculate(&kink.sides[0])?, self.calculate(&kink.sides[1])?];
-            for row in kink.rows.iter().filter_map(|i| self.observations.get(*i)).map(|o| o.row) {
+            for row in kink
+                .rows
+                .iter()
+                .filter_map(|i| self.observations.get(*i))
+                .map(|o| o.row)
+            {
                 let (number, gear, here) = &middle.solved.rows[row];
                 let [below, above] = [0, 1].map(|k| sides[k].point(row));
                 let loss = here.loss.unwrap_or(0.0).abs().max(f64::MIN_POSITIVE);
@@ -69,7 +81,8 @@ impl Identification<'_> {
                 let bent = |(part, (here, (below, above))): (usize, (&f64, (&f64, &f64)))| {
                     (part, (below + above - 2.0 * here).abs(), *here)
                 };
-                let Some((part, bent, own)) = parts.map(bent).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))) else {
+                let Some((part, bent, own)) = parts.map(bent).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
+                else {
                     continue;
                 };
                 if bent <= LEAST * loss {
@@ -79,13 +92,18 @@ impl Identification<'_> {
                 let info = &transmission.parts()[part];
                 let taken = [0, 1].map(|k| {
                     let beside = &sides[k].solved;
-                    self.rows.branches(&beside.transmissions[*number].1, gear, sides[k].point(row), part)
+                    self.rows
+                        .branches(&beside.transmissions[*number].1, gear, sides[k].point(row), part)
                 });
                 let regimes = changed(&taken);
                 let change = bent / own.abs().max(f64::MIN_POSITIVE);
-                self.note(&mut all, kink, (info.path.as_str(), row), (regimes, [change, bent / loss]), || {
-                    transmission.instances()[info.notes.instance()].entry.name.to_owned()
-                });
+                self.note(
+                    &mut all,
+                    kink,
+                    (info.path.as_str(), row),
+                    (regimes, [change, bent / loss]),
+                    || transmission.instances()[info.notes.instance()].entry.name.to_owned(),
+                );
             }
         }
         all.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.path.cmp(&b.1.path)));
@@ -154,7 +172,10 @@ mod tests {
     #[test]
     fn regimes_are_the_branches_that_differ() {
         let path = || "gears.G4.drag.churning".to_owned();
-        let sides = [vec![(path(), "viscous"), (path(), "slow")], vec![(path(), "inertial"), (path(), "slow")]];
+        let sides = [
+            vec![(path(), "viscous"), (path(), "slow")],
+            vec![(path(), "inertial"), (path(), "slow")],
+        ];
         assert_eq!(changed(&sides), Some(["viscous".to_owned(), "inertial".to_owned()]));
         assert_eq!(changed(&[sides[0].clone(), sides[0].clone()]), None);
     }
@@ -176,6 +197,9 @@ mod tests {
             format!("{words} between the regimes \"viscous\" and \"inertial\" (line 7)")
         );
         (kink.regimes, kink.lines) = (None, vec![2, 4, 6, 8, 9]);
-        assert_eq!(kink.sentence(), format!("{words}, where its loss jumps by 0.20 % (5 lines, 2 to 9)"));
+        assert_eq!(
+            kink.sentence(),
+            format!("{words}, where its loss jumps by 0.20 % (5 lines, 2 to 9)")
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! Errors of calculated values, summed up as a whole and region by region: bands of torque, speed and temperature, driving and braking.
+//! Errors of calculated values, summed up as a whole and region by region: bands of torque, speed and temperature, and whether power enters
+//! or leaves at the port of the torque.
 
 use super::folds;
 
@@ -129,10 +130,10 @@ pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
             }));
         }
     }
-    let driving = |e: &PlacedError| e.torque * e.speed >= 0.0;
-    let (forth, back): (Vec<usize>, Vec<usize>) = (0..errors.len()).partition(|i| driving(&errors[*i]));
+    let enters = |e: &PlacedError| e.torque * e.speed >= 0.0;
+    let (forth, back): (Vec<usize>, Vec<usize>) = (0..errors.len()).partition(|i| enters(&errors[*i]));
     if !forth.is_empty() && !back.is_empty() {
-        for (name, own) in [("driving", forth), ("braking", back)] {
+        for (name, own) in [("power in", forth), ("power out", back)] {
             all.push(region("direction", None, name.to_owned(), &own));
         }
     }
@@ -224,8 +225,8 @@ mod tests {
             ("torque", "10 Nm"),
             ("speed", "1000 rpm"),
             ("speed", "2000 rpm"),
-            ("direction", "driving"),
-            ("direction", "braking"),
+            ("direction", "power in"),
+            ("direction", "power out"),
         ];
         assert_eq!(names, expected);
         assert_eq!(found[0].held_out.unwrap().mean, 4.0);

@@ -65,7 +65,10 @@ pub(super) fn finish(
             Reason::EvaluationLimit
         };
         context.derive(&mut end);
-        let found = end.jacobian.as_ref().map(|jacobian| kinks(&context, &end.point, jacobian));
+        let found = end
+            .jacobian
+            .as_ref()
+            .map(|jacobian| kinks(&context, &end.point, jacobian));
         match found {
             Some(Ok(found)) => held = found,
             Some(Err(_)) => end.reason = Reason::Interrupted,

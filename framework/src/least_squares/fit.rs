@@ -54,12 +54,7 @@ impl Reason {
     pub fn is_convergence(self) -> bool {
         matches!(
             self,
-            Self::ZeroResidual
-                | Self::FirstOrder
-                | Self::RelativeOffset
-                | Self::Step
-                | Self::Cost
-                | Self::Pattern
+            Self::ZeroResidual | Self::FirstOrder | Self::RelativeOffset | Self::Step | Self::Cost | Self::Pattern
         )
     }
 }

@@ -85,7 +85,12 @@ pub(super) fn directions(a: DMatrix<f64>) -> Option<Vec<(DVector<f64>, f64)>> {
     }
     let svd = decompose(a.qr().r(), true)?;
     let rows = svd.v_t?;
-    Some(rows.row_iter().zip(&svd.singular_values).map(|(row, s)| (row.transpose(), *s)).collect())
+    Some(
+        rows.row_iter()
+            .zip(&svd.singular_values)
+            .map(|(row, s)| (row.transpose(), *s))
+            .collect(),
+    )
 }
 
 fn decompose(a: DMatrix<f64>, vectors: bool) -> Option<SVD<f64, Dyn, Dyn>> {

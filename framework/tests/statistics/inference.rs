@@ -207,13 +207,20 @@ fn verdicts_do_not_hang_on_the_width_of_the_bounds() {
     let narrow = optimum();
     for factor in [0.5, 2.0, 10.0] {
         let wider = parameters(&OPTIMUM).into_iter().map(|mut parameter| {
-            parameter.bounds = parameter.bounds.map(|bound| parameter.u + factor * (bound - parameter.u));
+            parameter.bounds = parameter
+                .bounds
+                .map(|bound| parameter.u + factor * (bound - parameter.u));
             parameter
         });
         let wide = fit(wider.collect());
         for k in 0..8 {
             let [a, b] = [&narrow, &wide].map(|fit| fit.determination(k));
-            assert_eq!((a.verdict, &a.partners), (b.verdict, &b.partners), "{} {factor}", NAMES[k]);
+            assert_eq!(
+                (a.verdict, &a.partners),
+                (b.verdict, &b.partners),
+                "{} {factor}",
+                NAMES[k]
+            );
             // Steps of differences follow the range, and leave as many digits.
             near(a.relative.unwrap(), b.relative.unwrap(), 1e-6);
             near(a.width.unwrap(), factor * b.width.unwrap(), 1e-6);
@@ -235,7 +242,10 @@ fn an_interval_that_fills_the_range_is_told_so() {
     let fit = fit(list.collect());
     let found = fit.determination(H);
     assert!((0.8..=1.0).contains(&found.filled.unwrap()), "{found:?}");
-    let words = format!("its interval fills {:.0} % of the range given", 100.0 * found.filled.unwrap());
+    let words = format!(
+        "its interval fills {:.0} % of the range given",
+        100.0 * found.filled.unwrap()
+    );
     assert!(fit.sentence(H).ends_with(&words), "{}", fit.sentence(H));
 }
 

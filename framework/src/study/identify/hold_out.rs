@@ -61,8 +61,8 @@ pub enum FoldsEntry {
 /// Groups of rows by a quantity of the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FoldsBy {
-    /// `torque`, `speed`, `oil_temperature` or another measured quantity: groups of neighbouring values. `sign`: rows in which the
-    /// given torque drives and in which it brakes. `random`: rows drawn by lot; neighbouring rows of a rig err together, and a
+    /// `torque`, `speed`, `oil_temperature` or another measured quantity: groups of neighbouring values. `sign`: rows in which power
+    /// enters at the port of the torque, and those in which it leaves. `random`: rows drawn by lot; neighbouring rows of a rig err together, and a
     /// group whose neighbours are fitted is predicted too well to tell how the model does elsewhere. Else a column of the file by
     /// its header: a group for each text, or groups of neighbouring numbers.
     pub by: String,

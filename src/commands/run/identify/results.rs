@@ -56,7 +56,10 @@ fn search(o: &Outcome<'_>) -> Value {
         })
     };
     let kink = |k: &ModelKink| {
-        let names = k.parameters.iter().map(|p| o.identification.parameters()[*p].name.as_str());
+        let names = k
+            .parameters
+            .iter()
+            .map(|p| o.identification.parameters()[*p].name.as_str());
         json!({
             "path": k.path, "model": k.model, "regimes": k.regimes, "jumps": k.jumps, "change": k.change, "lines": k.lines,
             "parameters": names.collect::<Vec<_>>(), "sentence": k.sentence(),

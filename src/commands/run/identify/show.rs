@@ -140,13 +140,18 @@ fn search(name: &str, o: &Outcome<'_>, out: &mut Out) -> Result<(), Failure> {
         out.line(format!("{name}: {}", kink.sentence()))?;
     }
     if fit.kinks.len() > o.fitted.kinks.len() && o.fitted.kinks.is_empty() {
-        out.line(format!("{name}: minimum at a kink of the residuals, at which no part's loss jumps"))?;
+        out.line(format!(
+            "{name}: minimum at a kink of the residuals, at which no part's loss jumps"
+        ))?;
     }
     for other in minima.minima.iter().skip(1).take(MINIMA) {
         out.line(format!("{name}: {}", another(o, other)))?;
     }
     if minima.minima.len() > MINIMA + 1 {
-        out.line(format!("{name}: {} more minima are in the JSON", minima.minima.len() - MINIMA - 1))?;
+        out.line(format!(
+            "{name}: {} more minima are in the JSON",
+            minima.minima.len() - MINIMA - 1
+        ))?;
     }
     for note in fit.notes.iter().chain(&minima.notes) {
         out.line(format!("note: {note}"))?;
@@ -180,7 +185,13 @@ fn another(o: &Outcome<'_>, other: &Minimum) -> String {
             _ => None,
         }
     };
-    let list: Vec<String> = o.identification.parameters().iter().enumerate().filter_map(differs).collect();
+    let list: Vec<String> = o
+        .identification
+        .parameters()
+        .iter()
+        .enumerate()
+        .filter_map(differs)
+        .collect();
     let list = if list.is_empty() {
         "no parameter differs by half a standard error".to_owned()
     } else {
