@@ -45,5 +45,5 @@ pub use profile_interval::ProfileInterval;
 pub use regions::{ErrorSummary, PlacedError, Region, regions};
 pub use residuals::{BandMean, Succession, band_means, succession};
 pub use robust::RobustRows;
-pub use separation::{ErrorModel, Separation, VISIBLE, neighbours};
+pub use separation::{ErrorModel, PointSet, Separation, VISIBLE, neighbours};
 pub use verdict::{Combination, Determination, Verdict};

@@ -9,7 +9,7 @@
 //! Sources: Hurvich, Tsai, Biometrika 76 (1989) 297-307; Burnham, Anderson: Model Selection and Multimodel Inference (Springer
 //! 2002). The limit below which the criterion does not tell two models apart is their convention.
 
-use super::separation::{ErrorModel, Separation};
+use super::separation::{ErrorModel, PointSet, Separation};
 use super::{Accuracy, Decision, Paired, Validation};
 
 /// Difference of the criteria below which models are not told apart.
@@ -68,6 +68,8 @@ pub enum Reason {
     FoldsUndecided,
     /// The folds decide, but the predictions are nearer to each other than what the set of points can see.
     TooClose,
+    /// The folds decide, but errors that all points share could turn the decision round.
+    CommonErrors,
     /// The folds say one thing, the criterion another.
     Contradiction,
     /// There are no folds, and the criterion decides.
@@ -85,6 +87,7 @@ impl Reason {
             Self::Folds => "folds",
             Self::FoldsUndecided => "folds_undecided",
             Self::TooClose => "too_close",
+            Self::CommonErrors => "common_errors",
             Self::Contradiction => "contradiction",
             Self::Criterion => "criterion",
             Self::CriterionUndecided => "criterion_undecided",
@@ -109,13 +112,13 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Compares two models. `cells` are places of neighbouring points of one quantity, [`super::neighbours`].
-    pub fn new(a: &FittedModel, b: &FittedModel, cells: &[Vec<usize>]) -> Self {
+    /// Compares two models.
+    pub fn new(a: &FittedModel, b: &FittedModel, points: &PointSet) -> Self {
         let difference = a.criterion - b.criterion;
         let lists = a.validation.as_ref().zip(b.validation.as_ref());
         let floor = FLOOR * a.scatter.min(b.scatter);
         let folds = lists.and_then(|(a, b)| Paired::from_folds(&a.mean_squares, &b.mean_squares, floor));
-        let separation = separation(a, b, cells);
+        let separation = separation(a, b, points);
         let of_criterion = match difference {
             d if d <= -DIFFERENCE => Decision::Better,
             d if d >= DIFFERENCE => Decision::Worse,
@@ -127,6 +130,9 @@ impl Comparison {
                 (Decision::NotDecided, Reason::Contradiction)
             }
             Some(_) if separation.is_some_and(|s| !s.is_visible()) => (Decision::NotDecided, Reason::TooClose),
+            Some(found) if separation.is_some_and(|s| !s.supports(found)) => {
+                (Decision::NotDecided, Reason::CommonErrors)
+            }
             Some(found) => (found, Reason::Folds),
             None if of_criterion == Decision::NotDecided => (Decision::NotDecided, Reason::CriterionUndecided),
             None if a.is_suspect || b.is_suspect => (Decision::NotDecided, Reason::Suspect),
@@ -147,9 +153,11 @@ impl Comparison {
             Decision::Worse => [second, first],
             Decision::Better | Decision::NotDecided => [first, second],
         };
+        let turned = self.folds.is_some_and(|folds| folds.ratio > 1.0);
+        let smaller = if turned { second } else { first };
         let folds = self
             .folds
-            .map_or_else(String::new, |folds| folds_in_words(&folds, self.decision));
+            .map_or_else(String::new, |folds| folds_in_words(&folds, smaller));
         let [lower, higher] = if self.difference < 0.0 {
             [first, second]
         } else {
@@ -168,7 +176,12 @@ impl Comparison {
                  set of points apart, and the set sees {:.1} and more (correlation of the errors {:.2})",
                 self.separation.map_or(0.0, |s| s.square.sqrt()),
                 super::separation::VISIBLE.sqrt(),
-                self.separation.map_or(0.0, |s| s.errors.correlation),
+                self.separation.map_or(0.0, |s| s.correlation),
+            ),
+            Reason::CommonErrors => format!(
+                "not decided between {first} and {second}: {folds}, but errors that all points share could be the reason (correlation \
+                 of the errors {:.2})",
+                self.separation.map_or(0.0, |s| s.correlation),
             ),
             Reason::Contradiction => format!(
                 "not decided between {first} and {second}: two measures contradict each other, {folds}, but Akaike's criterion is lower \
@@ -188,30 +201,29 @@ impl Comparison {
     }
 }
 
-/// The ratio of the folds in words, as the better one sees it.
-fn folds_in_words(folds: &Paired, decision: Decision) -> String {
-    let turned = decision == Decision::Worse;
-    let (ratio, [low, high], won) = if turned {
+/// The ratio of the folds in words, as the one with the smaller errors sees it.
+fn folds_in_words(folds: &Paired, smaller: &str) -> String {
+    let (ratio, [low, high], won) = if folds.ratio > 1.0 {
         let [low, high] = folds.interval;
         (1.0 / folds.ratio, [1.0 / high, 1.0 / low], folds.folds - folds.won)
     } else {
         (folds.ratio, folds.interval, folds.won)
     };
     format!(
-        "its errors are {ratio:.2} times as large (95 % {low:.2} to {high:.2}) and smaller in {won} of {} bands",
+        "errors of {smaller} are {ratio:.2} times as large (95 % {low:.2} to {high:.2}) and smaller in {won} of {} bands",
         folds.folds
     )
 }
 
 /// How far apart predictions are. Where accuracies are given, the errors are those of the model with the smaller residuals; where they are
 /// estimated from the scatter, what is common to all points cannot be told from the model, and the larger correlation counts.
-fn separation(a: &FittedModel, b: &FittedModel, cells: &[Vec<usize>]) -> Option<Separation> {
+fn separation(a: &FittedModel, b: &FittedModel, points: &PointSet) -> Option<Separation> {
     let [first, second] = [a, b].map(FittedModel::scaled);
     if first.is_empty() || first.len() != second.len() {
         return None;
     }
     let square = |list: &[f64]| list.iter().map(|r| r * r).sum::<f64>();
-    let [of_first, of_second] = [&first, &second].map(|list| ErrorModel::estimated(list, cells));
+    let [of_first, of_second] = [&first, &second].map(|list| ErrorModel::estimated(list, points));
     let errors = if (a.scatter, b.scatter) == (1.0, 1.0) {
         if square(&first) <= square(&second) {
             of_first
@@ -223,13 +235,13 @@ fn separation(a: &FittedModel, b: &FittedModel, cells: &[Vec<usize>]) -> Option<
         all.max_by(|a, b| a.correlation.total_cmp(&b.correlation))
     };
     let scatter = a.scatter.min(b.scatter);
-    let differences = a.residuals.iter().zip(&b.residuals).map(|(a, b)| (a - b) / scatter);
-    Some(Separation::new(&differences.collect::<Vec<f64>>(), errors?))
+    let in_one_unit = |model: &FittedModel| model.residuals.iter().map(|r| r / scatter).collect::<Vec<f64>>();
+    Some(Separation::new([&in_one_unit(a), &in_one_unit(b)], &errors?))
 }
 
 /// Places of models in the order in which they are shown: first those that are not decidedly worse than the best, the fewest parameters
 /// before, then the others. The best is the one with the smallest error of predictions, or criterion where nothing was predicted.
-pub fn ranking(models: &[FittedModel], cells: &[Vec<usize>]) -> Vec<usize> {
+pub fn ranking(models: &[FittedModel], points: &PointSet) -> Vec<usize> {
     let mut order: Vec<usize> = (0..models.len()).collect();
     let validated = models.iter().all(|model| model.validation.is_some());
     let error = |i: usize| match &models[i].validation {
@@ -241,7 +253,7 @@ pub fn ranking(models: &[FittedModel], cells: &[Vec<usize>]) -> Vec<usize> {
         return order;
     };
     let alike =
-        |i: &usize| *i == best || Comparison::new(&models[best], &models[*i], cells).decision != Decision::Better;
+        |i: &usize| *i == best || Comparison::new(&models[best], &models[*i], points).decision != Decision::Better;
     let (mut first, rest): (Vec<usize>, Vec<usize>) = order.into_iter().partition(alike);
     first.sort_by_key(|i| models[*i].parameters);
     first.extend(rest);
@@ -299,22 +311,22 @@ mod tests {
     #[test]
     fn a_set_that_wins_every_fold_predicts_better() {
         let [a, b] = [model("a", 7, 300.0, Some(&WINS)), model("b", 7, 2000.0, Some(&LOSES))];
-        let found = Comparison::new(&a, &b, &[]);
+        let found = Comparison::new(&a, &b, &PointSet::default());
         assert_eq!((found.decision, found.reason), (Decision::Better, Reason::Folds));
-        let words = "a predicts points that were left out better than b: its errors are 0.25 times as large (95 % 0.13 to 0.48) and smaller in 5 of 5 bands";
+        let words = "a predicts points that were left out better than b: errors of a are 0.25 times as large (95 % 0.13 to 0.48) and smaller in 5 of 5 bands";
         assert_eq!(found.words("a", "b"), words);
-        let turned = Comparison::new(&b, &a, &[]);
+        let turned = Comparison::new(&b, &a, &PointSet::default());
         assert_eq!(
             (turned.decision, turned.words("b", "a").as_str()),
             (Decision::Worse, words)
         );
-        assert_eq!(ranking(&[b, a], &[]), [1, 0]);
+        assert_eq!(ranking(&[b, a], &PointSet::default()), [1, 0]);
     }
 
     #[test]
     fn contradictions_decide_nothing_and_are_said() {
         let [a, b] = [model("a", 7, 2000.0, Some(&WINS)), model("b", 7, 300.0, Some(&LOSES))];
-        let found = Comparison::new(&a, &b, &[]);
+        let found = Comparison::new(&a, &b, &PointSet::default());
         assert_eq!(
             (found.decision, found.reason),
             (Decision::NotDecided, Reason::Contradiction)
@@ -326,27 +338,42 @@ mod tests {
         );
         // A difference that the criterion does not see contradicts nothing.
         let near = model("b", 7, 1998.0, Some(&LOSES));
-        assert_eq!(Comparison::new(&a, &near, &[]).decision, Decision::Better);
+        assert_eq!(
+            Comparison::new(&a, &near, &PointSet::default()).decision,
+            Decision::Better
+        );
     }
 
     #[test]
     fn without_folds_the_criterion_decides_where_it_holds() {
         let [a, near, far] = [100.0, 103.0, 200.0].map(|criterion| model("x", 5, criterion, None));
-        assert_eq!(Comparison::new(&a, &near, &[]).reason, Reason::CriterionUndecided);
-        assert_eq!(Comparison::new(&a, &far, &[]).decision, Decision::Better);
-        assert_eq!(Comparison::new(&far, &a, &[]).decision, Decision::Worse);
+        assert_eq!(
+            Comparison::new(&a, &near, &PointSet::default()).reason,
+            Reason::CriterionUndecided
+        );
+        assert_eq!(
+            Comparison::new(&a, &far, &PointSet::default()).decision,
+            Decision::Better
+        );
+        assert_eq!(
+            Comparison::new(&far, &a, &PointSet::default()).decision,
+            Decision::Worse
+        );
         let wrong = FittedModel {
             is_suspect: true,
             ..far
         };
-        let found = Comparison::new(&a, &wrong, &[]);
+        let found = Comparison::new(&a, &wrong, &PointSet::default());
         assert_eq!((found.decision, found.reason), (Decision::NotDecided, Reason::Suspect));
     }
 
     #[test]
     fn predictions_nearer_than_the_accuracy_of_the_set_are_not_decided() {
         let points = 30;
-        let cells: Vec<Vec<usize>> = (0..points / 3).map(|k| (3 * k..3 * k + 3).collect()).collect();
+        let set = PointSet {
+            cells: (0..points / 3).map(|k| (3 * k..3 * k + 3).collect()).collect(),
+            shapes: vec![vec![1.0; points]],
+        };
         let with = |mut model: FittedModel, shift: f64| {
             // Scatter of a tenth of what is stated: the rest is common to all points.
             model.residuals = (0..points).map(|i| 0.1 * ((i % 3) as f64 - 1.0) + shift).collect();
@@ -354,11 +381,11 @@ mod tests {
         };
         let a = with(model("a", 7, 300.0, Some(&[0.1, 0.1, 0.11])), 0.0);
         let b = with(model("b", 7, 350.0, Some(&[0.9, 1.0, 1.1])), 1.0);
-        let found = Comparison::new(&a, &b, &cells);
+        let found = Comparison::new(&a, &b, &set);
         assert_eq!((found.decision, found.reason), (Decision::NotDecided, Reason::TooClose));
         assert!(found.words("a", "b").contains("standard deviations of the whole"));
         let far = with(model("c", 7, 900.0, Some(&[4.9, 5.0, 5.1])), 5.0);
-        assert_eq!(Comparison::new(&a, &far, &cells).decision, Decision::Better);
+        assert_eq!(Comparison::new(&a, &far, &set).decision, Decision::Better);
     }
 
     #[test]
@@ -366,7 +393,7 @@ mod tests {
         let a = model("a", 8, 100.0, Some(&[1.0, 1.1, 1.2]));
         let far = model("c", 5, 200.0, Some(&[5.0, 5.1, 5.3]));
         let scattered = model("d", 6, 200.0, Some(&[0.5, 9.0, 0.7]));
-        assert_eq!(ranking(&[far, a, scattered], &[]), [2, 1, 0]);
-        assert!(ranking(&[], &[]).is_empty());
+        assert_eq!(ranking(&[far, a, scattered], &PointSet::default()), [2, 1, 0]);
+        assert!(ranking(&[], &PointSet::default()).is_empty());
     }
 }

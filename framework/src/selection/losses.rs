@@ -1,6 +1,6 @@
 //! Losses of candidates at measured points, and the measurement.
 
-use crate::inference::neighbours;
+use crate::inference::{PointSet, neighbours};
 
 /// What every candidate loses at each point, and what everything else loses there.
 #[derive(Debug, Clone)]
@@ -54,15 +54,29 @@ pub struct MeasuredLosses {
     pub units: Vec<Option<f64>>,
     /// Places of points that are predicted together from all others.
     pub folds: Vec<Vec<usize>>,
-    /// Places of neighbouring points, for the correlation of errors.
-    pub cells: Vec<Vec<usize>>,
+    /// Neighbouring points and the shapes of common errors, for the correlation of errors.
+    pub points: PointSet,
 }
 
 impl MeasuredLosses {
-    /// The same with cells of neighbouring torques and speeds at one temperature of the oil.
+    /// The same with what points at these torques, speeds and temperatures of the oil share. Common errors have four shapes: a
+    /// share of the accuracy, a gain of the loss, an offset of the loss, and an offset of a torque, whose power goes with the speed.
     #[must_use]
-    pub fn with_neighbours(mut self, torques: &[f64], speeds: &[f64], oils: &[f64]) -> Self {
-        self.cells = neighbours(torques, speeds, oils);
+    pub fn with_conditions(mut self, torques: &[f64], speeds: &[f64], oils: &[f64]) -> Self {
+        let over = |value: &dyn Fn(usize) -> f64| {
+            let list: Vec<f64> = (0..self.len()).map(|i| value(i) / self.deviations[i]).collect();
+            self.weighted(&list)
+        };
+        let shapes = vec![
+            over(&|i| self.deviations[i]),
+            over(&|i| self.losses[i]),
+            over(&|_| 1.0),
+            over(&|i| speeds[i]),
+        ];
+        self.points = PointSet {
+            cells: neighbours(torques, speeds, oils),
+            shapes,
+        };
         self
     }
 

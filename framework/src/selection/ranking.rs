@@ -154,6 +154,7 @@ pub fn rank(
 pub(super) mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::inference::PointSet;
 
     /// Losses over 4 torques and 6 speeds: `[load, drag, load of another shape]`.
     pub fn shapes() -> [Vec<f64>; 3] {
@@ -172,7 +173,10 @@ pub(super) mod tests {
             weights: vec![1.0; count],
             units: vec![Some(1.0); count],
             folds: (0..4).map(|k| (6 * k..6 * k + 6).collect()).collect(),
-            cells: (0..count / 3).map(|k| (3 * k..3 * k + 3).collect()).collect(),
+            points: PointSet {
+                cells: (0..count / 3).map(|k| (3 * k..3 * k + 3).collect()).collect(),
+                shapes: vec![vec![1.0; count]],
+            },
             losses,
         }
     }

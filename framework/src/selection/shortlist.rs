@@ -3,8 +3,8 @@
 //! Weights are Akaike weights on the misfit of the cross-validated predictions, averaged over resampled folds: pseudo-BMA with the Bayesian bootstrap
 //! (Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018) 917-1007, section 3.4; Rubin, Ann. Statist. 9 (1981) 130-134). For each of some
 //! draws of fold weights alpha, which are positive and sum to one, w_i ~ exp(-Q_i/2) with Q_i = K sum alpha_k Q_ik. Cross-validation counts no parameter, so
-//! none is added. Q_ik is the sum of squares of a fold over the variance of the errors and over 1 + (n - 1) rho, by which n
-//! correlated points say less than n independent ones (Kish, Survey Sampling, Wiley 1965).
+//! none is added. Q_ik is the sum of squares of a fold over the variance of the errors and over 1 + (n - 1) rho, by which the n
+//! correlated points of a fold say less than independent ones (Kish, Survey Sampling, Wiley 1965).
 //!
 //! Plain Akaike weights take every point for independent evidence and give all the weight to one of many combinations that the
 //! folds do not tell apart; stacking does so too among predictions that are nearly equal. The spread would then say nothing of the others.
@@ -41,11 +41,10 @@ pub fn shortlist(ranked: &[Combination], winner: &Winner, losses: &Losses<'_>, m
         .iter()
         .map(|fold| fold.iter().map(|i| measured.weights[*i].max(0.0)).sum::<f64>());
     let counts: Vec<f64> = counts.filter(|count| *count > 0.0).collect();
-    let design =
-        winner.errors.variance * (1.0 + (counts.iter().sum::<f64>() - 1.0).max(0.0) * winner.errors.correlation);
+    let design = |count: f64| winner.errors.variance * (1.0 + (count - 1.0).max(0.0) * winner.errors.correlation);
     let misfit = |place: &usize| -> Vec<f64> {
         let squares = ranked[*place].mean_squares.iter().zip(&counts);
-        squares.map(|(square, count)| square * count / design).collect()
+        squares.map(|(square, count)| square * count / design(*count)).collect()
     };
     let weights = weights(&members.iter().map(misfit).collect::<Vec<_>>());
     let count = measured.len();

@@ -10,7 +10,8 @@ pub struct Standing {
     pub folds: Option<Paired>,
     /// How far apart the predictions are.
     pub separation: Separation,
-    /// Whether the first is better: where the folds say so and the set of points sees the difference.
+    /// Whether the first is better: where the folds say so, the set of points sees the difference, and errors that all points share
+    /// cannot be the reason.
     pub decision: Decision,
 }
 
@@ -19,16 +20,16 @@ pub fn stand(
     [first, second]: [&Combination; 2],
     losses: &Losses<'_>,
     measured: &MeasuredLosses,
-    errors: ErrorModel,
+    errors: &ErrorModel,
 ) -> Standing {
     let folds = Paired::from_folds(&first.mean_squares, &second.mean_squares, FLOOR);
-    let [a, b] = [first, second].map(|c| losses.all(&c.places, &c.factors));
-    let separation = Separation::new(&measured.differences(&a, &b), errors);
+    let residuals = |c: &Combination| measured.weighted(&measured.residuals(&losses.all(&c.places, &c.factors)));
+    let separation = Separation::new([&residuals(first), &residuals(second)], errors);
     let found = folds.map_or(Decision::NotDecided, |folds| folds.decision());
     Standing {
         folds,
         separation,
-        decision: if separation.is_visible() {
+        decision: if separation.is_visible() && separation.supports(found) {
             found
         } else {
             Decision::NotDecided
@@ -64,11 +65,12 @@ pub fn winner(
 ) -> Option<Winner> {
     let best = ranked.first()?;
     let fitted = losses.all(&best.places, &best.factors);
-    let estimated = || ErrorModel::estimated(&measured.weighted(&measured.residuals(&fitted)), &measured.cells);
+    let estimated = || ErrorModel::estimated(&measured.weighted(&measured.residuals(&fitted)), &measured.points);
     // Without neighbours nothing tells the correlation, and errors count as independent.
-    let errors = correlation.map_or_else(|| estimated().unwrap_or(ErrorModel::stated(0.0)), ErrorModel::stated);
+    let stated = |correlation: f64| ErrorModel::new(1.0, correlation, &measured.points.shapes);
+    let errors = correlation.map_or_else(|| estimated().unwrap_or_else(|| stated(0.0)), stated);
     let unmarked = ranked.iter().position(|c| !is_marked(c));
-    let against = |a: usize, b: usize| stand([&ranked[a], &ranked[b]], losses, measured, errors);
+    let against = |a: usize, b: usize| stand([&ranked[a], &ranked[b]], losses, measured, &errors);
     let best_against_unmarked = unmarked.filter(|place| *place > 0).map(|place| against(0, place));
     let place = match (unmarked, best_against_unmarked) {
         (Some(place), Some(standing)) if standing.decision != Decision::Better => place,

@@ -28,8 +28,9 @@ pub struct TournamentEntry {
     /// Accuracy of the loss at points for which the file states none: of the loss, the loss torque or the efficiency, or of the
     /// torque meters. Absent too, 5 % of the loss and 1 % of the root mean square of all losses are assumed.
     pub errors: Option<LossErrorsEntry>,
-    /// Correlation between the errors of any two points: 0 where each point errs on its own, 1 where all err alike, as by a gain or an offset of a
-    /// torque meter; more than 0.99 counts as 0.99. Absent, it is estimated from the residuals of the best combination. [-]
+    /// Correlation between the errors of any two points, which is the share of common errors in their variance: 0 where each point errs on its
+    /// own, 1 where all err together, as by a gain or an offset of a torque meter; more than 0.99 counts as 0.99. Absent, it is estimated
+    /// from the residuals of the best combination. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub correlation: Option<f64>,
     /// The unit in which errors are printed: efficiency points, watts, or newton metres. The ranking is the same for all.

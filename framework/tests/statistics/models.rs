@@ -1,6 +1,6 @@
 //! Comparison of models of the made-up problem, with parameters held.
 
-use gearloss_framework::inference::{Accuracy, Comparison, Decision, FittedModel, akaike, ranking};
+use gearloss_framework::inference::{Accuracy, Comparison, Decision, FittedModel, PointSet, akaike, ranking};
 
 use crate::check_problem::{OPTIMUM, measured, minimise, parameters};
 
@@ -40,8 +40,8 @@ fn check_7_4_models() {
     });
     // This noise does not prove an offset: no two can be told apart, and the one with most parameters comes last.
     for a in &fitted {
-        let is_decided = |b: &FittedModel| Comparison::new(a, b, &[]).decision != Decision::NotDecided;
+        let is_decided = |b: &FittedModel| Comparison::new(a, b, &PointSet::default()).decision != Decision::NotDecided;
         assert!(!fitted.iter().any(is_decided));
     }
-    assert_eq!(ranking(&fitted, &[]), [3, 1, 2, 0]);
+    assert_eq!(ranking(&fitted, &PointSet::default()), [3, 1, 2, 0]);
 }

@@ -4,7 +4,7 @@
 //! functions. Five bands of torque are predicted from the others. What a decision is worth is known, since the points are made without
 //! noise as well.
 
-use gearloss_framework::inference::{Decision, Paired};
+use gearloss_framework::inference::{Decision, Paired, PointSet};
 use gearloss_framework::sampling::inverse_normal;
 use gearloss_framework::selection::{Losses, MeasuredLosses, validate};
 
@@ -77,7 +77,7 @@ fn folds(shapes: &[Vec<f64>; 3], losses: &[f64], deviation: f64) -> Vec<f64> {
         weights: vec![1.0; losses.len()],
         units: vec![Some(1.0); losses.len()],
         folds: (0..TORQUES).map(|k| (k * SPEEDS..(k + 1) * SPEEDS).collect()).collect(),
-        cells: Vec::new(),
+        points: PointSet::default(),
     };
     let rest = vec![0.0; losses.len()];
     let losses = Losses {

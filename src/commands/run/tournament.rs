@@ -8,7 +8,7 @@ mod results;
 mod spread;
 
 use gearloss_framework::analysis::{Given, GridResult, PointResult};
-use gearloss_framework::inference::folds;
+use gearloss_framework::inference::{PointSet, folds};
 use gearloss_framework::measured::{Measured, Row, Seen};
 use gearloss_framework::selection::{LossErrors, Losses, MeasuredLosses};
 use gearloss_framework::study::{Difference, Quantity, TournamentEntry};
@@ -293,10 +293,10 @@ fn measurements(
             .collect(),
         units: field.scale.clone(),
         folds: groups.into_iter().map(|fold| fold.points).collect(),
-        cells: Vec::new(),
+        points: PointSet::default(),
     };
     Ok(Measurements {
-        losses: measured.with_neighbours(&torques, &speeds, &oils),
+        losses: measured.with_conditions(&torques, &speeds, &oils),
         torques,
         speeds,
         notes,

@@ -1,7 +1,9 @@
 //! Which set predicts best, and whether the points decide it.
 
 use gearloss_framework::identify::Observation;
-use gearloss_framework::inference::{Accuracy, Comparison, FittedModel, Succession, akaike, neighbours, ranking};
+use gearloss_framework::inference::{
+    Accuracy, Comparison, FittedModel, PointSet, Succession, akaike, neighbours, ranking,
+};
 use gearloss_framework::study::IdentifyEntry;
 use serde_json::{Value, json};
 
@@ -48,8 +50,9 @@ fn model(o: &Outcome<'_>) -> Option<FittedModel> {
     })
 }
 
-/// Places of neighbouring observations of one quantity, gear state and temperature.
-fn cells(o: &Outcome<'_>) -> Vec<Vec<usize>> {
+/// Neighbouring observations of one quantity, gear state and temperature, and the shapes of common errors: for each quantity a share of the
+/// accuracy, a gain and an offset.
+fn points(o: &Outcome<'_>) -> PointSet {
     let measured = o.identification.measured();
     let observations = o.identification.observations();
     let value = |i: usize, quantity: &str| {
@@ -57,7 +60,24 @@ fn cells(o: &Outcome<'_>) -> Vec<Vec<usize>> {
             .value(&measured.rows[observations[i].row], quantity)
             .unwrap_or(0.0)
     };
-    let mut all = Vec::new();
+    let mut points = PointSet::default();
+    for quantity in o.quantities() {
+        let over = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let of = |i: usize| {
+                if observations[i].quantity == quantity {
+                    value(i) / observations[i].deviation
+                } else {
+                    0.0
+                }
+            };
+            (0..observations.len()).map(of).collect()
+        };
+        points.shapes.extend([
+            over(&|i| observations[i].deviation),
+            over(&|i| o.pairs[1][i].measured),
+            over(&|_| 1.0),
+        ]);
+    }
     for sheet in &o.sheets {
         for quantity in o.quantities() {
             let own = |i: &usize| observations[*i].quantity == quantity && sheet.rows.contains(&observations[*i].row);
@@ -65,14 +85,14 @@ fn cells(o: &Outcome<'_>) -> Vec<Vec<usize>> {
             let [torques, speeds] =
                 ["torque", "speed"].map(|q| places.iter().map(|i| value(*i, q)).collect::<Vec<f64>>());
             let of_places = |cell: Vec<usize>| cell.into_iter().map(|k| places[k]).collect();
-            all.extend(
+            points.cells.extend(
                 neighbours(&torques, &speeds, &vec![0.0; places.len()])
                     .into_iter()
                     .map(of_places),
             );
         }
     }
-    all
+    points
 }
 
 /// Compares the sets, prints a table and a sentence. Absent where there is nothing to compare, or it would not be just.
@@ -102,11 +122,11 @@ pub fn compare(
     let Some(models) = outcomes.iter().map(model).collect::<Option<Vec<_>>>() else {
         return Ok(None);
     };
-    let cells = cells(&outcomes[0]);
-    let order = ranking(&models, &cells);
+    let set_of_points = points(&outcomes[0]);
+    let order = ranking(&models, &set_of_points);
     let first = order[0];
     let set = |place: &usize| Set {
-        against: (*place != first).then(|| Comparison::new(&models[first], &models[*place], &cells)),
+        against: (*place != first).then(|| Comparison::new(&models[first], &models[*place], &set_of_points)),
         model: models[*place].clone(),
         probability: outcomes[*place].checks.lack.map(|lack| lack.probability),
     };
@@ -214,6 +234,7 @@ pub fn write(
         "ratio_low",
         "ratio_high",
         "separation",
+        "evidence",
         "correlation",
         "lack_of_fit_probability",
         "decision",
@@ -237,7 +258,8 @@ pub fn write(
             folds.map(|p| p.interval[0]),
             folds.map(|p| p.interval[1]),
             separation.map(|s| s.square.sqrt()),
-            separation.map(|s| s.errors.correlation),
+            separation.map(|s| s.evidence),
+            separation.map(|s| s.correlation),
             set.probability,
         ];
         cells.extend(numbers.map(cell));
@@ -260,8 +282,8 @@ pub fn json_of(compared: Option<&Compared>) -> Value {
             json!({
                 "decision": c.decision.name(), "reason": c.reason.name(),
                 "folds": c.folds.map(|p| json!({ "ratio": p.ratio, "interval": p.interval, "won": p.won, "groups": p.folds })),
-                "separation": c.separation.map(|s| s.square.sqrt()),
-                "correlation": c.separation.map(|s| s.errors.correlation),
+                "separation": c.separation.map(|s| s.square.sqrt()), "evidence": c.separation.map(|s| s.evidence),
+                "correlation": c.separation.map(|s| s.correlation),
             })
         });
         json!({

@@ -180,13 +180,11 @@ pub fn slots(
                     model: Value::Null,
                     loss,
                     time: 1.0,
-                    marks: match solved.seen.is_empty() {
-                        true => Vec::new(),
-                        false => marks(
-                            &base.transmission,
-                            &solved.seen,
-                            &slot.replaced(runner.language, &base.resolved),
-                        ),
+                    marks: if solved.seen.is_empty() {
+                        Vec::new()
+                    } else {
+                        let replaced = slot.replaced(runner.language, &base.resolved);
+                        marks(&base.transmission, &solved.seen, &replaced)
                     },
                 },
             );

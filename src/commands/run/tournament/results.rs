@@ -55,6 +55,7 @@ fn ranking(field: &Field<'_>, o: &Outcome) -> (Vec<String>, Vec<Vec<String>>) {
         "ratio_high",
         "groups_won_by_winner",
         "separation",
+        "evidence",
         "weight",
         "marks",
     ];
@@ -80,7 +81,14 @@ fn ranking(field: &Field<'_>, o: &Outcome) -> (Vec<String>, Vec<Vec<String>>) {
             .map(cell),
         );
         row.push(folds.map_or_else(String::new, |p| p.won.to_string()));
-        row.extend([Some(standing.separation.square.sqrt()), o.weight(i)].map(cell));
+        row.extend(
+            [
+                Some(standing.separation.square.sqrt()),
+                Some(standing.separation.evidence),
+                o.weight(i),
+            ]
+            .map(cell),
+        );
         row.push(marks(field, c).join("; "));
         row
     };
@@ -145,7 +153,7 @@ fn json_of_ranking(
     };
     let standing = |s: &Standing| {
         json!({
-            "decision": s.decision.name(), "folds": folds(s.folds), "separation": s.separation.square.sqrt(),
+            "decision": s.decision.name(), "folds": folds(s.folds), "separation": s.separation.square.sqrt(), "evidence": s.separation.evidence,
         })
     };
     let ranked = |(i, c): (usize, &gearloss_framework::selection::Combination)| {
