@@ -118,6 +118,8 @@ pub struct Validation {
     pub mean_squares: Vec<f64>,
     /// Root of the mean square over all points.
     pub rms: f64,
+    /// Error of each point.
+    pub errors: Vec<f64>,
 }
 
 impl Validation {
@@ -137,6 +139,7 @@ impl Validation {
                 .map(|(sum, fold)| sum / fold.points.len() as f64)
                 .collect(),
             rms: (sums.iter().sum::<f64>() / count as f64).sqrt(),
+            errors: errors.to_vec(),
         })
     }
 

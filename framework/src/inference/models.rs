@@ -270,6 +270,7 @@ mod tests {
         let validation = rms.map(|list| Validation {
             rms: (squares(list).iter().sum::<f64>() / list.len() as f64).sqrt(),
             mean_squares: squares(list),
+            errors: list.to_vec(),
         });
         FittedModel {
             name: name.to_owned(),

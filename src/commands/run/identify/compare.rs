@@ -2,7 +2,7 @@
 
 use gearloss_framework::identify::Observation;
 use gearloss_framework::inference::{
-    Accuracy, Comparison, FittedModel, PointSet, Succession, akaike, neighbours, ranking,
+    Accuracy, Comparison, FittedModel, PointSet, Succession, Validation, akaike, neighbours, ranking,
 };
 use gearloss_framework::study::IdentifyEntry;
 use serde_json::{Value, json};
@@ -13,8 +13,18 @@ use super::super::write::cell;
 use super::outcome::Outcome;
 use crate::output::{Failure, Out, Table, figures, number};
 
-/// Relative difference of accuracies up to which points weigh the same under two sets.
-const ALIKE: f64 = 0.05;
+/// The accuracies over which sets are compared, for each observation: the root of their mean square over the sets, because an accuracy in
+/// percent, and that of an instrument, are those at the loss that a set calculates. Absent where the sets were fitted to different observations.
+fn common_deviations(outcomes: &[Outcome<'_>]) -> Option<Vec<f64>> {
+    let lists: Vec<&[Observation]> = outcomes.iter().map(|o| o.identification.observations()).collect();
+    let key = |o: &Observation| (o.row, o.quantity);
+    let same = |list: &&[Observation]| list.iter().map(key).eq(lists[0].iter().map(key));
+    if !lists.iter().all(same) {
+        return None;
+    }
+    let mean = |i: usize| lists.iter().map(|list| list[i].deviation.powi(2)).sum::<f64>() / lists.len() as f64;
+    Some((0..lists[0].len()).map(|i| mean(i).sqrt()).collect())
+}
 
 /// One set beside the first one.
 struct Set {
@@ -31,17 +41,28 @@ pub struct Compared {
     sentence: String,
 }
 
-fn model(o: &Outcome<'_>) -> Option<FittedModel> {
+/// A set with its residuals over common accuracies.
+fn model(o: &Outcome<'_>, common: &[f64]) -> Option<FittedModel> {
     let inference = &o.fitted.inference;
+    let in_common = |list: &[f64]| -> Vec<f64> {
+        let own = o.identification.observations().iter().zip(common);
+        let pairs = list.iter().zip(own);
+        pairs
+            .map(|(residual, (own, common))| residual * own.deviation / common)
+            .collect()
+    };
+    let residuals = in_common(inference.residuals());
+    let squares = residuals.iter().map(|r| r * r).sum();
+    let folds = o.folds.as_ref().and_then(|folds| folds.as_ref().ok());
     let (points, parameters) = (inference.residuals().len(), inference.parameters().len());
     let lack = o.checks.lack.is_some_and(|lack| lack.widening().is_some());
     let together = o.checks.succession.as_ref().is_some_and(Succession::is_suspect);
     Some(FittedModel {
         name: o.name.clone(),
         parameters,
-        criterion: akaike(inference.chi_square(), points, parameters, inference.accuracy())?,
-        validation: o.folds.as_ref().and_then(|folds| Some(folds.as_ref().ok()?.1.clone())),
-        residuals: inference.residuals().to_vec(),
+        criterion: akaike(squares, points, parameters, inference.accuracy())?,
+        validation: folds.and_then(|(folds, found)| Validation::new(folds, &in_common(&found.errors))),
+        residuals,
         scatter: match inference.accuracy() {
             Accuracy::Given => 1.0,
             Accuracy::Estimated => inference.scatter(),
@@ -52,7 +73,7 @@ fn model(o: &Outcome<'_>) -> Option<FittedModel> {
 
 /// Neighbouring observations of one quantity, gear state and temperature, and the shapes of common errors: for each quantity a share of the
 /// accuracy, a gain and an offset.
-fn points(o: &Outcome<'_>) -> PointSet {
+fn points(o: &Outcome<'_>, common: &[f64]) -> PointSet {
     let measured = o.identification.measured();
     let observations = o.identification.observations();
     let value = |i: usize, quantity: &str| {
@@ -65,18 +86,16 @@ fn points(o: &Outcome<'_>) -> PointSet {
         let over = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
             let of = |i: usize| {
                 if observations[i].quantity == quantity {
-                    value(i) / observations[i].deviation
+                    value(i) / common[i]
                 } else {
                     0.0
                 }
             };
             (0..observations.len()).map(of).collect()
         };
-        points.shapes.extend([
-            over(&|i| observations[i].deviation),
-            over(&|i| o.pairs[1][i].measured),
-            over(&|_| 1.0),
-        ]);
+        points
+            .shapes
+            .extend([over(&|i| common[i]), over(&|i| o.pairs[1][i].measured), over(&|_| 1.0)]);
     }
     for sheet in &o.sheets {
         for quantity in o.quantities() {
@@ -105,24 +124,18 @@ pub fn compare(
     if outcomes.len() < 2 {
         return Ok(None);
     }
-    // Sets are compared over the same numbers with the same weights only, by sums of squares that were made small.
-    let same = outcomes.windows(2).all(|w| {
-        let [a, b] = [&w[0], &w[1]].map(|o| o.identification.observations());
-        let alike = |(a, b): (&Observation, &Observation)| {
-            (a.row, a.quantity) == (b.row, b.quantity) && (a.deviation / b.deviation - 1.0).abs() < ALIKE
-        };
-        a.len() == b.len() && a.iter().zip(b).all(alike)
-    });
+    // Sets are compared over the same numbers only, by sums of squares that were made small.
     let squares = |o: &Outcome<'_>| o.fitted.factors.is_empty() && !o.fitted.inference.is_robust();
-    if !same || !outcomes.iter().all(squares) {
-        let words = "the sets are not compared: they were fitted with different weights, or by another loss";
+    let common = common_deviations(outcomes).filter(|_| outcomes.iter().all(squares));
+    let Some(common) = common else {
+        let words = "the sets are not compared: they were fitted to different rows, by a robust loss or with factors of the accuracies";
         out.line(format!("{name}: {words}\n"))?;
         return Ok(None);
-    }
-    let Some(models) = outcomes.iter().map(model).collect::<Option<Vec<_>>>() else {
+    };
+    let Some(models) = outcomes.iter().map(|o| model(o, &common)).collect::<Option<Vec<_>>>() else {
         return Ok(None);
     };
-    let set_of_points = points(&outcomes[0]);
+    let set_of_points = points(&outcomes[0], &common);
     let order = ranking(&models, &set_of_points);
     let first = order[0];
     let set = |place: &usize| Set {
