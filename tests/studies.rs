@@ -638,6 +638,67 @@ analyses:
     }
 }
 
+/// Sets of an identification stand side by side in one table, with a decision and a sentence; files hold the same.
+#[test]
+fn sets_of_an_identification_are_compared() {
+    let sets = "  bare:
+    extends: joint
+    gear_mesh: { type: iso14179_2 }
+    seal: none
+";
+    let grid = "grids:
+  rig: { gear: first, torque: [4 Nm, 8 Nm, 12 Nm, 16 Nm, 20 Nm], speed: [3000 rpm, 8000 rpm, 16000 rpm] }
+";
+    let truth = format!("{sets}{grid}analyses:\n  truth: {{ type: map, grid: rig, model_sets: [joint] }}\n");
+    let (folder, _) = run("sets_truth", &truth, &[]);
+    let mut rig = "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n".to_owned();
+    for (i, p) in points(&json(&folder, "truth")["maps"][0]).iter().enumerate() {
+        let [torque, speed, loss] = ["torque_nm", "speed_rpm", "loss_w"].map(|k| number(&p[k]));
+        let accuracy = 0.01 * loss;
+        let noise = [0.8, -1.1, 0.3, -0.4, 1.2, -0.9, 0.5][i % 7];
+        rig.push_str(&format!("{torque},{speed},{},{accuracy}\n", loss + noise * accuracy));
+    }
+    let study = format!(
+        "{sets}analyses:
+  both:
+    type: identify
+    data: {{ file: rig.csv }}
+    residuals: [loss]
+    model_sets: [bare, joint]
+    profiles: false
+    parameters: {{ level: {{ path: housing.oil.level_offset, from: -5 mm, to: 5 mm }} }}
+"
+    );
+    let (folder, text) = run("sets", &study, &[("rig.csv", &rig)]);
+    let result = json(&folder, "both");
+    let compared = &result["comparison_of_sets"];
+    let names: Vec<&str> = compared["sets"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|s| s["model_set"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["joint", "bare"], "{text}");
+    let against = &compared["sets"][1]["first_against_it"];
+    assert_eq!(
+        (against["decision"].as_str(), against["reason"].as_str()),
+        (Some("better"), Some("folds")),
+        "{text}"
+    );
+    assert_eq!(number(&against["folds"]["won"]), 5.0);
+    let sentence = compared["sentence"].as_str().unwrap();
+    assert!(
+        sentence.starts_with("`joint` predicts points that were left out better than `bare`"),
+        "{sentence}"
+    );
+    assert!(
+        text.contains("both: the sets side by side") && text.contains(sentence),
+        "{text}"
+    );
+    let csv = std::fs::read_to_string(folder.join("both-sets.csv")).unwrap();
+    assert!(csv.lines().count() == 3 && csv.contains("better"), "{csv}");
+}
+
 #[test]
 fn two_paths_are_swept_as_a_map() {
     let study = "analyses:

@@ -15,6 +15,6 @@ mod winner;
 
 pub use errors::LossErrors;
 pub use losses::{Losses, MeasuredLosses};
-pub use ranking::{Bounds, Combination, rank, validate};
+pub use ranking::{Bounds, Combination, Printed, rank, validate};
 pub use shortlist::{Shortlist, shortlist};
 pub use winner::{Standing, Winner, stand, winner};

@@ -18,7 +18,7 @@ pub fn bounded_linear(columns: &[Vec<f64>], target: &[f64], bounds: &[[f64; 2]])
     let count = columns.len();
     let finite = |list: &[f64]| list.iter().all(|x| x.is_finite());
     let whole = count == bounds.len() && columns.iter().all(|c| c.len() == target.len() && finite(c));
-    if !whole || !finite(target) || bounds.iter().any(|[low, high]| !(low <= high)) {
+    if !whole || !finite(target) || !bounds.iter().all(|[low, high]| low <= high) {
         return None;
     }
     if count == 0 {
