@@ -697,6 +697,15 @@ fn sets_of_an_identification_are_compared() {
     );
     let csv = std::fs::read_to_string(folder.join("both-sets.csv")).unwrap();
     assert!(csv.lines().count() == 3 && csv.contains("better"), "{csv}");
+    // An accuracy in percent is another number of watts for each set; they are compared over what they have in common.
+    let rows = rig
+        .lines()
+        .filter_map(|line| Some(format!("{}\n", line.rsplit_once(',')?.0)));
+    let in_percent = "{ file: rig.csv, accuracies: { loss: { percent_of_reading: 1 } }, stated_as: standard }";
+    let study = study.replace("{ file: rig.csv }", in_percent);
+    let (folder, text) = run("sets_in_percent", &study, &[("rig.csv", &rows.collect::<String>())]);
+    let against = &json(&folder, "both")["comparison_of_sets"]["sets"][1]["first_against_it"];
+    assert_eq!(against["decision"].as_str(), Some("better"), "{text}");
 }
 
 #[test]
