@@ -99,7 +99,12 @@ fn points() -> Vec<Value> {
         solve(car, &["--gear", "second", "--models", "joint"]),
         solve(
             car,
-            &["--gear", "first", "--set", "meshes.*.model.coefficients.load_exponent=0.25"],
+            &[
+                "--gear",
+                "first",
+                "--set",
+                "meshes.*.model.coefficients.load_exponent=0.25",
+            ],
         ),
         solve(["tests/results/self_locking.yaml", "--speed", "-3000 rpm"], &[]),
         solve([car[0], "--speed", "0 rpm"], &["--gear", "first"]),

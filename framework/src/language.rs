@@ -167,7 +167,9 @@ impl Language {
     /// What the walk finds.
     pub fn checked_in(&self, document: &Value, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
         // A new `type` is one of all, not the one that is there.
-        let shape = self.shape_at(document, path).filter(|_| !path.ends_with(".type"));
+        let shape = self
+            .shape_at(document, path)
+            .filter(|_| path.rsplit('.').next() != Some("type"));
         match shape {
             Some(shape) => fine(walk_shape(&Node::from_json(value), &self.gearbox, shape, path)),
             None => self.checked(value, path),

@@ -131,10 +131,9 @@ impl Parameter {
     /// relative as it is; else the size that was given, or the magnitude of the value, or one where that is zero.
     pub fn own_size(&self) -> f64 {
         match (self.scale, self.size) {
-            (Scale::Log, _) => 1.0,
             (Scale::Linear, Some(size)) => size,
             (Scale::Linear, None) if self.u != 0.0 => self.u.abs(),
-            (Scale::Linear, None) => 1.0,
+            _ => 1.0,
         }
     }
 

@@ -107,7 +107,8 @@ fn between(
     let rise = |cost: f64| 2.0 * (cost - least) / variance;
     // A combination that changes nothing is a valley, and said to be one.
     let known = a.converged() && b.derivative.is_some();
-    if !known || !(rise(a.cost.max(b.cost)) <= UNTOLD) {
+    let untold = rise(a.cost.max(b.cost)) <= UNTOLD;
+    if !(known && untold) {
         return Ok(Between::Barrier);
     }
     let [from, to] = [a, b].map(|fit| -> Vec<f64> { space.free.iter().map(|i| fit.u[*i]).collect() });

@@ -104,7 +104,7 @@ pub(super) fn write(value: &mut Value, path: &str, new: Value) -> bool {
 
 /// The file that holds a table whose values a path means.
 fn file_of<'a>(at: &'a Value, path: &str, key: &str) -> Option<&'a str> {
-    if path.ends_with(".file") {
+    if path.rsplit('.').next() == Some("file") {
         return at.as_str();
     }
     let means_values = ["values", "table", "axes"].contains(&key) || key.parse::<usize>().is_ok();
