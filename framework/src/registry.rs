@@ -197,7 +197,7 @@ pub struct Entry {
 inventory::collect!(Entry);
 
 impl Entry {
-    /// Keys of the models that this one cannot do without, each with its mechanism: `tooth_friction` of `path_integral`. Read from the schema
+    /// Keys of the models that this one cannot do without, each with its mechanism: `tooth_friction` of a mesh model. Read from the schema
     /// of the parameters, where the slot of a model is a reference to the models of its mechanism.
     pub fn required_slots(&self) -> Vec<(String, String)> {
         let schema = (self.schema)(&mut SchemaGenerator::default()).to_value();

@@ -67,7 +67,7 @@ pub struct CandidatesEntry {
     /// Slot of a mechanism of which a gear has several models: `churning` of `gear_drag`.
     pub slot: Option<String>,
     /// Models by name, each as in a gearbox: `{ type: skf }`; absent, all that this gearbox has the inputs
-    /// for, with their defaults. A model that takes another one, as `path_integral` takes a `tooth_friction`, takes part with each of them.
+    /// for, with their defaults. A model that takes another one, such as a mesh model that takes a `tooth_friction`, takes part with each of them.
     /// Those of drags are named always, because laws for churning, injection and windage are one mechanism.
     #[serde(default)]
     pub models: Ordered<Value>,
