@@ -3,6 +3,7 @@
 //! Two wrong models with three fitted factors each, equally wrong on average: their shapes are those of the truth times random smooth
 //! functions. Five bands of torque are predicted from the others. What a decision is worth is known, since the points are made without
 //! noise as well.
+#![allow(clippy::print_stdout, reason = "the documentation quotes what the simulation finds")]
 
 use gearloss_framework::inference::{Decision, Paired, PointSet};
 use gearloss_framework::sampling::inverse_normal;
