@@ -4,8 +4,8 @@
 //! coordinates do not slow it down. The draws follow from the seed alone, whatever the number of threads.
 //!
 //! Sources: Goodman, Weare, Comm. Appl. Math. Comput. Sci. 5 (2010) 65-80 (stretch moves); ter Braak, Stat. Comput. 16 (2006)
-//! 239-249 (moves along differences); Sokal in: Functional Integration (Springer 1997) 131-192 (autocorrelation time); Foreman-Mackey
-//! et al., PASP 125 (2013) 306-312 (how long is long enough, a convention).
+//! 239-249 (moves along differences); Sokal in: Functional Integration (Springer 1997) 131-192 (autocorrelation time); Vehtari et
+//! al., Bayesian Analysis 16 (2021) 667-718 (how many independent draws are enough).
 
 use std::ops::ControlFlow;
 
@@ -17,8 +17,10 @@ use crate::analysis::quantile;
 
 /// Share of the steps that are thrown away, in which the walkers leave their beginnings.
 const THROWN_AWAY: f64 = 1.0 / 3.0;
-/// Autocorrelation times that a walker has to run for its draws to be trusted.
-const TIMES: f64 = 50.0;
+/// Independent draws that the ends of an interval need.
+const ENOUGH: f64 = 400.0;
+/// Autocorrelation times that a walker has to run, so that the first third has forgotten where it began: a convention.
+const TIMES: f64 = 20.0;
 /// Relative scatter of the length of moves along differences.
 const SCATTER: f64 = 1e-3;
 /// Shares of the draws below the median and the ends of the interval.
@@ -164,10 +166,11 @@ impl Draws {
         }
     }
 
-    /// Whether every walker ran long enough for its draws of these coordinates to be trusted.
+    /// Whether every walker ran long enough for its draws of these coordinates to be trusted: for 400 independent draws and more, and
+    /// for 20 of its autocorrelation times.
     pub fn is_settled(&self, marginals: impl IntoIterator<Item = Marginal>) -> bool {
-        let slowest = marginals.into_iter().map(|m| m.autocorrelation).fold(1.0, f64::max);
-        self.steps as f64 >= TIMES * slowest
+        let long = |m: Marginal| m.effective >= ENOUGH && self.steps as f64 >= TIMES * m.autocorrelation;
+        marginals.into_iter().all(long)
     }
 }
 

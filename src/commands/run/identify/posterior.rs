@@ -100,12 +100,15 @@ pub fn show(runner: &Runner<'_>, name: &str, o: &Outcome<'_>, out: &mut Out) -> 
     ))?;
     out.text(&table.render())?;
     if !posterior.is_settled {
+        let least = drawn(o)
+            .map(|(_, marginal)| marginal.effective)
+            .fold(f64::INFINITY, f64::min);
         let slowest = drawn(o)
             .map(|(_, marginal)| marginal.autocorrelation)
             .fold(1.0, f64::max);
         let sentence = format!(
-            "{name}: the posterior is not settled: a walker remembers {slowest:.0} of its {} steps, and fifty times as many are due; \
-             write more `steps`",
+            "{name}: the posterior is not settled: {least:.0} independent draws, and a walker remembers {slowest:.0} of its {} steps; \
+             400 draws and twenty times as many steps are due: write more `steps`",
             posterior.draws.steps
         );
         runner.verdict(sentence, out)?;
