@@ -12,8 +12,9 @@ use super::evaluate::Miss;
 use super::iterate::{Context, Point};
 use super::polish::{Axes, inside, moved};
 
-/// Distance of both sides from the minimum, in standard errors: so near that the square is small beside a kink that counts. \[-\]
-const ASIDE: f64 = 0.05;
+/// Distances of both sides from the minimum, in standard errors by scatter, that are tried until one is steep: no nearer than the
+/// finish is good for. \[-\]
+const ASIDE: [f64; 3] = [0.05, 0.01, 0.002];
 /// Distance of a second pair over that of the first, which tells a jump from a kink: a jump is as high there. \[-\]
 const NEARER: f64 = 0.125;
 /// Share of the distance that a bound must leave. \[-\]
@@ -45,19 +46,26 @@ pub struct Kink {
 /// # Errors
 /// If it is interrupted.
 pub(super) fn kinks(context: &Context<'_>, point: &Point, jacobian: &DMatrix<f64>) -> Result<Vec<Kink>, Miss> {
-    let Some(axes) = Axes::principal(context, point, jacobian) else {
+    let Some(axes) = Axes::between_bounds(context, point, jacobian) else {
         return Ok(Vec::new());
     };
     let found: Vec<Option<Kink>> = (0..context.evaluator.space.len())
         .into_par_iter()
         .with_max_len(1)
-        .map(|j| along(context, point, &axes, j))
+        .map(|j| {
+            for distance in ASIDE {
+                if let Some(kink) = along(context, point, &axes, (j, distance))? {
+                    return Ok(Some(kink));
+                }
+            }
+            Ok(None)
+        })
         .collect::<Result<_, _>>()?;
     Ok(found.into_iter().flatten().collect())
 }
 
-/// The kink along one parameter, if there is one.
-fn along(context: &Context<'_>, point: &Point, axes: &Axes, j: usize) -> Result<Option<Kink>, Miss> {
+/// The kink along one parameter at a distance, if there is one.
+fn along(context: &Context<'_>, point: &Point, axes: &Axes, (j, distance): (usize, f64)) -> Result<Option<Kink>, Miss> {
     let (space, evaluator) = (context.evaluator.space, context.evaluator);
     // One standard error of the parameter, with all others following: its row of the root times the root.
     let mut step = DVector::zeros(space.len());
@@ -71,9 +79,9 @@ fn along(context: &Context<'_>, point: &Point, axes: &Axes, j: usize) -> Result<
     }
     step /= deviation;
     // As far on either side as a bound leaves room: both sides are compared.
-    let room = [-ASIDE, ASIDE].map(|length| inside(space, &point.u, &step, length).abs());
+    let room = [-distance, distance].map(|length| inside(space, &point.u, &step, length).abs());
     let aside = room[0].min(room[1]);
-    if aside < CUT * ASIDE {
+    if aside < CUT * distance {
         return Ok(None);
     }
     let sides = |distance: f64| [-distance, distance].map(|length| moved(space, &point.u, &(&step * length)));

@@ -19,6 +19,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::evaluate::Miss;
+use super::fit::Side;
 use super::iterate::{Context, Point};
 use super::linear;
 use super::optimality;
@@ -60,11 +61,28 @@ pub(super) struct Polished {
 impl Axes {
     /// Principal axes of the columns that are free, and the coordinates that a bound holds.
     pub fn principal(context: &Context<'_>, point: &Point, jacobian: &DMatrix<f64>) -> Option<Self> {
+        Self::with_held(context, point, jacobian, false)
+    }
+
+    /// The same inside of the bounds: whatever stands on a bound is held there, although derivatives would lead it away. Beside a jump they
+    /// tell little, and along axes that lead out of the bounds there is no room on either side.
+    pub fn between_bounds(context: &Context<'_>, point: &Point, jacobian: &DMatrix<f64>) -> Option<Self> {
+        Self::with_held(context, point, jacobian, true)
+    }
+
+    fn with_held(context: &Context<'_>, point: &Point, jacobian: &DMatrix<f64>, at_bounds: bool) -> Option<Self> {
         let space = context.evaluator.space;
         let weighted = context.robust.weighted(&point.r);
         let rows = weighted.rows(jacobian);
         let gradient = rows.tr_mul(&weighted.residual);
-        let active = optimality::active(space, &point.u, &gradient);
+        let mut active = optimality::active(space, &point.u, &gradient);
+        for (j, active) in active.iter_mut().enumerate().filter(|_| at_bounds) {
+            *active = active.or(match point.u[j] {
+                u if u <= space.lower[j] => Some(Side::Lower),
+                u if u >= space.upper[j] => Some(Side::Upper),
+                _ => None,
+            });
+        }
         let norms: Vec<f64> = rows.column_iter().map(|column| column.norm()).collect();
         let seen = |j: &usize| norms[*j] > 0.0;
         let free: Vec<usize> = optimality::inactive(&active).into_iter().filter(seen).collect();

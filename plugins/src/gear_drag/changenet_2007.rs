@@ -120,9 +120,9 @@ impl GearDragModel for Changenet {
         let (body, diameter) = (&at.part.gear, 2.0 * gear.radius);
         let re = at.observe(&REYNOLDS, gear.omega * gear.radius * body.facewidth / at.nu);
         let fr = at.show("Fr", "-", gear.omega * gear.omega * gear.radius / GRAVITY);
-        at.branch(if re <= 6000.0 {
+        at.branch(if re <= self.coefficients.slow_reynolds {
             "slow: Re up to its lower limit"
-        } else if re >= 9000.0 {
+        } else if re >= self.coefficients.fast_reynolds {
             "fast: Re from its upper limit on"
         } else {
             "Re between its limits"

@@ -156,14 +156,14 @@ impl GearDragModel for Churning {
             "m/s2",
             omega * omega * (radius * b * gear.normal_module).cbrt(),
         );
-        at.branch(if re < 4000.0 {
+        at.branch(if re < self.coefficients.viscous_reynolds {
             "viscous: Re below its limit"
         } else {
             "inertial: Re at its limit or above"
         });
-        at.branch(if gamma <= 750.0 {
+        at.branch(if gamma <= self.coefficients.slow_speed_parameter {
             "slow: gamma up to its lower limit"
-        } else if gamma >= 1250.0 {
+        } else if gamma >= self.coefficients.fast_speed_parameter {
             "fast: gamma from its upper limit on"
         } else {
             "gamma between its limits"
