@@ -129,6 +129,8 @@ pub struct FileColumn {
     pub bound: Option<String>,
     /// Symbol of its unit, where header, row of units or `units` state one.
     pub unit: Option<String>,
+    /// The quantity that it is read as, where it is read as one.
+    pub quantity: Option<&'static str>,
 }
 
 /// What was read.

@@ -263,7 +263,10 @@ impl Identification<'_> {
             Diagnostic::error("folds.by", message)
                 .mend("group by what differs between rows, or write `folds: 0` for none")
         };
-        let numbers: Option<Vec<f64>> = texts.iter().map(|text| text.parse().ok()).collect();
+        let numbers: Option<Vec<f64>> = texts
+            .iter()
+            .map(|text| text.parse().ok().filter(|x: &f64| x.is_finite()))
+            .collect();
         if let Some(numbers) = numbers {
             return folds(&numbers, most).map_err(few);
         }

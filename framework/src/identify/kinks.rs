@@ -184,14 +184,14 @@ mod tests {
     fn sentences_name_model_regimes_and_lines() {
         let mut kink = ModelKink {
             path: "gears.G4.drag.churning".to_owned(),
-            model: "changenet_2011".to_owned(),
+            model: "a_law".to_owned(),
             regimes: Some(["viscous".to_owned(), "inertial".to_owned()]),
             jumps: true,
             change: 0.002,
             lines: vec![7],
             parameters: vec![0],
         };
-        let words = "minimum at a kink of `changenet_2011` of gears.G4.drag.churning";
+        let words = "minimum at a kink of `a_law` of gears.G4.drag.churning";
         assert_eq!(
             kink.sentence(),
             format!("{words} between the regimes \"viscous\" and \"inertial\" (line 7)")

@@ -59,7 +59,8 @@ impl Paired {
     /// Absent unless both have the same number of folds, two at least, and the floor is above zero.
     pub fn from_folds(first: &[f64], second: &[f64], floor: f64) -> Option<Self> {
         let count = first.len() as f64;
-        if first.len() != second.len() || first.len() < 2 || floor <= 0.0 {
+        let finite = first.iter().chain(second).all(|square| square.is_finite());
+        if first.len() != second.len() || first.len() < 2 || floor <= 0.0 || !finite {
             return None;
         }
         let lowest = floor * floor;

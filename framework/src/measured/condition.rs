@@ -298,6 +298,14 @@ impl Comparison {
                 help,
             ));
         };
+        // As a header it would be without the sign, the scale and the unit that the quantity has.
+        if let Some(quantity) = measured.columns[place].quantity {
+            return Err(fault(
+                subject,
+                format!("the column `{}` is read as `{quantity}`", self.subject),
+                format!("write `{quantity}`"),
+            ));
+        }
         let unit = measured.columns[place].unit.as_deref().unwrap_or("");
         match &self.value.number {
             Some((_, symbol)) if symbol.is_some() || !unit.is_empty() || self.operator.compares_sizes() => {
@@ -325,8 +333,9 @@ impl Comparison {
                 let place = measured.column(&self.subject)?;
                 let cell = row.cells.get(place).filter(|cell| !cell.is_empty())?;
                 let unit = measured.columns[place].unit.as_deref().unwrap_or("");
-                match (cell.parse::<f64>(), &self.value.number) {
-                    (Ok(number), Some(_)) => {
+                let number = cell.parse::<f64>().ok().filter(|x| x.is_finite());
+                match (number, &self.value.number) {
+                    (Some(number), Some(_)) => {
                         // The value of a literal is in SI, and so is that of a cell.
                         let number = match Unit::of_symbol(unit) {
                             Some(unit) => unit.to_si(number),

@@ -241,6 +241,7 @@ impl MeasuredEntry {
                 header: header.clone(),
                 unit: unit.filter(has_dimension),
                 bound: name,
+                quantity: columns.quantities.iter().find(|c| c.place == place).map(|c| c.name),
             }
         };
         table.names.iter().enumerate().map(column).collect()

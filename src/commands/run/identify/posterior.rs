@@ -48,7 +48,7 @@ pub fn ensemble(entry: PosteriorEntry, identification: &Identification<'_>) -> E
     }
 }
 
-/// Both intervals that the posterior is compared with: of the fit, as wide as the checks of the residuals say, and by profile.
+/// Both intervals that the posterior is compared with: linearised, not widened, and by profile.
 fn others(o: &Outcome<'_>, k: usize) -> [Option<[f64; 2]>; 2] {
     let interval = o.fitted.inference.interval(k, 0.95, 1.0).map(|i| i.ends);
     let profile = o.profiles[k].as_ref().and_then(|profile| profile.as_ref().ok());

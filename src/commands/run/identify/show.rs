@@ -355,10 +355,17 @@ pub fn fold_name(fold: &Fold, entry: &FoldsEntry) -> String {
         (None, Some(band)) => band,
         (None, None) => return String::new(),
     };
+    let [first, last] = [format!("{from:.1}"), format!("{to:.1}")];
+    let band = if first == last {
+        first
+    } else {
+        format!("{first} to {last}")
+    };
     match fold_unit(entry) {
+        "rpm" if (from - to).abs() * RPM < 0.5 => format!("{:.0} rpm", from * RPM),
         "rpm" => format!("{:.0} to {:.0} rpm", from * RPM, to * RPM),
-        "" => format!("{from:.1} to {to:.1}"),
-        unit => format!("{from:.1} to {to:.1} {unit}"),
+        "" => band,
+        unit => format!("{band} {unit}"),
     }
 }
 

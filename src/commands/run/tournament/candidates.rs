@@ -13,6 +13,9 @@ use super::marks::{Mark, marks};
 use crate::interrupt;
 use crate::output::Failure;
 
+/// Relative difference of losses up to which two models lose the same: what the iterated flow of power leaves.
+const ALIKE: f64 = 1e-9;
+
 /// A mechanism whose models change.
 pub struct Slot {
     /// Mechanism, with the slot of a drag.
@@ -189,9 +192,34 @@ pub fn slots(
                 },
             );
         }
+        if candidates.models.is_empty() {
+            merge_alike(&mut slot, &mut left_out);
+        }
         slots.push(slot);
     }
     Ok((slots, left_out))
+}
+
+/// Models that lose the same at every point are one candidate: as several they would share its weight, and add nothing to the spread.
+fn merge_alike(slot: &mut Slot, left_out: &mut Vec<String>) {
+    let mut kept: Vec<Candidate> = Vec::new();
+    for candidate in std::mem::take(&mut slot.candidates) {
+        let alike = |other: &&Candidate| {
+            let pairs = candidate.loss.iter().zip(&other.loss);
+            !candidate.loss.is_empty()
+                && pairs
+                    .into_iter()
+                    .all(|(a, b)| (a - b).abs() <= ALIKE * a.abs().max(b.abs()))
+        };
+        match kept.iter().find(alike) {
+            Some(other) => left_out.push(format!(
+                "{} {}: loses the same as {} at every point",
+                slot.name, candidate.name, other.name
+            )),
+            None => kept.push(candidate),
+        }
+    }
+    slot.candidates = kept;
 }
 
 fn slot(runner: &Runner<'_>, path: &str, entry: &CandidatesEntry) -> Result<Slot, Failure> {
