@@ -480,6 +480,7 @@ analyses:
     for words in [
         "left out: gear_mesh path_integral/mixed: its tooth_friction takes a further model",
         "left out: gear_mesh tabulated: it takes another gear_mesh",
+        "left out: gear_mesh ohlendorf/schlenk: loses the same as iso14179_2 at every point",
         "which: best: schaeffler, diab, nothing fitted",
     ] {
         assert!(text.contains(words), "{words}: {text}");
@@ -487,7 +488,7 @@ analyses:
     // Whoever takes a law of friction takes part once with each.
     let fitted = json(&folder, "fitted")["tournament"].clone();
     let candidates = fitted["mechanisms"][1]["candidates"].as_array().unwrap();
-    for name in ["path_integral/misharin", "ohlendorf/schlenk", "even_share/michaelis"] {
+    for name in ["path_integral/misharin", "ohlendorf/michaelis", "even_share/michaelis"] {
         assert!(candidates.iter().any(|c| c["name"] == name), "{name}");
     }
     let best = &fitted["ranking"][usize::try_from(fitted["winner"].as_u64().unwrap()).unwrap()];
