@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value};
 
 use super::names::devices;
-use super::parameters::replace_names;
+use super::parameters::{TakenOver, replace_names, written_at};
 use super::then::PromisedSets;
 use super::{Analysis, Data, Grid, StudyEntry, Uses};
 use crate::analysis::{Field, OilTemperature, Points, Rows};
@@ -34,6 +34,7 @@ pub struct Study {
     places: Places,
     sources: Sources,
     promised: PromisedSets,
+    taken_over: TakenOver,
 }
 
 impl Study {
@@ -83,13 +84,16 @@ impl Study {
                 sources,
             });
         }
-        if let Err(list) = replace_names(&mut walked.value) {
-            let list = list.into_iter().map(|d| walked.places.place(d).code(Code::Study));
-            return Err(Findings {
-                list: list.collect(),
-                sources,
-            });
-        }
+        let taken_over = match replace_names(&mut walked.value) {
+            Ok(taken_over) => taken_over,
+            Err(list) => {
+                let list = list.into_iter().map(|d| walked.places.place(d).code(Code::Study));
+                return Err(Findings {
+                    list: list.collect(),
+                    sources,
+                });
+            }
+        };
         let bug = |e: serde_json::Error| Findings::from(vec![Diagnostic::error("", e.to_string())]);
         let mut sets = walked
             .value
@@ -122,16 +126,22 @@ impl Study {
             places: walked.places,
             sources,
             promised,
+            taken_over,
         })
     }
 
     /// Findings about the study itself, with their places.
     pub fn findings(&self, list: Vec<Diagnostic>) -> Findings {
+        let placed = |found: Diagnostic| {
+            let path = written_at(&self.taken_over, &found.path);
+            let found = match path {
+                Some(path) => Diagnostic { path, ..found },
+                None => found,
+            };
+            self.places.place(found).code(Code::Study)
+        };
         Findings {
-            list: list
-                .into_iter()
-                .map(|d| self.places.place(d).code(Code::Study))
-                .collect(),
+            list: list.into_iter().map(placed).collect(),
             sources: self.sources.clone(),
         }
     }

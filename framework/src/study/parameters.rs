@@ -38,14 +38,25 @@ pub(super) enum NameOr<T> {
 /// What a range takes over of a parameter.
 const OF_RANGE: [&str; 4] = ["path", "tie", "from", "to"];
 
+/// Where parameters were taken over: the path in the analysis, and that under `parameters`, where they are written.
+pub(super) type TakenOver = Vec<(String, String)>;
+
+/// The path under `parameters` where something below an analysis is written, where it was taken over from there.
+pub(super) fn written_at(taken_over: &TakenOver, path: &str) -> Option<String> {
+    taken_over.iter().find_map(|(at, from)| {
+        let rest = path.strip_prefix(at.as_str())?;
+        (rest.is_empty() || rest.starts_with('.')).then(|| format!("{from}{rest}"))
+    })
+}
+
 /// Puts the parameters of a walked study in the place of their names.
 ///
 /// # Errors
 /// Every name that the study does not state, and every parameter without both ends where a range is due.
-pub(super) fn replace_names(study: &mut Value) -> Result<(), Vec<Diagnostic>> {
+pub(super) fn replace_names(study: &mut Value) -> Result<TakenOver, Vec<Diagnostic>> {
     let stated = study.get("parameters").and_then(Value::as_object).cloned();
     let stated = stated.unwrap_or_default();
-    let mut found = Vec::new();
+    let (mut found, mut taken_over) = (Vec::new(), Vec::new());
     let analyses = study.get_mut("analyses").and_then(Value::as_object_mut);
     for (name, analysis) in analyses.into_iter().flatten() {
         let kind = analysis.get("type").and_then(Value::as_str).unwrap_or_default();
@@ -63,7 +74,14 @@ pub(super) fn replace_names(study: &mut Value) -> Result<(), Vec<Diagnostic>> {
             let Some(parameter) = entry.as_str().map(str::to_owned) else {
                 continue;
             };
-            let place = format!("{place}.{i}");
+            let entry_place = format!("{place}.{i}");
+            let at = if identifies {
+                format!("{place}.{parameter}")
+            } else {
+                entry_place.clone()
+            };
+            taken_over.push((at, format!("parameters.{parameter}")));
+            let place = entry_place;
             match stated.get(&parameter) {
                 None => found.push(unknown(&place, &parameter, &stated)),
                 Some(_) if identifies && named.contains_key(&parameter) => found
@@ -81,7 +99,7 @@ pub(super) fn replace_names(study: &mut Value) -> Result<(), Vec<Diagnostic>> {
             *written = Value::Object(named);
         }
     }
-    if found.is_empty() { Ok(()) } else { Err(found) }
+    if found.is_empty() { Ok(taken_over) } else { Err(found) }
 }
 
 fn unknown(place: &str, name: &str, stated: &Map<String, Value>) -> Diagnostic {
@@ -139,7 +157,13 @@ mod tests {
             json!({ "x": whole }),
             json!({ "type": "uncertainty", "inputs": ["x", own] }),
         );
-        replace_names(&mut uncertainty).unwrap();
+        let taken_over = replace_names(&mut uncertainty).unwrap();
+        let written = |path: &str| written_at(&taken_over, path);
+        assert_eq!(
+            written("analyses.a.inputs.0.from").as_deref(),
+            Some("parameters.x.from")
+        );
+        assert_eq!(written("analyses.a.inputs.01"), None);
         let range = json!({ "path": "p", "from": "1 mm", "to": "2 mm" });
         assert_eq!(uncertainty["analyses"]["a"]["inputs"], json!([range, own]));
     }

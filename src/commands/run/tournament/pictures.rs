@@ -75,7 +75,7 @@ pub fn write_all(
                 format!("{from} to {to} Nm")
             },
             points: places.iter().map(spread).collect(),
-            stroke: Stroke::Marked,
+            stroke: Stroke::Dots,
         }
     };
     let figure = Figure::Lines {
