@@ -480,7 +480,7 @@ analyses:
     for words in [
         "left out: gear_mesh path_integral/mixed: its tooth_friction takes a further model",
         "left out: gear_mesh tabulated: it takes another gear_mesh",
-        "left out: gear_mesh ohlendorf/schlenk: loses the same as iso14179_2 at every point",
+        "left out: gear_mesh ohlendorf/schlenk: loses the same as `iso14179_2` at every point",
         "which: best: schaeffler, diab, nothing fitted",
     ] {
         assert!(text.contains(words), "{words}: {text}");

@@ -213,7 +213,7 @@ fn merge_alike(slot: &mut Slot, left_out: &mut Vec<String>) {
         };
         match kept.iter().find(alike) {
             Some(other) => left_out.push(format!(
-                "{} {}: loses the same as {} at every point",
+                "{} {}: loses the same as `{}` at every point",
                 slot.name, candidate.name, other.name
             )),
             None => kept.push(candidate),
