@@ -89,7 +89,7 @@ pub struct Identified {
     pub scale: ScaleEntry,
     /// What is known of it beside the points.
     pub prior: Option<Prior>,
-    /// Size by which its interval is judged, where its value may be zero so that it tells none: [`usual_size`] for a path; for an
+    /// Size by which its interval is judged, where its value may be zero so that it tells none: `usual_size` for a path; for an
     /// offset of a torque meter the median of the measured loss torques there, to which it adds.
     pub size: Option<f64>,
 }
