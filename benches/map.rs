@@ -13,7 +13,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 fn study(folder: &Path) -> PathBuf {
     let example = example("two-speed-ev");
     let text = std::fs::read_to_string(example.join("study.yaml")).unwrap();
-    let (head, _) = text.split_once("\ngrids:").unwrap();
+    let (head, _) = text.split_once("\nmeasurements:").unwrap();
     let head = head.replace("gearbox.yaml", example.join("gearbox.yaml").to_str().unwrap());
     let fine = "
 grids:
