@@ -5,7 +5,6 @@
 
 mod indices;
 mod local;
-mod resample;
 mod run;
 mod screening;
 

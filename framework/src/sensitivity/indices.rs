@@ -7,8 +7,8 @@
 
 use rayon::prelude::*;
 
-use super::resample::quantile;
 use super::run::outputs;
+use crate::analysis::quantile;
 use crate::sampling::{Generator, Sobol};
 
 /// Sum of the first shares below which interactions matter.
@@ -126,7 +126,8 @@ impl Sample {
         let estimate = |value: f64, list: &dyn Fn(&Raw) -> f64| {
             let mut list: Vec<f64> = again.iter().map(list).collect();
             list.sort_by(f64::total_cmp);
-            let interval = [0.025, 0.975].map(|p| quantile(&list, p).unwrap_or(value));
+            let end = |share: f64| if list.is_empty() { value } else { quantile(&list, share) };
+            let interval = [end(0.025), end(0.975)];
             Estimate { value, interval }
         };
         Some(VarianceShares {
