@@ -6,12 +6,12 @@ mod common;
 
 use common::{build, gearbox, language, with};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use gearloss_framework::analysis::{OilTemperature, Ride, drive};
-use gearloss_framework::duty::{CycleEntry, Interval, ShippedCycleEntry, Vehicle, VehicleEntry};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::resolve::{Choice, lookup};
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::{OilTemperature, Ride, drive};
+use gearloss_studies::duty::{CycleEntry, Interval, ShippedCycleEntry, Vehicle, VehicleEntry};
 use serde_json::json;
 
 /// Loss over the whole cycle. \[J\]

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
-use gearloss_framework::identify::{Fitted, Settings};
+use gearloss_studies::identify::{Fitted, Settings};
 use identification::Prepared;
 
 /// Starts of the longest fit.

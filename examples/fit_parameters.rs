@@ -9,9 +9,9 @@ use std::error::Error;
 use std::path::Path;
 
 use gearloss::framework::description::Ordered;
-use gearloss::framework::identify::{Identification, Settings};
 use gearloss::framework::language::Language;
-use gearloss::framework::study::{Data, IdentifiedEntry, Quantity, Study};
+use gearloss::studies::identify::{Identification, Settings};
+use gearloss::studies::study::{Data, IdentifiedEntry, Quantity, Study};
 
 const STUDY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two-speed-ev/study.yaml");
 /// Name, path in the description or of the rig, least and greatest value in the unit of the path.

@@ -23,7 +23,11 @@ use clap::Parser;
 // The built-in models register themselves; naming the crate once links them.
 use gearloss_plugins as _;
 
+pub use gearloss_document as document;
 pub use gearloss_framework as framework;
+pub use gearloss_numerics as numerics;
+pub use gearloss_report as pictures;
+pub use gearloss_studies as studies;
 
 use args::{Args, Command};
 use output::{End, Failure, Out};

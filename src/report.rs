@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use gearloss_framework::description::AssumedEntry;
-use gearloss_framework::report::Figure;
+use gearloss_report::Figure;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, ErrorKind, Value as Filled};
 use rayon::prelude::*;
@@ -282,7 +282,7 @@ fn script() -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use gearloss_framework::report::plot::Line;
+    use gearloss_report::plot::Line;
 
     use super::*;
 

@@ -11,8 +11,8 @@ use gearloss_framework::lanes::LANES;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::{Extent, MOST_TERMS};
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::study::Study;
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::study::Study;
 
 /// How many points were solved side by side, and how many had to be evaluated alone.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]

@@ -13,7 +13,7 @@ use gearloss_framework::eval::ask;
 use gearloss_framework::registry::Files;
 use gearloss_framework::resolve::{Choice, lookup};
 use gearloss_framework::testing::language;
-use gearloss_framework::varied::{Tie, Varied};
+use gearloss_studies::varied::{Tie, Varied};
 use serde_json::{Value, json};
 
 /// A number as sources write it, such as `1/3`.

@@ -16,13 +16,13 @@ use common::{RPM, contact_work, file, language, two_speed, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow, Scratch};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::identify::Settings;
 use gearloss_framework::lanes::LANES;
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::study::Study;
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::{March, Moment, Scheme, StepSize, Surroundings};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::identify::Settings;
+use gearloss_studies::study::Study;
 use identification::Prepared;
 use serde_json::json;
 

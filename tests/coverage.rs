@@ -5,10 +5,10 @@ mod common;
 
 use common::language;
 use common::rig::{Rig, TRUTH, csv, entry, gearbox, identification, study};
-use gearloss_framework::identify::Settings;
-use gearloss_framework::inference::Standing;
-use gearloss_framework::inference::probability::chi_square_quantile;
-use gearloss_framework::least_squares::Status;
+use gearloss_numerics::inference::Standing;
+use gearloss_numerics::inference::probability::chi_square_quantile;
+use gearloss_numerics::least_squares::Status;
+use gearloss_studies::identify::Settings;
 use rayon::prelude::*;
 
 const SEEDS: u64 = 200;

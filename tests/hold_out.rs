@@ -10,16 +10,16 @@ use std::sync::LazyLock;
 
 use common::rig::Normal;
 use common::{RPM, language};
-use gearloss_framework::analysis::{Rows, levels};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::identify::{HoldOut, Identification, Settings};
-use gearloss_framework::inference::{Coverage, Widening, succession};
 use gearloss_framework::language::Language;
-use gearloss_framework::measured::MeasuredEntry;
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::study::{HoldOutEntry, HoldOutRows, IdentifiedEntry, Quantity, ScaleEntry};
+use gearloss_numerics::inference::{Coverage, Widening, succession};
+use gearloss_studies::analysis::{Rows, levels};
+use gearloss_studies::identify::{HoldOut, Identification, Settings};
+use gearloss_studies::measured::MeasuredEntry;
+use gearloss_studies::study::{HoldOutEntry, HoldOutRows, IdentifiedEntry, Quantity, ScaleEntry};
 use serde_json::{Value, json};
 
 /// One stage, small enough for thousands of evaluations.
@@ -224,7 +224,7 @@ fn rows_held_out_are_not_fitted_and_are_predicted() {
 }
 
 /// Lines of rows that an entry holds out of 36.
-fn lines(entry: &HoldOutEntry, measured: &gearloss_framework::measured::Measured) -> Vec<u64> {
+fn lines(entry: &HoldOutEntry, measured: &gearloss_studies::measured::Measured) -> Vec<u64> {
     let choice = HoldOut::choose(entry, measured).unwrap();
     assert_eq!(
         choice.fitted.rows.len() + choice.held_out.rows.len(),
@@ -233,7 +233,7 @@ fn lines(entry: &HoldOutEntry, measured: &gearloss_framework::measured::Measured
     choice.held_out.rows.iter().map(|row| row.line).collect()
 }
 
-fn measured(csv: &str) -> gearloss_framework::measured::Measured {
+fn measured(csv: &str) -> gearloss_studies::measured::Measured {
     let entry: MeasuredEntry =
         serde_json::from_value(json!({ "file": "rig.csv", "stated_as": "standard", "faulty_rows": "keep" })).unwrap();
     entry.read(csv.as_bytes(), &[]).unwrap()

@@ -10,11 +10,11 @@ use common::rig::{SEED, TRUTH};
 use common::{RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::identify::Settings;
-use gearloss_framework::inference::Standing;
-use gearloss_framework::inference::probability::chi_square_quantile;
-use gearloss_framework::least_squares::Loss;
 use gearloss_framework::resolve::Choice;
+use gearloss_numerics::inference::Standing;
+use gearloss_numerics::inference::probability::chi_square_quantile;
+use gearloss_numerics::least_squares::Loss;
+use gearloss_studies::identify::Settings;
 use serde_json::{Value, json};
 
 /// Runs a study with files beside it.

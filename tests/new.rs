@@ -357,16 +357,16 @@ fn a_new_crate_takes_gearloss_from_the_checkout_that_is_named() {
         format!("gearloss = {{ path = \"{root}\", version = \"{VERSION}\" }}")
     );
     let checkout = folder.join("gear loss");
-    std::fs::create_dir_all(checkout.join("framework")).unwrap();
+    std::fs::create_dir_all(checkout.join("framework/core")).unwrap();
     std::fs::create_dir_all(folder.join("ours/losses")).unwrap();
     std::fs::write(checkout.join("Cargo.toml"), "").unwrap();
     let named = ["--gearloss", "gear loss"];
     let told = refused(&folder, &[&["new", "plugin", "mine"][..], &named].concat());
     assert!(
-        told.contains("there is no framework/Cargo.toml") && !folder.join("mine").exists(),
+        told.contains("there is no framework/core/Cargo.toml") && !folder.join("mine").exists(),
         "{told}"
     );
-    std::fs::write(checkout.join("framework/Cargo.toml"), "").unwrap();
+    std::fs::write(checkout.join("framework/core/Cargo.toml"), "").unwrap();
     // Named from the folder of the command, written from the folder of the crate.
     for (home, way) in [("mine", "../gear loss"), ("ours/losses", "../../gear loss")] {
         let told = out(&folder, &[&["new", "plugin", "mine", "-o", home][..], &named].concat());
@@ -376,7 +376,7 @@ fn a_new_crate_takes_gearloss_from_the_checkout_that_is_named() {
             dependency(&home, "gearloss-framework"),
             format!("gearloss-framework = {{ path = \"{way}/framework\", version = \"{VERSION}\" }}")
         );
-        assert!(home.join(way).join("framework/Cargo.toml").is_file());
+        assert!(home.join(way).join("framework/core/Cargo.toml").is_file());
     }
 }
 

@@ -7,7 +7,6 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use common::{RPM, language};
-use gearloss_framework::analysis::OilTemperature;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::gearbox::Gearbox;
@@ -15,6 +14,7 @@ use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::{Equilibrium, Outcome};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::OilTemperature;
 use serde_json::{Value, json};
 
 fn folder() -> std::path::PathBuf {

@@ -10,9 +10,9 @@ use std::path::Path;
 use common::language;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
-use gearloss_framework::report::schematic;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
+use gearloss_report::schematic;
 
 const OIL: &str = "lubricants: { oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm2/s } } }\n";
 

@@ -6,14 +6,14 @@
 mod common;
 
 use common::{RPM, file, language};
-use gearloss_framework::analysis::{Field, OilTemperature, Points, run_grid};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::inference::{Decision, PointSet, folds};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::sampling::inverse_normal;
-use gearloss_framework::selection::{Combination, Losses, MeasuredLosses, rank, stand, validate, winner};
+use gearloss_numerics::inference::{Decision, PointSet, folds};
+use gearloss_numerics::sampling::inverse_normal;
+use gearloss_numerics::selection::{Combination, Losses, MeasuredLosses, rank, stand, validate, winner};
+use gearloss_studies::analysis::{Field, OilTemperature, Points, run_grid};
 use serde_json::{Value, json};
 
 /// Numbers that are the same every time (Steele, Lea, Flood: SplitMix, 2014).
@@ -82,7 +82,7 @@ fn bench(language: &Language, setting: &Setting<'_>) -> Bench {
             };
             let solved = run_grid(&transmission, &points, &|_| true).unwrap().unwrap();
             let of = |own: &dyn Fn(&str) -> bool| -> Vec<f64> {
-                let sum = |p: &gearloss_framework::analysis::PointResult| {
+                let sum = |p: &gearloss_studies::analysis::PointResult| {
                     assert!(p.loss.is_some(), "{model} has no loss at {} Nm", p.torque);
                     let parts = transmission.parts().iter().zip(&p.parts);
                     parts.filter(|(part, _)| own(part.mechanism)).map(|(_, w)| w).sum()

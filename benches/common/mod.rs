@@ -12,9 +12,9 @@ use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::study::Study;
 use gearloss_framework::transmission::Transmission;
 use gearloss_plugins as _;
+use gearloss_studies::study::Study;
 use serde_json::Value;
 
 /// rad/s per 1/min.

@@ -2,12 +2,12 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::duty::{
+use gearloss_framework::registry::Registry;
+use gearloss_plugins as _;
+use gearloss_studies::duty::{
     CoastDownEntry, CycleEntry, Demand, Duty, Regeneration, RoadLoad, STANDARD_GRAVITY, ShippedCycleEntry, Trace,
     Vehicle, input_torque,
 };
-use gearloss_framework::registry::Registry;
-use gearloss_plugins as _;
 
 fn cycle(name: &str) -> Result<Trace, String> {
     let entry = CycleEntry::Shipped(ShippedCycleEntry {

@@ -5,19 +5,19 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use gearloss_framework::analysis::Rows;
 use gearloss_framework::document::read_yaml;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::identify::{Fitted, Identification, ModelKink, Settings};
 use gearloss_framework::language::Language;
-use gearloss_framework::least_squares::{Reason, Status};
-use gearloss_framework::measured::Measured;
 use gearloss_framework::registry::Registry;
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::study::{Analysis, StudyEntry};
+use gearloss_numerics::least_squares::{Reason, Status};
 use gearloss_plugins as _;
+use gearloss_studies::analysis::Rows;
+use gearloss_studies::identify::{Fitted, Identification, ModelKink, Settings};
+use gearloss_studies::measured::Measured;
+use gearloss_studies::study::{Analysis, StudyEntry};
 use serde_json::json;
 
 const RPM: f64 = std::f64::consts::PI / 30.0;

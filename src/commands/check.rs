@@ -4,7 +4,6 @@ mod json;
 
 use std::collections::BTreeSet;
 
-use gearloss_framework::analysis::{Note, STATIC_SAFETY, evidence, merge, notes};
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::document::{Sources, did_you_mean, read_yaml};
 use gearloss_framework::evaluate::{Point, PowerFlow};
@@ -13,6 +12,7 @@ use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::{Note, STATIC_SAFETY, evidence, merge, notes};
 
 use super::card::{card, figures};
 use super::set;

@@ -1,11 +1,11 @@
 //! One operating point from the arguments.
 
-use gearloss_framework::analysis::OilTemperature;
 use gearloss_framework::document::{Unit, parse_quantity};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::{Case, Transmission};
+use gearloss_studies::analysis::OilTemperature;
 
 use crate::args::{FlowArg, PointArgs};
 use crate::output::Failure;

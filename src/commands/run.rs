@@ -50,8 +50,8 @@ use std::path::{Path, PathBuf};
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
-use gearloss_framework::study::{Analysis, Study};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::study::{Analysis, Study};
 
 use crate::args::{ResultArgs, RunArgs};
 use crate::interrupt;

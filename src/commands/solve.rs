@@ -1,7 +1,5 @@
 //! `solve`: one operating point, every part's loss, the sum and the efficiency.
 
-use gearloss_framework::analysis::Found;
-use gearloss_framework::analysis::{Note, SUMS, evidence, notes, sum_of};
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
@@ -9,6 +7,8 @@ use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::thermal::{Equilibrium, Outcome, Step, Unbalanced};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::Found;
+use gearloss_studies::analysis::{Note, SUMS, evidence, notes, sum_of};
 use serde_json::{Value, json};
 
 use super::check::grade;

@@ -3,16 +3,16 @@
 
 use std::fmt::Write as _;
 
-use gearloss_framework::analysis::Rows;
 use gearloss_framework::document::read_yaml;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::identify::{Faults, Identification};
 use gearloss_framework::language::Language;
-use gearloss_framework::measured::{Measured, MeasuredEntry};
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::study::{Analysis, StudyEntry};
+use gearloss_studies::analysis::Rows;
+use gearloss_studies::identify::{Faults, Identification};
+use gearloss_studies::measured::{Measured, MeasuredEntry};
+use gearloss_studies::study::{Analysis, StudyEntry};
 use serde_json::{Map, Value, json};
 
 use super::RPM;

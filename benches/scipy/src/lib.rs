@@ -12,7 +12,7 @@
 mod identification;
 // The check problem of the solver's own tests, of which only the problem is needed here.
 #[allow(dead_code)]
-#[path = "../../../framework/tests/loss_map/mod.rs"]
+#[path = "../../../framework/numerics/tests/loss_map/mod.rs"]
 mod loss_map;
 
 use std::ffi::{CStr, c_char};
@@ -21,8 +21,8 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use gearloss_framework::identify::Settings;
-use gearloss_framework::least_squares::{Fit, Options, Parameter, Problem, Scale, solve};
+use gearloss_studies::identify::Settings;
+use gearloss_numerics::least_squares::{Fit, Options, Parameter, Problem, Scale, solve};
 use identification::Prepared;
 
 /// A problem with the options of its fit.

@@ -8,7 +8,7 @@ use gearloss_framework::mechanism::Mechanism as _;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::mechanism::tooth_friction::ToothFriction;
 use gearloss_framework::registry::{Build, Files, Registry};
-use gearloss_framework::sampling::Sobol;
+use gearloss_numerics::sampling::Sobol;
 use serde_json::{Value, json};
 use std::sync::Arc;
 

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use gearloss_framework::analysis::evidence;
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::document::{Code, Diagnostic, Severity, Sources, Span};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::transmission::{GearState, Transmission};
+use gearloss_studies::analysis::evidence;
 use serde_json::{Value, json};
 
 use crate::args::{CheckArgs, ChoiceArgs};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use gearloss_framework::files::{LONGEST_DATA, read_text};
-use gearloss_framework::fit::power_law;
 use gearloss_framework::table::{Reading, Table, columns};
+use gearloss_numerics::fit::power_law;
 
 use crate::output::{End, Failure, Out, Table as Printed, significant};
 

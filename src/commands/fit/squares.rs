@@ -1,7 +1,7 @@
 //! Least squares of a few parameters, with what they are worth.
 
-use gearloss_framework::inference::{self, Accuracy, Standing};
-use gearloss_framework::least_squares::{Options, Problem, Side, solve};
+use gearloss_numerics::inference::{self, Accuracy, Standing};
+use gearloss_numerics::least_squares::{Options, Problem, Side, solve};
 
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;

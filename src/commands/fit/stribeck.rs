@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use gearloss_framework::document::Dimension;
-use gearloss_framework::least_squares::{Parameter, Problem};
+use gearloss_numerics::least_squares::{Parameter, Problem};
 use gearloss_plugins::tooth_friction::ehl_mixed::identification::{StribeckPoint, boundary_friction, mixed_residual};
 
 use super::columns::{Columns, Measure, Quantity};

@@ -4,8 +4,8 @@
 
 use std::path::Path;
 
-use gearloss_framework::least_squares::{Parameter, Problem};
 use gearloss_framework::lubricant::roelands::Roelands;
+use gearloss_numerics::least_squares::{Parameter, Problem};
 use gearloss_plugins::tooth_friction::ehl_mixed::identification::{Isotherm, TractionPoint, residual};
 
 use super::columns::Columns;

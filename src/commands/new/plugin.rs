@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use gearloss_framework::study::is_device;
+use gearloss_studies::study::is_device;
 
 use super::{folder, word, write};
 use crate::args::NewPluginArgs;
@@ -97,7 +97,7 @@ fn holds_a_checkout(path: &Path) -> Result<(), Failure> {
     }
     Err(Failure::input(
         format!(
-            "{} holds no gearloss: there is no framework/Cargo.toml in it",
+            "{} holds no gearloss: there is no framework/core/Cargo.toml in it",
             path.display()
         ),
         "name the folder of a checkout, which has README.md and framework in it, with --gearloss PATH",
@@ -105,7 +105,7 @@ fn holds_a_checkout(path: &Path) -> Result<(), Failure> {
 }
 
 fn is_checkout(path: &Path) -> bool {
-    path.join("Cargo.toml").is_file() && path.join("framework/Cargo.toml").is_file()
+    path.join("Cargo.toml").is_file() && path.join("framework/core/Cargo.toml").is_file()
 }
 
 /// Makes the folders of the crate. One that is there serves where it is empty, but for what git keeps in it.
@@ -177,7 +177,7 @@ impl Source {
                 "rename the folder",
             )),
         };
-        Ok([line(path)?, line(&path.join("framework"))?])
+        Ok([line(path)?, line(&path.join("framework/core"))?])
     }
 
     fn told(&self) -> String {

@@ -1,7 +1,7 @@
 //! Values of the axes of grids and sweeps, with their faults told.
 
-use gearloss_framework::study::{Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::study::{Grid, SpeedAxis, TorqueAxis};
 
 use super::Runner;
 use crate::output::Failure;

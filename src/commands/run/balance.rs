@@ -1,12 +1,12 @@
 //! How the temperature of one point is found: losses and heat over temperature, and every step.
 
-use gearloss_framework::analysis::notes;
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{BalanceEntry, Write};
 use gearloss_framework::thermal::Step;
+use gearloss_report::Figure;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_studies::analysis::notes;
+use gearloss_studies::study::{BalanceEntry, Write};
 use serde_json::{Value, json};
 
 use super::super::solve::{json_of_balance, of_balance};

@@ -2,9 +2,9 @@
 
 mod bars;
 
-use gearloss_framework::analysis::{Given, PointResult, notes};
-use gearloss_framework::measured::{Measured, Seen};
-use gearloss_framework::study::{As, BreakdownEntry, Over, Quantity, SpinLossEntry, TemperatureSweepEntry};
+use gearloss_studies::analysis::{Given, PointResult, notes};
+use gearloss_studies::measured::{Measured, Seen};
+use gearloss_studies::study::{As, BreakdownEntry, Over, Quantity, SpinLossEntry, TemperatureSweepEntry};
 use serde_json::Value;
 
 use self::bars::{Bars, Kind, Row};

@@ -3,11 +3,11 @@
 mod on_grid;
 mod with_data;
 
-use gearloss_framework::analysis::histogram;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{CompareEntry, Difference, Quantity};
+use gearloss_report::Figure;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_studies::analysis::histogram;
+use gearloss_studies::study::{CompareEntry, Difference, Quantity};
 
 use super::Runner;
 use crate::output::{Failure, Out};

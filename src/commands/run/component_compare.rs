@@ -1,16 +1,16 @@
 //! Several models of one component over speed, term by term, with measured points beside them.
 
-use gearloss_framework::analysis::{Note, Points, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{PartLoss, Point};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Term;
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Line, Stroke};
 use gearloss_framework::resolve::Choice;
-use gearloss_framework::study::{ComponentCompareEntry, Data};
 use gearloss_framework::transmission::{Case, Transmission};
+use gearloss_report::Figure;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_studies::analysis::{Note, Points, notes};
+use gearloss_studies::study::{ComponentCompareEntry, Data};
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;

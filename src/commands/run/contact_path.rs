@@ -10,11 +10,11 @@ use gearloss_framework::mechanism::gear_mesh::MeshPart;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
 use gearloss_framework::mechanism::tooth_friction::ToothFriction;
 use gearloss_framework::registry::{Build, ModelRef, Slot};
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::ContactPathEntry;
 use gearloss_plugins::contact::{self, Film};
 use gearloss_plugins::path::Path;
+use gearloss_report::Figure;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_studies::study::ContactPathEntry;
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;

@@ -5,7 +5,7 @@ mod outcome;
 mod pictures;
 mod show;
 
-use gearloss_framework::study::{By, CycleAnalysisEntry};
+use gearloss_studies::study::{By, CycleAnalysisEntry};
 use serde_json::Value;
 
 use self::outcome::Outcome;

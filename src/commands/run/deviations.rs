@@ -1,7 +1,7 @@
 //! Differences from measured points over speed and torque.
 
-use gearloss_framework::analysis::levels;
-use gearloss_framework::report::{Cloud, Figure, Map};
+use gearloss_report::{Cloud, Figure, Map};
+use gearloss_studies::analysis::levels;
 
 /// A difference at a torque in Nm and a speed in rpm.
 pub type Deviation = (f64, f64, Option<f64>);

@@ -1,12 +1,12 @@
 //! Duties of a study: read, and driven through a transmission.
 
-use gearloss_framework::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::duty::{Demand, Duty, Given, Interval, Vehicle};
 use gearloss_framework::files::{LONGEST_DATA, read_bytes};
-use gearloss_framework::study::{Conditions, DriveEntry};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
+use gearloss_studies::duty::{Demand, Duty, Given, Interval, Vehicle};
+use gearloss_studies::study::{Conditions, DriveEntry};
 
 use super::write::hash;
 use super::{Built, Runner, gear_of};

@@ -8,8 +8,8 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::lubricant::Lubricant;
 use gearloss_framework::lubricant::index::{at_constant_index, index};
 use gearloss_framework::resolve::lookup;
-use gearloss_framework::study::FluidSweepEntry;
-use gearloss_framework::varied::{Tie, Varied};
+use gearloss_studies::study::FluidSweepEntry;
+use gearloss_studies::varied::{Tie, Varied};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 

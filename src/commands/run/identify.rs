@@ -13,11 +13,11 @@ mod show;
 mod tables;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::identify::{Faults, HoldOut, Identification, Identified, Settings};
-use gearloss_framework::inference::{Accuracy, Fold};
-use gearloss_framework::least_squares::{Fault, Loss};
-use gearloss_framework::measured::Measured;
-use gearloss_framework::study::{FoldsEntry, IdentifiedEntry, IdentifyEntry, RobustLoss};
+use gearloss_numerics::inference::{Accuracy, Fold};
+use gearloss_numerics::least_squares::{Fault, Loss};
+use gearloss_studies::identify::{Faults, HoldOut, Identification, Identified, Settings};
+use gearloss_studies::measured::Measured;
+use gearloss_studies::study::{FoldsEntry, IdentifiedEntry, IdentifyEntry, RobustLoss};
 use serde_json::Value;
 
 use self::outcome::Outcome;
@@ -233,7 +233,7 @@ fn loss(entry: &IdentifyEntry) -> Loss {
 
 /// Faults of the search, at the analysis.
 fn of_search(runner: &Runner<'_>, path: &str, fault: &Fault) -> Failure {
-    let finding = |f: &gearloss_framework::least_squares::Finding| {
+    let finding = |f: &gearloss_numerics::least_squares::Finding| {
         let message = format!("{}: {}", f.place, f.message);
         gearloss_framework::document::Diagnostic::error(path, message).mend(f.mend.clone())
     };

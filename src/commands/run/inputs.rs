@@ -1,7 +1,7 @@
 //! Uncertain inputs: quantities of the description with distributions.
 
-use gearloss_framework::sampling::Distribution;
-use gearloss_framework::study::{Shape, ToleranceEntry};
+use gearloss_numerics::sampling::Distribution;
+use gearloss_studies::study::{Shape, ToleranceEntry};
 
 use super::ranges::{Range, once};
 use super::{Built, Runner};

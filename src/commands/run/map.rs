@@ -12,11 +12,11 @@ mod taken;
 
 use std::rc::Rc;
 
-use gearloss_framework::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, merge, notes};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Extent;
-use gearloss_framework::measured::{Measured, Row};
-use gearloss_framework::study::MapEntry;
+use gearloss_studies::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, merge, notes};
+use gearloss_studies::measured::{Measured, Row};
+use gearloss_studies::study::MapEntry;
 use serde_json::Value;
 
 use self::files::Files;

@@ -1,11 +1,11 @@
 //! Losses of a list of operating points from a file, as stacked bars, with room for what was measured.
 
-use gearloss_framework::analysis::PointResult;
-use gearloss_framework::measured::{Measured, Row};
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::Bar;
-use gearloss_framework::study::{By, OperatingPointsEntry};
 use gearloss_framework::thermal::Outcome;
+use gearloss_report::Figure;
+use gearloss_report::plot::Bar;
+use gearloss_studies::analysis::PointResult;
+use gearloss_studies::measured::{Measured, Row};
+use gearloss_studies::study::{By, OperatingPointsEntry};
 use serde_json::{Map, Value, json};
 
 use super::super::solve::RPM;

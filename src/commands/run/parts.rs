@@ -5,11 +5,11 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::Piece;
 use gearloss_framework::document::read_yaml;
 use gearloss_framework::files::{LONGEST_DATA, open_regular, read_bytes};
 use gearloss_framework::language::Language;
-use gearloss_framework::study::Study;
+use gearloss_studies::analysis::Piece;
+use gearloss_studies::study::Study;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

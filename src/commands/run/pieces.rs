@@ -4,8 +4,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
-use gearloss_framework::analysis::{Bits, Piece};
 use gearloss_framework::files::{LONGEST_DATA, open_regular};
+use gearloss_studies::analysis::{Bits, Piece};
 
 use super::folder::{cannot, own, temporary};
 use super::write::fnv1a_64;

@@ -1,7 +1,7 @@
 //! Quantities that a study varies over ranges.
 
-use gearloss_framework::study::RangeEntry;
-use gearloss_framework::varied::Varied;
+use gearloss_studies::study::RangeEntry;
+use gearloss_studies::varied::Varied;
 use serde_json::Value;
 
 use super::{Built, Runner};
@@ -101,7 +101,7 @@ pub fn show_published<'a>(all: impl Iterator<Item = &'a Varied>, out: &mut Out) 
 pub fn varied(
     runner: &Runner<'_>,
     path: &str,
-    (pattern, tie): (&str, gearloss_framework::varied::Tie),
+    (pattern, tie): (&str, gearloss_studies::varied::Tie),
     b: &Built<'_>,
 ) -> Result<Varied, Failure> {
     let varied = Varied::new(runner.language, &b.resolved, pattern, tie).map_err(|mut error| {

@@ -10,9 +10,9 @@ use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::report::schematic;
-use gearloss_framework::study::Study;
 use gearloss_framework::transmission::Transmission;
+use gearloss_report::schematic;
+use gearloss_studies::study::Study;
 use serde_json::Value;
 
 use super::super::solve::RPM;

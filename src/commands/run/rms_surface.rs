@@ -4,10 +4,10 @@ mod least;
 mod show;
 mod solve;
 
-use gearloss_framework::measured::Measured;
 use gearloss_framework::resolve::matches;
-use gearloss_framework::study::{RmsSurfaceEntry, SurfaceAxisEntry};
-use gearloss_framework::varied::Varied;
+use gearloss_studies::measured::Measured;
+use gearloss_studies::study::{RmsSurfaceEntry, SurfaceAxisEntry};
+use gearloss_studies::varied::Varied;
 use serde_json::Value;
 
 use self::least::Least;

@@ -1,12 +1,12 @@
 //! Points of a file: read, and solved under sets of models.
 
-use gearloss_framework::analysis::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::measured::{Measured, MeasuredEntry, PortSpeeds, Row};
 use gearloss_framework::resolve::{Choice, OWN_MODELS};
-use gearloss_framework::study::Data;
+use gearloss_studies::analysis::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
+use gearloss_studies::measured::{Measured, MeasuredEntry, PortSpeeds, Row};
+use gearloss_studies::study::Data;
 use serde_json::Value;
 
 use super::trial::{Left, Trial, left, why};

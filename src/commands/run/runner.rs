@@ -3,14 +3,14 @@
 use std::cell::{Cell, RefCell};
 use std::path::PathBuf;
 
-use gearloss_framework::analysis::{Field, Given, GridResult, Make, Piece, Points, held, merge, notes, solve_pieces};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
-use gearloss_framework::study::{Analysis, Grid, Study};
 use gearloss_framework::transmission::{Case, Transmission};
+use gearloss_studies::analysis::{Field, Given, GridResult, Make, Piece, Points, held, merge, notes, solve_pieces};
+use gearloss_studies::study::{Analysis, Grid, Study};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 

@@ -7,10 +7,10 @@ mod show;
 
 use std::sync::Mutex;
 
-use gearloss_framework::analysis::Points;
-use gearloss_framework::inference::{Parameter, Scale};
-use gearloss_framework::sensitivity::{Local, Screening, VarianceShares, local, screening, variance_shares};
-use gearloss_framework::study::{Method, SensitivityEntry};
+use gearloss_numerics::inference::{Parameter, Scale};
+use gearloss_numerics::sensitivity::{Local, Screening, VarianceShares, local, screening, variance_shares};
+use gearloss_studies::analysis::Points;
+use gearloss_studies::study::{Method, SensitivityEntry};
 use indicatif::ProgressBar;
 use serde_json::Value;
 

@@ -4,10 +4,10 @@ use std::fmt;
 use std::fs;
 use std::str::FromStr;
 
-use gearloss_framework::analysis::Bits;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::language::Language;
-use gearloss_framework::study::{Analysis, Study};
+use gearloss_studies::analysis::Bits;
+use gearloss_studies::study::{Analysis, Study};
 use serde::{Deserialize, Serialize};
 
 use super::Runner;

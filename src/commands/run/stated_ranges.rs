@@ -1,6 +1,6 @@
 //! Stated ranges that models left, over all analyses of a run: printed once, at its end.
 
-use gearloss_framework::analysis::Note;
+use gearloss_studies::analysis::Note;
 use serde::{Deserialize, Serialize};
 
 use super::super::solve;

@@ -1,13 +1,13 @@
 //! Losses and efficiency over the values of one path, or of two.
 
-use gearloss_framework::analysis::{PointResult, merge, notes};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Extent;
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::report::{Figure, Map};
-use gearloss_framework::study::{By, SecondEntry, SweepEntry};
 use gearloss_framework::thermal::Outcome;
-use gearloss_framework::varied::{Tie, Varied};
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_report::{Figure, Map};
+use gearloss_studies::analysis::{PointResult, merge, notes};
+use gearloss_studies::study::{By, SecondEntry, SweepEntry};
+use gearloss_studies::varied::{Tie, Varied};
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;

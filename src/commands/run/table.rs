@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{BufWriter, Write as _};
 use std::ops::Range;
 
-use gearloss_framework::study::Write;
+use gearloss_studies::study::Write;
 
 use super::Runner;
 use super::columns::{Column, Columns, number, word};

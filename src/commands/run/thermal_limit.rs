@@ -1,14 +1,14 @@
 //! The torque, or the speed, at which the balance reaches a given temperature.
 
-use gearloss_framework::analysis::{Note, notes};
 use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{Find, ThermalLimitEntry};
 use gearloss_framework::thermal::Limit;
+use gearloss_report::Figure;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_studies::analysis::{Note, notes};
+use gearloss_studies::study::{Find, ThermalLimitEntry};
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;

@@ -7,11 +7,11 @@ mod rank;
 mod results;
 mod spread;
 
-use gearloss_framework::analysis::{Given, GridResult, PointResult};
-use gearloss_framework::inference::{PointSet, folds};
-use gearloss_framework::measured::{Measured, Row, Seen};
-use gearloss_framework::selection::{LossErrors, Losses, MeasuredLosses};
-use gearloss_framework::study::{Difference, Quantity, TournamentEntry};
+use gearloss_numerics::inference::{PointSet, folds};
+use gearloss_numerics::selection::{LossErrors, Losses, MeasuredLosses};
+use gearloss_studies::analysis::{Given, GridResult, PointResult};
+use gearloss_studies::measured::{Measured, Row, Seen};
+use gearloss_studies::study::{Difference, Quantity, TournamentEntry};
 use serde_json::{Value, json};
 
 use self::candidates::Slot;
@@ -308,14 +308,14 @@ fn field<'a>(
     path: &str,
     entry: &TournamentEntry,
     base: Built<'a>,
-    points: &gearloss_framework::analysis::Points,
+    points: &gearloss_studies::analysis::Points,
     out: &mut Out,
     name: &str,
 ) -> Result<Field<'a>, Failure> {
     let mut points = points.clone();
     // A measured temperature counts where the model does not find its own.
     if base.transmission.thermal_mode != gearloss_framework::description::ThermalMode::Fixed
-        && let gearloss_framework::analysis::Field::List(list) = &mut points.field
+        && let gearloss_studies::analysis::Field::List(list) = &mut points.field
     {
         for given in list {
             given.oil = None;
@@ -323,7 +323,7 @@ fn field<'a>(
     }
     let solved = runner.solve(&base, &points)?;
     // Every model loses at the temperatures of the set, else losses could not be added.
-    points.field = gearloss_framework::analysis::Field::List(
+    points.field = gearloss_studies::analysis::Field::List(
         solved
             .points
             .iter()

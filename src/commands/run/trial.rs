@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use gearloss_framework::analysis::{
-    GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid,
-};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::{
+    GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid,
+};
 use serde_json::Value;
 
 use super::{Built, Runner};
 use crate::interrupt;
 use crate::output::Out;
-use gearloss_framework::study::Study;
+use gearloss_studies::study::Study;
 
 /// Stated ranges that were left: path and quantity.
 pub type Left = BTreeSet<(String, &'static str)>;

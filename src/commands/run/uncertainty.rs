@@ -1,10 +1,10 @@
 //! What uncertain inputs do: samples of all inputs, solved over a grid, and the bands that they leave.
 
-use gearloss_framework::analysis::{PointResult, Points, correlation, quantile};
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::report::{Figure, Map};
-use gearloss_framework::sampling::Sobol;
-use gearloss_framework::study::UncertaintyEntry;
+use gearloss_numerics::sampling::Sobol;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_report::{Figure, Map};
+use gearloss_studies::analysis::{PointResult, Points, correlation, quantile};
+use gearloss_studies::study::UncertaintyEntry;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde_json::{Value, json};

@@ -9,8 +9,8 @@ use std::rc::Rc;
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::files::open_regular;
-use gearloss_framework::report::Figure;
-use gearloss_framework::study::{Study, Write};
+use gearloss_report::Figure;
+use gearloss_studies::study::{Study, Write};
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -7,7 +7,7 @@ use gearloss_framework::loss::{Extent, Notes, Undefined};
 use gearloss_framework::lubricant::Lubricant;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::registry::Slot;
-use gearloss_framework::sampling::Sobol;
+use gearloss_numerics::sampling::Sobol;
 use std::cell::Cell;
 
 use super::spline::Spline;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use gearloss_framework::loss::{Extent, Notes};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::registry::{Build, Files, Registry, Slot};
-use gearloss_framework::sampling::Sobol;
+use gearloss_numerics::sampling::Sobol;
 use serde_json::{Value, json};
 
 use super::table::Point;

@@ -1,9 +1,9 @@
 //! Rows of stacked bars: printed, drawn, and kept as rows and JSON.
 
-use gearloss_framework::analysis::{Note, PointResult};
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::Bar;
-use gearloss_framework::study::{As, By, Write};
+use gearloss_report::Figure;
+use gearloss_report::plot::Bar;
+use gearloss_studies::analysis::{Note, PointResult};
+use gearloss_studies::study::{As, By, Write};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;

@@ -1,9 +1,9 @@
 //! Difference between sets of models over a grid: the other set minus the base.
 
-use gearloss_framework::analysis::{GridResult, PointResult, Statistics, notes};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::report::{Figure, Map};
-use gearloss_framework::study::CompareEntry;
+use gearloss_report::{Figure, Map};
+use gearloss_studies::analysis::{GridResult, PointResult, Statistics, notes};
+use gearloss_studies::study::CompareEntry;
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;

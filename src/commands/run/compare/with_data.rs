@@ -1,9 +1,9 @@
 //! Models against measured points: the model minus the measurement.
 
-use gearloss_framework::analysis::{Note, PointResult, Statistics, bands};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::measured::{Measured, Row, Seen, counted};
-use gearloss_framework::study::{CompareEntry, Data, Difference};
+use gearloss_studies::analysis::{Note, PointResult, Statistics, bands};
+use gearloss_studies::measured::{Measured, Row, Seen, counted};
+use gearloss_studies::study::{CompareEntry, Data, Difference};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;

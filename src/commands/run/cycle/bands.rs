@@ -1,8 +1,8 @@
 //! Bands of mean losses from uncertain inputs.
 
-use gearloss_framework::analysis::quantile;
-use gearloss_framework::sampling::Sobol;
-use gearloss_framework::study::{CycleAnalysisEntry, ReferenceLoss};
+use gearloss_numerics::sampling::Sobol;
+use gearloss_studies::analysis::quantile;
+use gearloss_studies::study::{CycleAnalysisEntry, ReferenceLoss};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -107,7 +107,7 @@ pub fn sample(
         let losses: Vec<f64> = samples.iter().map(|(_, losses)| losses[duty].0).collect();
         let correlation = |k: usize| {
             let values: Vec<f64> = samples.iter().map(|(values, _)| values[k]).collect();
-            gearloss_framework::analysis::correlation(&values, &losses)
+            gearloss_studies::analysis::correlation(&values, &losses)
         };
         let mut ranked: Vec<(String, Option<f64>)> = inputs
             .iter()

@@ -1,8 +1,8 @@
 //! One duty driven through one gearbox under one set, in numbers for a reader.
 
-use gearloss_framework::analysis::{Driven, Stretch, notes};
-use gearloss_framework::duty::Duty;
-use gearloss_framework::study::{CycleAnalysisEntry, ReferenceLoss};
+use gearloss_studies::analysis::{Driven, Stretch, notes};
+use gearloss_studies::duty::Duty;
+use gearloss_studies::study::{CycleAnalysisEntry, ReferenceLoss};
 use serde_json::{Value, json};
 
 use super::super::super::solve::{RPM, because};

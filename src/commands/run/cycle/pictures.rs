@@ -1,8 +1,8 @@
 //! Pictures of driven duties: losses stacked over time, temperatures, torque and speed.
 
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::CycleAnalysisEntry;
+use gearloss_report::Figure;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_studies::study::CycleAnalysisEntry;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
@@ -54,7 +54,7 @@ pub fn pictures(runner: &Runner<'_>, name: &str, entry: &CycleAnalysisEntry, o: 
         (
             "torque",
             "Nm",
-            (|s| s.torque) as fn(&gearloss_framework::analysis::Stretch) -> f64,
+            (|s| s.torque) as fn(&gearloss_studies::analysis::Stretch) -> f64,
         ),
         ("speed", "rpm", |s| s.speed * RPM),
     ] {

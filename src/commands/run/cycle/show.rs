@@ -1,7 +1,7 @@
 //! Driven duties as tables.
 
-use gearloss_framework::analysis::notes;
-use gearloss_framework::duty::Duty;
+use gearloss_studies::analysis::notes;
+use gearloss_studies::duty::Duty;
 
 use super::super::Runner;
 use super::outcome::Outcome;

@@ -1,8 +1,8 @@
 //! Sweeps of oils as tables and pictures.
 
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::FluidSweepEntry;
+use gearloss_report::Figure;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_studies::study::FluidSweepEntry;
 
 use super::super::Runner;
 use super::super::duties::Duties;

@@ -1,9 +1,9 @@
 //! Checks of residuals: whether the model reproduces the points as accurately as they are, and whether neighbours err together.
 
-use gearloss_framework::identify::{Fitted, Identification};
-use gearloss_framework::inference::{
+use gearloss_numerics::inference::{
     AndersonDarling, BandMean, LackOfFit, PureError, Succession, anderson_darling, band_means, pure_error, succession,
 };
+use gearloss_studies::identify::{Fitted, Identification};
 
 use super::super::super::solve::RPM;
 use super::lines::{Sheet, of_residuals};
@@ -37,7 +37,7 @@ impl Checks {
         let observations = identification.observations();
         let standardised = inference.standardised();
         let over = |quantity: &str, factor: f64| -> Vec<BandMean> {
-            let value = |o: &gearloss_framework::identify::Observation| {
+            let value = |o: &gearloss_studies::identify::Observation| {
                 factor * measured.value(&measured.rows[o.row], quantity).unwrap_or(0.0)
             };
             let at: Vec<f64> = observations.iter().map(value).collect();

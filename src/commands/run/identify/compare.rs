@@ -1,10 +1,10 @@
 //! Which set predicts best, and whether the points decide it.
 
-use gearloss_framework::identify::Observation;
-use gearloss_framework::inference::{
+use gearloss_numerics::inference::{
     Accuracy, Comparison, FittedModel, PointSet, Succession, Validation, akaike, neighbours, ranking,
 };
-use gearloss_framework::study::IdentifyEntry;
+use gearloss_studies::identify::Observation;
+use gearloss_studies::study::IdentifyEntry;
 use serde_json::{Value, json};
 
 use super::super::Runner;

@@ -1,10 +1,10 @@
 //! Rows that were held out of a fit: their predictions beside those of fitted rows, in tables, JSON and pictures.
 
-use gearloss_framework::identify::{CONFIDENCE, HoldOut, PredictedNumber, Predictions};
-use gearloss_framework::inference::{Coverage, ErrorSummary, PlacedError, Region, regions};
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Line, Stroke};
-use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
+use gearloss_numerics::inference::{Coverage, ErrorSummary, PlacedError, Region, regions};
+use gearloss_report::Figure;
+use gearloss_report::plot::{Line, Stroke};
+use gearloss_studies::identify::{CONFIDENCE, HoldOut, PredictedNumber, Predictions};
+use gearloss_studies::study::{Difference, IdentifyEntry, Quantity};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;

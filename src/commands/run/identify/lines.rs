@@ -1,9 +1,9 @@
 //! Lines of measured points: one gear state, torque and temperature, over speed.
 
-use gearloss_framework::analysis::levels;
-use gearloss_framework::identify::Identification;
-use gearloss_framework::measured::Measured;
-use gearloss_framework::study::Quantity;
+use gearloss_studies::analysis::levels;
+use gearloss_studies::identify::Identification;
+use gearloss_studies::measured::Measured;
+use gearloss_studies::study::Quantity;
 
 /// Temperatures of the oil that are farther apart belong to different lines. \[K\]
 const APART: f64 = 3.0;

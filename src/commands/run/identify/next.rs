@@ -1,8 +1,8 @@
 //! What to measure next, from the points of a grid.
 
-use gearloss_framework::design::Rule;
-use gearloss_framework::identify::{Candidate, Fitted, Identification, NextPlan};
-use gearloss_framework::study::{NextEntry, RuleEntry};
+use gearloss_numerics::design::Rule;
+use gearloss_studies::identify::{Candidate, Fitted, Identification, NextPlan};
+use gearloss_studies::study::{NextEntry, RuleEntry};
 
 use super::super::{Built, Runner, grid_axes};
 use crate::output::Failure;

@@ -1,12 +1,10 @@
 //! All that is found for one set of models.
 
-use gearloss_framework::analysis::{Note, merge, notes};
-use gearloss_framework::identify::{
-    Calculated, Fitted, Identification, Pair, Posterior, Profiled, Settings, ShareBands,
-};
-use gearloss_framework::inference::{Fold, Validation, Widening};
 use gearloss_framework::loss::Extent;
-use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
+use gearloss_numerics::inference::{Fold, Validation, Widening};
+use gearloss_studies::analysis::{Note, merge, notes};
+use gearloss_studies::identify::{Calculated, Fitted, Identification, Pair, Posterior, Profiled, Settings, ShareBands};
+use gearloss_studies::study::{Difference, IdentifyEntry, Quantity};
 
 use super::super::{Built, Runner};
 use super::checks::Checks;

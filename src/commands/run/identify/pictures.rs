@@ -1,9 +1,9 @@
 //! Pictures of identifications: parameters between their bounds, deviations before and after, losses beside the measured
 //! total, residuals, correlations, what to measure next.
 
-use gearloss_framework::report::plot::{Bar, Interval, Line, Stroke};
-use gearloss_framework::report::{Figure, Map};
-use gearloss_framework::study::{Difference, IdentifyEntry, Quantity};
+use gearloss_report::plot::{Bar, Interval, Line, Stroke};
+use gearloss_report::{Figure, Map};
+use gearloss_studies::study::{Difference, IdentifyEntry, Quantity};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
@@ -77,8 +77,8 @@ fn parameters(name: &str, o: &Outcome<'_>) -> Figure {
     let interval = |(k, (of, identified)): (
         usize,
         (
-            &gearloss_framework::inference::Parameter,
-            &gearloss_framework::identify::Identified,
+            &gearloss_numerics::inference::Parameter,
+            &gearloss_studies::identify::Identified,
         ),
     )| {
         let [low, high] = of.bounds;
@@ -157,7 +157,7 @@ fn numbered(what: &str, o: &Outcome<'_>, number: usize) -> String {
 
 /// Accuracy of the measurement over a sheet, root of the mean square, in the unit of deviations.
 fn accuracy(o: &Outcome<'_>, quantity: Quantity, sheet: &Sheet) -> Option<f64> {
-    if o.fitted.inference.accuracy() == gearloss_framework::inference::Accuracy::Estimated {
+    if o.fitted.inference.accuracy() == gearloss_numerics::inference::Accuracy::Estimated {
         return None;
     }
     let unit = if quantity == Quantity::Efficiency { 100.0 } else { 1.0 };
@@ -186,8 +186,7 @@ fn stacks(name: &str, entry: &IdentifyEntry, o: &Outcome<'_>) -> Vec<(String, Fi
             let calculated = &o.calculated[which];
             let bar = |row: &usize| {
                 let point = calculated.point(*row);
-                let seen =
-                    gearloss_framework::measured::Seen::on(&calculated.rig, measured, &measured.rows[*row], point);
+                let seen = gearloss_studies::measured::Seen::on(&calculated.rig, measured, &measured.rows[*row], point);
                 let share = losses_by(o, which, *row, &shares.mechanisms);
                 let accuracy = seen.accuracy(Quantity::Loss).unwrap_or(0.0);
                 Bar {
@@ -223,8 +222,8 @@ fn stacks(name: &str, entry: &IdentifyEntry, o: &Outcome<'_>) -> Vec<(String, Fi
 /// Standardised residuals over torque and over speed, with the means of bands.
 fn residuals(name: &str, o: &Outcome<'_>) -> Vec<(&'static str, Figure)> {
     let measured = o.identification.measured();
-    let figure = |what: &str, unit: &str, factor: f64, means: &[gearloss_framework::inference::BandMean]| {
-        let at = |(observation, r): (&gearloss_framework::identify::Observation, &f64)| {
+    let figure = |what: &str, unit: &str, factor: f64, means: &[gearloss_numerics::inference::BandMean]| {
+        let at = |(observation, r): (&gearloss_studies::identify::Observation, &f64)| {
             let value = measured.value(&measured.rows[observation.row], what)?;
             Some((factor * value, *r))
         };
@@ -296,7 +295,7 @@ fn joint(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
             let (x, y) = (angle.cos(), angle.sin());
             let along = correlation * x + (1.0 - correlation * correlation).max(0.0).sqrt() * y;
             let inside =
-                |p: &gearloss_framework::inference::Parameter, u: f64| p.scale.theta(u.clamp(p.bounds[0], p.bounds[1]));
+                |p: &gearloss_numerics::inference::Parameter, u: f64| p.scale.theta(u.clamp(p.bounds[0], p.bounds[1]));
             Some((
                 inside(one, one.u + radius * a * x),
                 inside(other, other.u + radius * b * along),

@@ -1,8 +1,8 @@
 //! Intervals of the posterior, beside those of the fit and by profile.
 
-use gearloss_framework::identify::Identification;
-use gearloss_framework::inference::{Ensemble, Marginal, Reach};
-use gearloss_framework::study::{IdentifyEntry, PosteriorEntry, RobustLoss};
+use gearloss_numerics::inference::{Ensemble, Marginal, Reach};
+use gearloss_studies::identify::Identification;
+use gearloss_studies::study::{IdentifyEntry, PosteriorEntry, RobustLoss};
 use serde_json::{Value, json};
 
 use super::super::Runner;

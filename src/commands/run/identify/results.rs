@@ -1,8 +1,8 @@
 //! Identifications as JSON.
 
-use gearloss_framework::identify::ModelKink;
-use gearloss_framework::inference::{Accuracy, BandMean, Reach, Scale, Standing, Verdict};
-use gearloss_framework::study::{Difference, FoldsEntry, IdentifyEntry};
+use gearloss_numerics::inference::{Accuracy, BandMean, Reach, Scale, Standing, Verdict};
+use gearloss_studies::identify::ModelKink;
+use gearloss_studies::study::{Difference, FoldsEntry, IdentifyEntry};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
@@ -48,7 +48,7 @@ pub fn of(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {
 
 fn search(o: &Outcome<'_>) -> Value {
     let (fit, minima) = (o.fitted.fit(), &o.fitted.minima);
-    let minimum = |m: &gearloss_framework::least_squares::Minimum| {
+    let minimum = |m: &gearloss_numerics::least_squares::Minimum| {
         let distances: Vec<Option<f64>> = (0..m.fit.theta.len()).map(|k| o.fitted.distance(m, k)).collect();
         json!({
             "cost": m.fit.cost, "share_of_starts": m.share, "starts": m.starts, "parameters": m.fit.theta,
@@ -65,7 +65,7 @@ fn search(o: &Outcome<'_>) -> Value {
             "parameters": names.collect::<Vec<_>>(), "sentence": k.sentence(),
         })
     };
-    let step = |i: &gearloss_framework::least_squares::Iteration| {
+    let step = |i: &gearloss_numerics::least_squares::Iteration| {
         json!({
             "attempt": i.attempt, "cost": i.cost, "first_order": i.first_order, "relative_offset": i.relative_offset,
             "central_differences": i.central, "step": i.how.name(), "corrected": i.corrected, "radius": i.radius,
@@ -86,7 +86,7 @@ fn search(o: &Outcome<'_>) -> Value {
         "attempt": fit.attempt,
         "evaluations_without_derivatives": fit.counts.polishing,
         "kinks": o.fitted.kinks.iter().map(kink).collect::<Vec<_>>(),
-        "kinship": minima.kinship.map(gearloss_framework::least_squares::Kinship::name),
+        "kinship": minima.kinship.map(gearloss_numerics::least_squares::Kinship::name),
         "minima": minima.minima.iter().map(minimum).collect::<Vec<_>>(),
         "notes": fit.notes.iter().chain(&minima.notes).collect::<Vec<_>>(),
         "accuracy_factors": o.fitted.factors.iter().map(|(quantity, factor)| {
@@ -97,7 +97,7 @@ fn search(o: &Outcome<'_>) -> Value {
 }
 
 fn misfit(o: &Outcome<'_>) -> Value {
-    let of = |quantity: &gearloss_framework::study::Quantity| {
+    let of = |quantity: &gearloss_studies::study::Quantity| {
         let [before, after] = o.rms(*quantity);
         json!({
             "quantity": quantity.name(), "unit": quantity.unit(Difference::Points), "rms_before": before, "rms": after,
@@ -215,7 +215,7 @@ fn folds(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {
         Some(Ok((folds, validation))) => {
             let rms = validation.fold_rms();
             let by_torque = fold_unit(&entry.folds) == "Nm";
-            let fold = |(fold, rms): (&gearloss_framework::inference::Fold, f64)| {
+            let fold = |(fold, rms): (&gearloss_numerics::inference::Fold, f64)| {
                 let end = |place: usize| fold.band.filter(|_| by_torque).map(|band| band[place]);
                 json!({
                     "name": fold_name(fold, &entry.folds), "from_nm": end(0), "to_nm": end(1),
@@ -234,7 +234,7 @@ fn folds(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {
 /// Measured numbers with what was calculated, and losses by mechanism with their bands.
 fn points(o: &Outcome<'_>) -> Value {
     let measured = o.identification.measured();
-    let point = |(i, observation): (usize, &gearloss_framework::identify::Observation)| {
+    let point = |(i, observation): (usize, &gearloss_studies::identify::Observation)| {
         let row = &measured.rows[observation.row];
         let (_, gear, point) = &o.calculated[1].solved.rows[observation.row];
         let [before, after] = [0, 1].map(|k| o.pairs[k][i]);
@@ -268,7 +268,7 @@ fn next(o: &Outcome<'_>) -> Value {
     let Some(Ok(next)) = &o.next else {
         return Value::Null;
     };
-    let choice = |c: &gearloss_framework::design::Choice| {
+    let choice = |c: &gearloss_numerics::design::Choice| {
         let at = &next.candidates[c.candidate];
         let lacking = next
             .plan
@@ -281,7 +281,7 @@ fn next(o: &Outcome<'_>) -> Value {
             "cost": c.cost, "lacking_in_other_plans": lacking,
         })
     };
-    let precision = |p: &gearloss_framework::design::Precision| json!({ "ln_determinant": p.ln_determinant, "trace": p.trace, "deviations_over_ranges": p.deviations });
+    let precision = |p: &gearloss_numerics::design::Precision| json!({ "ln_determinant": p.ln_determinant, "trace": p.trace, "deviations_over_ranges": p.deviations });
     let names: Vec<&str> = next
         .plan
         .parameters

@@ -1,9 +1,9 @@
 //! A fit on the terminal: a table of the parameters, and what the points say in sentences.
 
-use gearloss_framework::identify::{Identified, group_words};
-use gearloss_framework::inference::{Accuracy, Fold, Reach, Verdict};
-use gearloss_framework::least_squares::{Minimum, Status};
-use gearloss_framework::study::{Difference, FoldsEntry, IdentifyEntry, RuleEntry};
+use gearloss_numerics::inference::{Accuracy, Fold, Reach, Verdict};
+use gearloss_numerics::least_squares::{Minimum, Status};
+use gearloss_studies::identify::{Identified, group_words};
+use gearloss_studies::study::{Difference, FoldsEntry, IdentifyEntry, RuleEntry};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;

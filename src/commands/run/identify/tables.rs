@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use gearloss_framework::identify::Target;
-use gearloss_framework::inference::Reach;
-use gearloss_framework::study::IdentifyEntry;
+use gearloss_numerics::inference::Reach;
+use gearloss_studies::identify::Target;
+use gearloss_studies::study::IdentifyEntry;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
@@ -72,7 +72,7 @@ fn points(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
             let (_, gear, point) = &o.calculated[1].solved.rows[observation.row];
             let [before, after] = [0, 1].map(|k| o.pairs[k][i]);
             let residual =
-                |pair: gearloss_framework::identify::Pair| (pair.model - pair.measured) / observation.deviation;
+                |pair: gearloss_studies::identify::Pair| (pair.model - pair.measured) / observation.deviation;
             let mut cells = vec![o.name.clone(), measured.line(row), row.name.clone().unwrap_or_default()];
             cells.push(gear.clone());
             cells.extend([

@@ -3,8 +3,8 @@
 //! Sources of the formats: VECTO's user manual (Transmission Loss Map), the Powertrain Blockset's block Gearbox, and the
 //! documentation of `Modelica.Mechanics.Rotational.Components.LossyGear`.
 
-use gearloss_framework::analysis::{Given, Statistics, held};
-use gearloss_framework::study::{Export, MapEntry};
+use gearloss_studies::analysis::{Given, Statistics, held};
+use gearloss_studies::study::{Export, MapEntry};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;

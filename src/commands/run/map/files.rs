@@ -1,6 +1,6 @@
 //! The files of a map.
 
-use gearloss_framework::study::MapEntry;
+use gearloss_studies::study::MapEntry;
 
 use super::super::table::TableFile;
 use super::super::write::{head, write_json};

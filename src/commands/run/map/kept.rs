@@ -1,6 +1,6 @@
 //! What is kept of the points of a map once their rows are written.
 
-use gearloss_framework::analysis::{Field, Numbered, PointResult};
+use gearloss_studies::analysis::{Field, Numbered, PointResult};
 
 use super::Axes;
 

@@ -1,6 +1,6 @@
 //! One table for a map over speed and the values of one bound path.
 
-use gearloss_framework::analysis::{OilTemperature, merge, notes};
+use gearloss_studies::analysis::{OilTemperature, merge, notes};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;

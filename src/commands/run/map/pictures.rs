@@ -1,8 +1,8 @@
 //! Pictures of maps.
 
-use gearloss_framework::analysis::OilTemperature;
-use gearloss_framework::report::{Cloud, Figure, Map as Picture};
-use gearloss_framework::study::Write;
+use gearloss_report::{Cloud, Figure, Map as Picture};
+use gearloss_studies::analysis::OilTemperature;
+use gearloss_studies::study::Write;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;

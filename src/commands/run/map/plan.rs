@@ -3,9 +3,9 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use gearloss_framework::analysis::{Field, Given, Points};
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::study::{Envelope, Grid, MapEntry};
+use gearloss_studies::analysis::{Field, Given, Points};
+use gearloss_studies::study::{Envelope, Grid, MapEntry};
 use serde_json::Value;
 
 use super::super::{Built, Runner, grid_axes};

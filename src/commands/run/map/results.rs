@@ -2,10 +2,10 @@
 
 use std::cell::RefCell;
 
-use gearloss_framework::analysis::{Bits, Note, Piece, PointResult, SUMS, WeakPoint, evidence};
 use gearloss_framework::flow::Status;
-use gearloss_framework::study::Write;
 use gearloss_framework::thermal::Outcome;
+use gearloss_studies::analysis::{Bits, Note, Piece, PointResult, SUMS, WeakPoint, evidence};
+use gearloss_studies::study::Write;
 use serde::ser::{Error as _, SerializeSeq as _};
 use serde::{Serialize, Serializer};
 use serde_json::Value;

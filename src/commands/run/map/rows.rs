@@ -1,7 +1,7 @@
 //! The table of a map: its columns, and the rows of the points as they are solved.
 
-use gearloss_framework::analysis::{Numbered, SUMS};
 use gearloss_framework::thermal::Outcome;
+use gearloss_studies::analysis::{Numbered, SUMS};
 use serde_json::Value;
 
 use super::super::super::solve::RPM;

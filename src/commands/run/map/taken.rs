@@ -1,6 +1,6 @@
 //! What a map takes from the points of a task as soon as they are solved, on all threads.
 
-use gearloss_framework::analysis::{Bits, Field, Numbered};
+use gearloss_studies::analysis::{Bits, Field, Numbered};
 
 use super::super::table::{Rows, Shape};
 use super::kept::{Picked, Wanted};

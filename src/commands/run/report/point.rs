@@ -1,12 +1,12 @@
 //! One operating point of a gearbox in the report: loads, balance of powers, and what its losses rest on.
 
-use gearloss_framework::analysis::{Given, OilTemperature, evidence};
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::evaluate::{Point, Reading, Solution};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::mechanism::bearing::BearingPart;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::{Given, OilTemperature, evidence};
 
 use super::super::super::solve::RPM;
 use super::super::{Built, Runner, gear_of, speeds, torques};

@@ -1,6 +1,6 @@
 //! The least value of a surface, whether it lies inside, and how flat the surface is about it.
 
-use gearloss_framework::inference::Side;
+use gearloss_numerics::inference::Side;
 
 /// Share of the least value by which a value counts as close to it.
 const CLOSE: f64 = 0.05;

@@ -1,9 +1,9 @@
 //! What is printed, drawn and written of a surface.
 
-use gearloss_framework::inference::Side;
-use gearloss_framework::measured::Measured;
-use gearloss_framework::report::{Figure, Map};
-use gearloss_framework::study::RmsSurfaceEntry;
+use gearloss_numerics::inference::Side;
+use gearloss_report::{Figure, Map};
+use gearloss_studies::measured::Measured;
+use gearloss_studies::study::RmsSurfaceEntry;
 use serde_json::{Value, json};
 
 use super::super::Runner;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use gearloss_framework::analysis::{Rows, Statistics};
-use gearloss_framework::measured::{Measured, Seen, counted};
-use gearloss_framework::study::RmsSurfaceEntry;
+use gearloss_studies::analysis::{Rows, Statistics};
+use gearloss_studies::measured::{Measured, Seen, counted};
+use gearloss_studies::study::RmsSurfaceEntry;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 

@@ -1,8 +1,8 @@
 //! What depends: means over the points of a grid, and how far the loss moves at single points.
 
-use gearloss_framework::analysis::PointResult;
-use gearloss_framework::study::By;
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::PointResult;
+use gearloss_studies::study::By;
 
 use super::super::super::solve::RPM;
 use super::super::map::tidy;

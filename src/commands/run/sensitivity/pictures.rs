@@ -1,8 +1,8 @@
 //! Bars of effects, effects over their scatter, stacks of shares.
 
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Bar, Line, Stroke};
-use gearloss_framework::study::Write;
+use gearloss_report::Figure;
+use gearloss_report::plot::{Bar, Line, Stroke};
+use gearloss_studies::study::Write;
 
 use super::super::Runner;
 use super::super::write::picture;

@@ -1,6 +1,6 @@
 //! Rows and JSON of what was found.
 
-use gearloss_framework::sensitivity::{Effect, Estimate, Influence, Local};
+use gearloss_numerics::sensitivity::{Effect, Estimate, Influence, Local};
 use serde_json::{Value, json};
 
 use super::super::write::cell;

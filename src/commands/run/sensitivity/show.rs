@@ -1,6 +1,6 @@
 //! What is printed: a table for each method, of the mean loss and of the relative change of the loss at the points, and what it says.
 
-use gearloss_framework::sensitivity::{Estimate, Influence, VarianceShares};
+use gearloss_numerics::sensitivity::{Estimate, Influence, VarianceShares};
 
 use super::super::Runner;
 use super::super::ranges::show_published;

@@ -1,11 +1,11 @@
 //! The models that take part, each evaluated once.
 
-use gearloss_framework::analysis::{Field, GridResult, PointResult, Points, run_grid};
 use gearloss_framework::language::{DRAGS, HELD, Language};
 use gearloss_framework::registry::{Entry, Registry};
 use gearloss_framework::resolve::{Came, Resolved};
-use gearloss_framework::study::{CandidatesEntry, TournamentEntry};
 use gearloss_framework::transmission::{PartInfo, Transmission};
+use gearloss_studies::analysis::{Field, GridResult, PointResult, Points, run_grid};
+use gearloss_studies::study::{CandidatesEntry, TournamentEntry};
 use serde_json::{Map, Value};
 
 use super::super::{Built, Runner};

@@ -1,10 +1,10 @@
 //! Pictures of a ranking: where each model is at best, errors of the best, spread of the shortlist.
 
-use gearloss_framework::analysis::bands;
-use gearloss_framework::report::Figure;
-use gearloss_framework::report::plot::{Bar, Line, Stroke};
-use gearloss_framework::selection::Combination;
-use gearloss_framework::study::TournamentEntry;
+use gearloss_numerics::selection::Combination;
+use gearloss_report::Figure;
+use gearloss_report::plot::{Bar, Line, Stroke};
+use gearloss_studies::analysis::bands;
+use gearloss_studies::study::TournamentEntry;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;

@@ -1,9 +1,9 @@
 //! Combinations ranked by how well they predict measured losses, over their accuracy; the winner, and those that are not told from it.
 
-use gearloss_framework::analysis::Statistics;
-use gearloss_framework::inference::{Decision, VISIBLE};
-use gearloss_framework::selection::{Bounds, Combination, Shortlist, Standing, Winner, rank, shortlist, winner};
-use gearloss_framework::study::TournamentEntry;
+use gearloss_numerics::inference::{Decision, VISIBLE};
+use gearloss_numerics::selection::{Bounds, Combination, Shortlist, Standing, Winner, rank, shortlist, winner};
+use gearloss_studies::analysis::Statistics;
+use gearloss_studies::study::TournamentEntry;
 
 use super::super::Runner;
 use super::{Field, Measurements, pictures, results};
@@ -261,14 +261,14 @@ fn added_up(runner: &Runner<'_>, field: &Field<'_>, c: &Combination) -> Result<S
             .map_err(|reason| Failure::input(reason, "report this"))?;
     }
     let transmission = field.base.gearbox.build(runner.language, &resolved)?;
-    let list = field.points.iter().map(|p| gearloss_framework::analysis::Given {
+    let list = field.points.iter().map(|p| gearloss_studies::analysis::Given {
         torque: p.torque,
         speed: p.speed,
         oil: p.oil,
     });
     let gear = field.gear.clone();
     let points = runner.listed(&transmission, &gear, list.collect());
-    let solved = gearloss_framework::analysis::run_grid(&transmission, &points, &|_| !interrupt::pressed());
+    let solved = gearloss_studies::analysis::run_grid(&transmission, &points, &|_| !interrupt::pressed());
     let solved = solved.map_err(|list| Failure::from(field.base.gearbox.findings(list)))?;
     let solved = solved.ok_or(Failure::Interrupted)?;
     let added = field.losses().all(&c.places, &vec![1.0; c.places.len()]);

@@ -1,8 +1,8 @@
 //! The files of a ranking.
 
-use gearloss_framework::inference::{Decision, Paired};
-use gearloss_framework::selection::Standing;
-use gearloss_framework::study::TournamentEntry;
+use gearloss_numerics::inference::{Decision, Paired};
+use gearloss_numerics::selection::Standing;
+use gearloss_studies::study::TournamentEntry;
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
@@ -60,7 +60,7 @@ fn ranking(field: &Field<'_>, o: &Outcome) -> (Vec<String>, Vec<Vec<String>>) {
         "marks",
     ];
     header.extend(standing.map(str::to_owned));
-    let row = |(i, c): (usize, &gearloss_framework::selection::Combination)| {
+    let row = |(i, c): (usize, &gearloss_numerics::selection::Combination)| {
         let mut row = vec![(i + 1).to_string()];
         row.extend(field.names(&c.places).into_iter().map(str::to_owned));
         row.push(cell(Some(c.predicted)));
@@ -156,7 +156,7 @@ fn json_of_ranking(
             "decision": s.decision.name(), "folds": folds(s.folds), "separation": s.separation.square.sqrt(), "evidence": s.separation.evidence,
         })
     };
-    let ranked = |(i, c): (usize, &gearloss_framework::selection::Combination)| {
+    let ranked = |(i, c): (usize, &gearloss_numerics::selection::Combination)| {
         let printed = c.printed;
         json!({
             "models": field.names(&c.places), "predicted_over_accuracy": c.predicted, "predicted_rms": printed.map(|p| p.predicted),

@@ -1,7 +1,7 @@
 //! The spread of all combinations where nothing was measured: the uncertainty of the models.
 
-use gearloss_framework::report::{Figure, Map};
-use gearloss_framework::study::TournamentEntry;
+use gearloss_report::{Figure, Map};
+use gearloss_studies::study::TournamentEntry;
 use serde_json::json;
 
 use super::super::super::solve::RPM;

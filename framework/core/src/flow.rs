@@ -1,0 +1,118 @@
+//! Torque flow: equilibrium of every member with losses, ideal or real.
+//!
+//! Constraints do no net work, so their torques are the transposed rows times multipliers. Mesh friction takes its share
+//! from the driven gear in the carrier's frame, and the carrier takes the reaction; hence the balance of power holds to
+//! rounding for whatever multipliers solve the linear system.
+
+mod abreast;
+mod equilibrium;
+mod linear;
+mod solve;
+mod system;
+mod trail;
+mod work;
+
+pub use abreast::{FlowLanes, TaskLanes, WorkLanes};
+pub use system::{Flow, FlowFault, MeshRow, Share};
+pub use trail::Trail;
+pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
+
+/// Powers and status of one solved point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// Power that ports put in. \[W\]
+    pub input: f64,
+    /// Power that ports take out. \[W\]
+    pub output: f64,
+}
+
+impl Balance {
+    /// Power in and out over ports; powers below 1e-12 of the input count as zero.
+    pub fn of(powers: impl Iterator<Item = f64> + Clone) -> Self {
+        let most = powers.clone().fold(0.0_f64, f64::max);
+        let (mut input, mut output) = (0.0, 0.0);
+        for power in powers {
+            if power > 1e-12 * most {
+                input += power;
+            } else if power < -1e-12 * most {
+                output -= power;
+            }
+        }
+        Self { input, output }
+    }
+
+    /// The quotient of both as it is; absent where nothing comes out or nothing goes in.
+    pub fn efficiency_as_is(&self) -> Option<f64> {
+        (self.output > 0.0 && self.input > 0.0).then(|| self.output / self.input)
+    }
+
+    /// Power out over power in; absent where nothing comes out.
+    pub fn efficiency(&self) -> Option<f64> {
+        // Without losses the quotient may exceed one by rounding.
+        (self.output > 0.0).then(|| (self.output / self.input).min(1.0))
+    }
+}
+
+/// What a transmission does at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// The reference port drives.
+    Drive,
+    /// Power flows towards the reference port.
+    Coast,
+    /// Several ports put power in.
+    Split,
+    /// Power goes in and none comes out.
+    Dragged,
+    /// Nothing turns.
+    Standstill,
+    /// With ideal flow: losses exceed the power that goes in, so none can come out.
+    LossAboveInput,
+    /// No torque in the world holds this equilibrium in motion.
+    SelfLocking,
+    /// The iteration found no flow.
+    NoConvergence,
+    /// A loss has no value.
+    Undefined,
+}
+
+impl Status {
+    /// The regime of a moving transmission from the powers of its ports; `reference` is the number of the reference port.
+    pub fn of(powers: impl Iterator<Item = f64> + Clone, reference: usize) -> Self {
+        let Balance { input, output } = Balance::of(powers.clone());
+        let mut pushing = powers
+            .enumerate()
+            .filter(|(_, power)| *power > 1e-12 * input)
+            .map(|(port, _)| port);
+        match (pushing.next(), pushing.next()) {
+            _ if output == 0.0 => Self::Dragged,
+            (_, Some(_)) => Self::Split,
+            (Some(port), None) if port == reference => Self::Drive,
+            _ => Self::Coast,
+        }
+    }
+
+    /// False where no torques were found: none of them, and no load or loss that follows from them, has a value.
+    pub fn has_flow(self) -> bool {
+        !matches!(self, Self::SelfLocking | Self::NoConvergence)
+    }
+
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Drive => "drive",
+            Self::Coast => "coast",
+            Self::Split => "split",
+            Self::Dragged => "dragged",
+            Self::Standstill => "standstill",
+            Self::LossAboveInput => "loss_above_input",
+            Self::SelfLocking => "self_locking",
+            Self::NoConvergence => "no_convergence",
+            Self::Undefined => "undefined",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,394 @@
+//! From a file to a transmission: read, walk, resolve, build; findings with their places.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value};
+
+use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, Span, read_yaml};
+use crate::files::{LONGEST_TEXT, read_text};
+use crate::language::{DRAGS, HEAT, Language};
+use crate::registry::{Files, Registry};
+use crate::resolve::{Came, Choice, Resolved, called_own, expand_set, meets, resolve, sets_of};
+use crate::transmission::Transmission;
+
+/// The most files that may extend each other.
+const LONGEST_CHAIN: usize = 8;
+
+/// The most findings that are printed.
+const MOST_SHOWN: usize = 100;
+
+/// A gearbox as read and walked. Resolving and building are repeated for every choice of models and overrides.
+pub struct Gearbox {
+    /// The walked description, SI.
+    pub value: Value,
+    /// Where everything was written.
+    pub places: Places,
+    /// The texts.
+    pub sources: Sources,
+    /// Files that the description names.
+    pub files: Files,
+}
+
+/// Findings with the texts that they point into.
+pub struct Findings {
+    /// What was found.
+    pub list: Vec<Diagnostic>,
+    /// The texts.
+    pub sources: Sources,
+}
+
+impl Findings {
+    /// What the first of them says, for places that hold no more than a sentence.
+    pub fn first(&self) -> String {
+        self.list.first().map_or_else(String::new, |d| d.message.clone())
+    }
+
+    /// All findings rendered, with their number at the end.
+    pub fn render(&self) -> String {
+        self.render_new(&mut BTreeSet::new())
+    }
+
+    /// As [`Findings::render`], without what `shown` holds already: several files may include the one that is at fault.
+    pub fn render_new(&self, shown: &mut BTreeSet<String>) -> String {
+        let mut text = String::new();
+        let mut again = 0;
+        for finding in self.list.iter().take(MOST_SHOWN) {
+            let rendered = self.sources.render(finding);
+            if shown.contains(&rendered) {
+                again += 1;
+            } else {
+                text.push_str(&rendered);
+                text.push_str("\n\n");
+                shown.insert(rendered);
+            }
+        }
+        if self.list.len() > MOST_SHOWN {
+            text.push_str(&format!("... and {} more\n", self.list.len() - MOST_SHOWN));
+        }
+        let errors = self.list.iter().filter(|d| d.severity == Severity::Error).count();
+        let plural = if errors == 1 { "" } else { "s" };
+        text.push_str(&format!("{errors} error{plural}"));
+        if again > 0 {
+            text.push_str(&format!(
+                ", {again} of them printed above: a file that several extend has them"
+            ));
+        }
+        text.push('\n');
+        text
+    }
+}
+
+impl std::fmt::Display for Findings {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.render())
+    }
+}
+
+/// As rendered, because a `main` that returns an error prints it so.
+impl std::fmt::Debug for Findings {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.render())
+    }
+}
+
+impl std::error::Error for Findings {}
+
+/// Findings without a text that they could point into.
+impl From<Vec<Diagnostic>> for Findings {
+    fn from(list: Vec<Diagnostic>) -> Self {
+        Self {
+            list,
+            sources: Sources::default(),
+        }
+    }
+}
+
+impl From<Diagnostic> for Findings {
+    fn from(one: Diagnostic) -> Self {
+        Self::from(vec![one])
+    }
+}
+
+impl Language {
+    /// The language of everything that is linked into the program: where reading begins.
+    ///
+    /// # Errors
+    /// Every fault of a linked mechanism, model, catalogue or set.
+    pub fn linked() -> Result<Self, Findings> {
+        Ok(Self::new(Registry::linked()?)?)
+    }
+}
+
+impl Gearbox {
+    /// Reads a gearbox file and what it extends.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
+        let mut sources = Sources::default();
+        let text = match read_text(file, LONGEST_TEXT) {
+            Ok(text) => text,
+            Err(e) => {
+                let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
+                    .mend("check the name of the file")
+                    .code(Code::Unreadable);
+                return Err(Findings {
+                    list: vec![error],
+                    sources,
+                });
+            }
+        };
+        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
+        Self::parse(language, &text, &file.display().to_string(), folder, &mut sources)
+            .map_err(|list| Findings { list, sources })
+    }
+
+    /// Reads a gearbox from a text; `folder` is where the files that it names lie.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn of_text(language: &Language, text: &str, name: &str, folder: impl Into<PathBuf>) -> Result<Self, Findings> {
+        let mut sources = Sources::default();
+        Self::parse(language, text, name, folder.into(), &mut sources).map_err(|list| Findings { list, sources })
+    }
+
+    fn parse(
+        language: &Language,
+        text: &str,
+        name: &str,
+        folder: PathBuf,
+        sources: &mut Sources,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        let node = chain(text, name, &folder, sources, &mut found, &mut Vec::new(), None);
+        let Some(node) = node.filter(|_| found.is_empty()) else {
+            return Err(found);
+        };
+        let walked = language.walk_gearbox(&node);
+        if !walked.findings.is_empty() {
+            return Err(walked.findings);
+        }
+        Ok(Self {
+            value: walked.value,
+            places: walked.places,
+            sources: sources.clone(),
+            files: Files::beside(folder),
+        })
+    }
+
+    /// Resolves the description with a choice of models and overrides.
+    ///
+    /// # Errors
+    /// Everything that resolving finds, with places.
+    pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
+        resolve(language, &self.files, &self.value, choice).map_err(|list| {
+            self.findings(
+                list.into_iter()
+                    .map(|d| self.in_own_set(language, choice, d).code(Code::Choice))
+                    .collect(),
+            )
+        })
+    }
+
+    /// Reads every model set of the document, also those that nothing chooses.
+    ///
+    /// # Errors
+    /// If a set extends one that does not exist, or itself.
+    pub fn check_sets(&self, language: &Language) -> Result<(), Findings> {
+        let sets = sets_of(language, &self.value, &Map::new());
+        let own = self.value.get("model_sets").and_then(Value::as_object);
+        let names = own.into_iter().flatten().map(|(name, _)| name);
+        let mut found: Vec<Diagnostic> = Vec::new();
+        found.extend(called_own(names.clone()));
+        for error in names.filter_map(|name| expand_set(&sets, name).err()) {
+            if found.iter().all(|other| other.path != error.path) {
+                found.push(error.code(Code::Choice));
+            }
+        }
+        if found.is_empty() {
+            Ok(())
+        } else {
+            Err(self.findings(found))
+        }
+    }
+
+    /// A finding about a path that a set of models, or the document's own `set`, changes is told there.
+    fn in_own_set(&self, language: &Language, choice: &Choice, finding: Diagnostic) -> Diagnostic {
+        let set = choice.set.as_ref().and_then(|name| {
+            let sets = sets_of(language, &self.value, &choice.sets);
+            expand_set(&sets, name).ok()
+        });
+        let of_set = set.and_then(|set| {
+            set.changes
+                .into_iter()
+                .rev()
+                .find(|(path, ..)| meets(path, &finding.path))
+        });
+        if let Some((path, _, name)) = of_set {
+            return finding.moved(format!("model_sets.{name}.set"), &path);
+        }
+        let changes = self.value.get("set").and_then(Value::as_object);
+        let own = changes
+            .into_iter()
+            .flatten()
+            .find(|(path, _)| meets(path, &finding.path));
+        match own {
+            Some((path, _)) => finding.moved("set", path),
+            None => finding,
+        }
+    }
+
+    /// Builds the transmission of a resolved description.
+    ///
+    /// # Errors
+    /// Everything that building finds, with places.
+    pub fn build(&self, language: &Language, resolved: &Resolved) -> Result<Transmission, Findings> {
+        let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
+            self.findings(
+                list.into_iter()
+                    .map(|d| self.inherited(language, resolved, d).code(Code::Gearbox))
+                    .collect(),
+            )
+        })?;
+        built.warnings = built
+            .warnings
+            .into_iter()
+            .map(|d| self.places.place(d).code(Code::Gearbox))
+            .collect();
+        Ok(built)
+    }
+
+    /// A finding about a model that a component takes from `models` also shows where that is written.
+    fn inherited(&self, language: &Language, resolved: &Resolved, finding: Diagnostic) -> Diagnostic {
+        if *resolved.came(&finding.path) != Came::Models {
+            return finding;
+        }
+        let mut keys = finding.path.split('.');
+        let section = keys.next().unwrap_or_default();
+        let written = match (section, keys.nth(1), keys.next()) {
+            (_, Some("drag"), Some(slot)) => format!("models.{DRAGS}.{slot}"),
+            ("thermal", Some(slot), None) => format!("models.{HEAT}.{slot}"),
+            _ => match language.sections().find(|(name, _)| *name == section) {
+                Some((_, key)) => format!("models.{key}"),
+                None => return finding,
+            },
+        };
+        match (self.places.locate(&finding.path), self.places.get(&written)) {
+            (Some(component), Some(model)) => finding.at(component).label(model.value, "the model comes from here"),
+            _ => finding,
+        }
+    }
+
+    /// Resolves and builds.
+    ///
+    /// # Errors
+    /// Everything that either finds.
+    pub fn transmission(&self, language: &Language, choice: &Choice) -> Result<Transmission, Findings> {
+        self.build(language, &self.resolve(language, choice)?)
+    }
+
+    /// Findings with the places of their paths.
+    pub fn findings(&self, list: Vec<Diagnostic>) -> Findings {
+        Findings {
+            list: list.into_iter().map(|d| self.places.place(d)).collect(),
+            sources: self.sources.clone(),
+        }
+    }
+}
+
+/// What a document is, by its first key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DocumentKind {
+    /// The description of a gearbox.
+    Gearbox,
+    /// Analyses of gearboxes.
+    Study,
+}
+
+/// The one thing that is wrong with a document of the other kind.
+pub fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagnostic> {
+    let key = node.get("gearloss")?;
+    let written = key.text()?;
+    let has = |keys: [&str; 2]| keys.iter().any(|key| node.get(key).is_some());
+    let (message, mend) = match wanted {
+        DocumentKind::Study if written.starts_with("study") && has(["ports", "shafts"]) => (
+            "the first key says that this is a study, and the others are those of a gearbox",
+            "write `gearloss: gearbox/1`".to_owned(),
+        ),
+        DocumentKind::Gearbox if written.starts_with("gearbox") && has(["gearboxes", "analyses"]) => (
+            "the first key says that this is a gearbox, and the others are those of a study",
+            "write `gearloss: study/1`".to_owned(),
+        ),
+        DocumentKind::Study if written.starts_with("gearbox") => (
+            "this is a gearbox, and a study is due",
+            format!(
+                "`gearloss new study --gearbox {name}` writes a study of it; `check`, `solve` and `explain` take it as it is"
+            ),
+        ),
+        DocumentKind::Gearbox if written.starts_with("study") => (
+            "this is a study, and a gearbox is due",
+            "name a gearbox file, such as one under `gearboxes` of the study; `check` and `run` take the study"
+                .to_owned(),
+        ),
+        _ => return None,
+    };
+    Some(Diagnostic::error("gearloss", message).at(key.span).mend(mend))
+}
+
+/// A document laid over what it extends; `from` is where another one names it.
+fn chain(
+    text: &str,
+    name: &str,
+    folder: &Path,
+    sources: &mut Sources,
+    found: &mut Vec<Diagnostic>,
+    seen: &mut Vec<PathBuf>,
+    from: Option<Span>,
+) -> Option<Node> {
+    let source = sources.add(name, text);
+    let read = read_yaml(source, text);
+    if !read.findings.is_empty() {
+        found.extend(read.findings);
+        return None;
+    }
+    if let Some(error) = other_kind(&read.node, DocumentKind::Gearbox, name) {
+        found.push(match from {
+            Some(span) => Diagnostic::error(
+                "extends",
+                format!("{name} is a study, and only a gearbox can be extended"),
+            )
+            .at(span)
+            .mend("name a gearbox file, such as one under `gearboxes` of that study"),
+            None => error,
+        });
+        return None;
+    }
+    let Some(base) = read.node.get("extends").and_then(Node::text) else {
+        return Some(read.node);
+    };
+    let span = read.node.get("extends").map(|n| n.span);
+    let error = |message: String| {
+        let error = Diagnostic::error("extends", message).mend("name a gearbox file, relative to this one");
+        if let Some(span) = span { error.at(span) } else { error }
+    };
+    let file = folder.join(base);
+    if seen.contains(&file) || seen.len() >= LONGEST_CHAIN {
+        found.push(error(
+            "files extend each other in a circle, or too many of them".to_owned(),
+        ));
+        return None;
+    }
+    seen.push(file.clone());
+    match read_text(&file, LONGEST_TEXT) {
+        Err(e) => {
+            found.push(error(format!("cannot read {}: {e}", file.display())).code(Code::Unreadable));
+            None
+        }
+        Ok(text) => {
+            let inner = file.parent().unwrap_or(Path::new("")).to_path_buf();
+            let base = chain(&text, &file.display().to_string(), &inner, sources, found, seen, span)?;
+            Some(read.node.over(base))
+        }
+    }
+}

@@ -1,0 +1,320 @@
+//! The language of documents: what the linked mechanisms and models allow to be written, composed once per program.
+
+mod compose;
+mod readable;
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+
+use crate::coefficients::COEFFICIENTS;
+use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, read_yaml, walk, walk_at, walk_shape};
+use crate::mechanism::Mechanism;
+use crate::mechanism::gear_drag::{GearDrag, Scope};
+use crate::mechanism::gear_mesh::GearMesh;
+use crate::mechanism::heat_dissipation::HeatDissipation;
+use crate::mechanism::planetary_drag::PlanetaryDrag;
+use crate::registry::{DocumentKind, Entry, Registry, inventory};
+use crate::resolve::CatalogueTable;
+
+/// Key of the mechanism that meshes hold.
+pub const MESHES: &str = GearMesh::KEY;
+/// Key of the mechanism that planetary sets hold.
+pub const SETS: &str = PlanetaryDrag::KEY;
+/// Mechanisms whose models sit in sections of the framework's own: section and key.
+pub const HELD: [(&str, &str); 2] = [("meshes", MESHES), ("planetary_sets", SETS)];
+/// Key of the mechanism that gears and meshes hold by name.
+pub const DRAGS: &str = GearDrag::KEY;
+
+/// Key of the mechanism that the thermal section holds by name.
+pub const HEAT: &str = HeatDissipation::KEY;
+/// Mechanisms of which models are chosen by name, several at a time.
+pub const NAMED: [&str; 2] = [DRAGS, HEAT];
+
+/// Section of the oils, which has catalogues as the sections of components do.
+pub const LUBRICANTS: &str = "lubricants";
+
+/// Name of the schema of a gearbox.
+const GEARBOX: &str = "gearbox";
+/// Name of the schema of a study, under which the crate of studies registers it.
+pub const STUDY: &str = "study";
+
+/// Kind of a document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A gearbox.
+    Gearbox,
+    /// A study.
+    Study,
+    /// Input of `eval`, which depends on the mechanism.
+    Eval,
+}
+
+/// Registry, schemas and catalogues of one program. Made once; everything that reads documents borrows it.
+pub struct Language {
+    registry: Registry,
+    published: BTreeMap<&'static str, Value>,
+    /// Schemas of the documents by name.
+    documents: BTreeMap<&'static str, Schema>,
+    catalogues: BTreeMap<&'static str, CatalogueTable>,
+    sets: BTreeMap<String, Value>,
+}
+
+impl Language {
+    /// The language of a registry.
+    ///
+    /// # Errors
+    /// Every construct of a schema that the walk cannot check, with mechanism, model and field; every fault of a linked
+    /// catalogue or set.
+    pub fn new(registry: Registry) -> Result<Self, Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        let mut published = BTreeMap::from([(GEARBOX, compose::gearbox(&registry))]);
+        for kind in inventory::iter::<DocumentKind> {
+            published.insert(kind.name, compose::document(&registry, kind.schema));
+        }
+        let documents: BTreeMap<&'static str, Schema> = published
+            .iter()
+            .filter_map(|(name, schema)| Some((*name, compiled(schema, &mut found)?)))
+            .collect();
+        let mut catalogues: BTreeMap<&'static str, CatalogueTable> = BTreeMap::new();
+        for section in registry.sections().map(|(_, s)| s.name).chain([LUBRICANTS]) {
+            for catalogue in registry.catalogues(section) {
+                match CatalogueTable::from_csv(catalogue.csv) {
+                    Ok(table) => {
+                        let known = catalogues.entry(section).or_default();
+                        if let Some(twice) = table.0.keys().find(|designation| known.0.contains_key(*designation)) {
+                            found.push(
+                                Diagnostic::error("", format!("two catalogues of {section} have a row `{twice}`"))
+                                    .note(format!("the later one is registered at {}", catalogue.origin))
+                                    .mend("leave it out of one, or state the values in the gearbox's own catalogue"),
+                            );
+                        }
+                        known.extend(table);
+                    }
+                    Err(reason) => found.push(
+                        Diagnostic::error("", format!("catalogue of {section}: {reason}"))
+                            .note(format!("registered at {}", catalogue.origin)),
+                    ),
+                }
+            }
+        }
+        if documents.len() < published.len() {
+            return Err(found);
+        }
+        let mut language = Self {
+            registry,
+            published,
+            documents,
+            catalogues,
+            sets: BTreeMap::new(),
+        };
+        for set in language.registry.shipped_sets().to_vec() {
+            match language.part_of_document(set.yaml, &format!("model_sets.{}", set.name)) {
+                Ok(value) => {
+                    language.sets.insert(set.name.to_owned(), value);
+                }
+                Err(more) => found.extend(
+                    more.into_iter()
+                        .map(|d| d.note(format!("in the set registered at {}", set.origin))),
+                ),
+            }
+        }
+        if found.is_empty() { Ok(language) } else { Err(found) }
+    }
+
+    /// The registry.
+    pub fn registry(&self) -> &Registry {
+        &self.registry
+    }
+
+    /// The published JSON Schema (draft-07) of a kind of document; for `eval` of one mechanism.
+    pub fn published(&self, kind: Kind) -> Value {
+        match kind {
+            Kind::Gearbox => self.published[GEARBOX].clone(),
+            Kind::Study => self.published[STUDY].clone(),
+            Kind::Eval => compose::eval(&self.registry),
+        }
+    }
+
+    /// Walks a gearbox.
+    pub fn walk_gearbox(&self, node: &Node) -> Walked {
+        walk(node, self.gearbox())
+    }
+
+    /// Walks a study.
+    ///
+    /// # Panics
+    /// If the crate that registers this kind of document is not linked.
+    pub fn walk_study(&self, node: &Node) -> Walked {
+        walk(node, &self.documents[STUDY])
+    }
+
+    fn gearbox(&self) -> &Schema {
+        &self.documents[GEARBOX]
+    }
+
+    /// Walks the input of `eval` for one mechanism: `model`, `part` and `at`.
+    ///
+    /// # Errors
+    /// If the schema of the mechanism cannot be compiled.
+    pub fn walk_eval(&self, mechanism: &str, node: &Node) -> Result<Walked, Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        match compiled(&compose::eval_of(&self.registry, mechanism), &mut found) {
+            Some(schema) => Ok(walk(node, &schema)),
+            None => Err(found),
+        }
+    }
+
+    /// Checks a value against the gearbox schema at a path; the value SI with defaults filled. Quantities may be texts with
+    /// a unit or numbers in the documented unit.
+    ///
+    /// # Errors
+    /// What the walk finds.
+    pub fn checked(&self, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
+        fine(walk_at(&Node::from_json(value), self.gearbox(), path))
+    }
+
+    /// As [`Language::checked`], for a path of a document at hand: where a model is on the way, the keys and ranges of its
+    /// `type` count, not those of other models.
+    ///
+    /// # Errors
+    /// What the walk finds.
+    pub fn checked_in(&self, document: &Value, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
+        // A new `type` is one of all, not the one that is there.
+        let shape = self
+            .shape_at(document, path)
+            .filter(|_| path.rsplit('.').next() != Some("type"));
+        match shape {
+            Some(shape) => fine(walk_shape(&Node::from_json(value), self.gearbox(), shape, path)),
+            None => self.checked(value, path),
+        }
+    }
+
+    /// True where a resolved document has a place for a path: the keys of a model are those of its `type`.
+    pub fn has_place(&self, document: &Value, path: &str) -> bool {
+        self.shape_at(document, path).is_some()
+    }
+
+    fn shape_at(&self, document: &Value, path: &str) -> Option<&Shape> {
+        let tag = |slot: &str| {
+            let slot = crate::resolve::lookup(document, slot)?;
+            slot.get("type").and_then(Value::as_str).map(str::to_owned)
+        };
+        self.gearbox().shape_at(path, tag)
+    }
+
+    /// Unit, least and greatest value of the number that a resolved document has at a path; absent where it is no number.
+    pub fn number_at(&self, document: &Value, path: &str) -> Option<(&'static Unit, f64, f64)> {
+        match self.shape_at(document, path)? {
+            Shape::Number {
+                unit,
+                least,
+                greatest,
+                whole: false,
+            } => Some((*unit, *least, *greatest)),
+            Shape::Either(shapes) => shapes.iter().find_map(|shape| match shape {
+                Shape::Number {
+                    unit,
+                    least,
+                    greatest,
+                    whole: false,
+                } => Some((*unit, *least, *greatest)),
+                _ => None,
+            }),
+            _ => None,
+        }
+    }
+
+    /// The published value of the coefficient of a model's formula that a resolved document has at a path; absent where the
+    /// path is no coefficient.
+    pub fn published_coefficient(&self, document: &Value, path: &str) -> Option<f64> {
+        let (record, name) = path.rsplit_once('.')?;
+        let (_, COEFFICIENTS) = record.rsplit_once('.')? else {
+            return None;
+        };
+        let Shape::Record(fields) = self.shape_at(document, record)? else {
+            return None;
+        };
+        let (_, field) = fields.iter().find(|(own, _)| own == name)?;
+        field.default.as_ref()?.as_f64()
+    }
+
+    /// A piece of YAML checked against the gearbox schema at a path.
+    ///
+    /// # Errors
+    /// What reading and the walk find.
+    pub fn part_of_document(&self, yaml: &str, path: &str) -> Result<Value, Vec<Diagnostic>> {
+        let read = read_yaml(0, yaml);
+        if !read.findings.is_empty() {
+            return Err(read.findings);
+        }
+        fine(walk_at(&read.node, self.gearbox(), path))
+    }
+
+    /// The resolved example of a model and the resolved example part of its mechanism.
+    ///
+    /// # Errors
+    /// What reading and the walk find in either.
+    pub fn example_of(&self, entry: &Entry) -> Result<(Value, Value), Vec<Diagnostic>> {
+        let mechanism = self.registry.mechanism(entry.mechanism);
+        let part = entry.part.unwrap_or_else(|| mechanism.map_or("{}", |m| m.example));
+        let indented = part
+            .trim()
+            .lines()
+            .fold(String::new(), |text, line| text + "\n  " + line);
+        let yaml = format!("model: {}\npart:{indented}\n", entry.example);
+        let read = read_yaml(0, &yaml);
+        if !read.findings.is_empty() {
+            return Err(read.findings);
+        }
+        let value = fine(self.walk_eval(entry.mechanism, &read.node)?)?;
+        Ok((value["model"].clone(), value["part"].clone()))
+    }
+
+    /// Sections whose entries have one model each, with the key of the mechanism.
+    pub fn sections(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.registry.sections().map(|(m, s)| (s.name, m.key)).chain(HELD)
+    }
+
+    /// The catalogue of a section.
+    pub fn catalogue(&self, section: &str) -> Option<&CatalogueTable> {
+        self.catalogues.get(section)
+    }
+
+    /// The sets of models that linked crates ship, walked.
+    pub fn shipped_sets(&self) -> &BTreeMap<String, Value> {
+        &self.sets
+    }
+
+    /// True where a drag model, as data, belongs to `gears` or to `meshes` by its scope.
+    pub fn fits_scope(&self, section: &str, model: &Value) -> bool {
+        let name = model.as_str().or_else(|| model["type"].as_str()).unwrap_or("none");
+        match self.registry.model(DRAGS, name).map(|entry| entry.scope) {
+            Some(Scope::Gear) => section == "gears",
+            Some(Scope::Mesh) => section == "meshes",
+            None => true,
+        }
+    }
+}
+
+fn compiled(schema: &Value, found: &mut Vec<Diagnostic>) -> Option<Schema> {
+    match Schema::compile(schema) {
+        Ok(schema) => Some(schema),
+        Err(unsupported) => {
+            found.extend(
+                unsupported
+                    .into_iter()
+                    .map(|u| Diagnostic::error("", format!("schema: {u}"))),
+            );
+            None
+        }
+    }
+}
+
+fn fine(walked: Walked) -> Result<Value, Vec<Diagnostic>> {
+    if walked.findings.is_empty() {
+        Ok(walked.value)
+    } else {
+        Err(walked.findings)
+    }
+}

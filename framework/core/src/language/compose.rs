@@ -1,0 +1,296 @@
+//! Puts the schemas of the framework, of mechanisms and of models together into one per kind of document.
+
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde_json::{Map, Value, json};
+
+use super::{HELD, NAMED};
+use crate::description::GearboxEntry;
+use crate::document::publish;
+use crate::registry::{MechanismEntry, Registry};
+
+/// The schema of a gearbox.
+pub(super) fn gearbox(registry: &Registry) -> Value {
+    let mut generator = generator();
+    let mut root = GearboxEntry::json_schema(&mut generator).to_value();
+    let sections: Vec<(&str, Value)> = registry
+        .sections()
+        .map(|(m, s)| (s.name, section(m, &(s.schemas)(&mut generator))))
+        .collect();
+    let properties = properties(&mut root);
+    for (name, schema) in sections {
+        properties.insert(name.to_owned(), schema);
+    }
+    properties.insert(
+        "models".to_owned(),
+        models(
+            registry,
+            &mut Map::new(),
+            "Model of every component that does not state its own, by mechanism.",
+        ),
+    );
+    properties.insert("model_sets".to_owned(), sets(registry));
+    let mut schema = finish(registry, generator, root);
+    // What a gearbox leaves out may stand in the one that it extends.
+    if let Some(object) = schema.as_object_mut()
+        && let Some(required) = object.shift_remove("required")
+    {
+        object.insert("if".to_owned(), json!({ "required": ["extends"] }));
+        object.insert("else".to_owned(), json!({ "required": required }));
+    }
+    schema
+}
+
+/// The schema of a document of another crate, which has model sets as a gearbox has them.
+pub(super) fn document(registry: &Registry, schema: fn(&mut SchemaGenerator) -> Schema) -> Value {
+    let mut generator = generator();
+    let mut root = schema(&mut generator).to_value();
+    properties(&mut root).insert("model_sets".to_owned(), sets(registry));
+    finish(registry, generator, root)
+}
+
+/// The schema of `eval` input, for all mechanisms.
+pub(super) fn eval(registry: &Registry) -> Value {
+    let mut generator = generator();
+    let variants: Vec<Value> = registry
+        .mechanisms()
+        .iter()
+        .map(|m| eval_record(m, &mut generator))
+        .collect();
+    let root = json!({ "title": "eval", "description": "Input of `gearloss eval`, by mechanism.", "anyOf": variants });
+    finish(registry, generator, root)
+}
+
+/// The schema of `eval` input for one mechanism.
+pub(super) fn eval_of(registry: &Registry, mechanism: &str) -> Value {
+    let mut generator = generator();
+    let root = match registry.mechanism(mechanism) {
+        Some(m) => eval_record(m, &mut generator),
+        None => json!({ "type": "object", "properties": {} }),
+    };
+    finish(registry, generator, root)
+}
+
+fn eval_record(mechanism: &MechanismEntry, generator: &mut SchemaGenerator) -> Value {
+    let mut at = Map::new();
+    for q in (mechanism.quantities)() {
+        at.insert(
+            q.name.to_owned(),
+            json!({ "type": "number", "description": q.doc.trim(), "minimum": q.least, "maximum": q.greatest }),
+        );
+    }
+    let part = (mechanism.part)(generator).to_value();
+    json!({
+        "type": "object",
+        "title": mechanism.key,
+        "description": format!("A {} model alone.", mechanism.key),
+        "properties": {
+            "model": { "$ref": format!("#/definitions/{}_model", mechanism.key) },
+            "part": part,
+            "at": {
+                "type": "object",
+                "description": "Quantities of the context; the others keep their usual value.",
+                "properties": at,
+                "default": {},
+            },
+        },
+    })
+}
+
+fn generator() -> SchemaGenerator {
+    SchemaSettings::draft07().into_generator()
+}
+
+fn properties(schema: &mut Value) -> &mut Map<String, Value> {
+    let object = schema.as_object_mut().expect("a record's schema is an object");
+    object
+        .entry("properties")
+        .or_insert_with(|| json!({}))
+        .as_object_mut()
+        .expect("properties are an object")
+}
+
+fn model_ref(key: &str) -> Value {
+    json!({ "$ref": format!("#/definitions/{key}_model") })
+}
+
+/// A section of components: place, part and what every component has, merged, and the slot of the model.
+fn section(mechanism: &MechanismEntry, schemas: &[Schema]) -> Value {
+    let mut fields = Map::new();
+    let mut required: Vec<Value> = Vec::new();
+    for schema in schemas {
+        let schema = schema.as_value();
+        if let Some(more) = schema.get("properties").and_then(Value::as_object) {
+            fields.extend(more.iter().map(|(k, v)| (k.clone(), v.clone())));
+        }
+        required.extend(
+            schema
+                .get("required")
+                .and_then(Value::as_array)
+                .into_iter()
+                .flatten()
+                .cloned(),
+        );
+    }
+    let mut slot = model_ref(mechanism.key);
+    slot["description"] = json!("Loss model; absent, that of `models`.");
+    fields.insert(
+        "model".to_owned(),
+        json!({ "allOf": [model_ref(mechanism.key)], "description": slot["description"] }),
+    );
+    json!({
+        "type": "object",
+        "description": mechanism.meaning,
+        "additionalProperties": { "type": "object", "description": mechanism.meaning, "properties": fields, "required": required },
+    })
+}
+
+/// A record with a slot for each mechanism that components choose a default of.
+fn models(registry: &Registry, fields: &mut Map<String, Value>, description: &str) -> Value {
+    for mechanism in registry.mechanisms() {
+        if NAMED.contains(&mechanism.key) {
+            let slots = json!({
+                "type": "object",
+                "description": format!("{} Models by name.", mechanism.meaning),
+                "additionalProperties": model_ref(mechanism.key),
+            });
+            fields.insert(mechanism.key.to_owned(), slots);
+        } else if mechanism.section.is_some() || HELD.iter().any(|(_, key)| *key == mechanism.key) {
+            let slot = json!({ "allOf": [model_ref(mechanism.key)], "description": mechanism.meaning });
+            fields.insert(mechanism.key.to_owned(), slot);
+        }
+    }
+    json!({ "type": "object", "description": description, "properties": fields })
+}
+
+fn sets(registry: &Registry) -> Value {
+    let mut fields = Map::new();
+    fields.insert(
+        "extends".to_owned(),
+        json!({ "type": "string", "description": "Set that this one takes over." }),
+    );
+    fields.insert(
+        "components".to_owned(),
+        json!({
+            "type": "object",
+            "description": "Models of single components by path, such as `bearings.B1.model`; `*` stands for one id.",
+            "x-keys": "path",
+            "additionalProperties": true,
+        }),
+    );
+    fields.insert(
+        "set".to_owned(),
+        json!({
+            "type": "object",
+            "description": "Values that belong to the set: resolved path to value. Those of the study's conditions win.",
+            "x-keys": "path",
+            "additionalProperties": true,
+        }),
+    );
+    let set = models(
+        registry,
+        &mut fields,
+        "A set of models; it takes the place of `models`.",
+    );
+    json!({ "type": "object", "description": "Sets of models to choose from, by name.", "additionalProperties": set })
+}
+
+/// Adds the definitions of all model slots and publishes the whole.
+fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) -> Value {
+    let mut definitions = Map::new();
+    for mechanism in registry.mechanisms() {
+        let mut variants = Vec::new();
+        for entry in registry.models(mechanism.key) {
+            let mut schema = (entry.schema)(&mut generator).to_value();
+            let object = schema.as_object_mut().expect("a model's parameters are a record");
+            object.insert("title".to_owned(), json!(entry.name));
+            object.entry("type").or_insert(json!("object"));
+            let fields = object.remove("properties").unwrap_or_else(|| json!({}));
+            let mut with_type = Map::new();
+            with_type.insert(
+                "type".to_owned(),
+                json!({ "const": entry.name, "description": entry.meaning() }),
+            );
+            with_type.extend(fields.as_object().cloned().unwrap_or_default());
+            object.insert("properties".to_owned(), Value::Object(with_type));
+            let mut required = vec![json!("type")];
+            required.extend(
+                object
+                    .remove("required")
+                    .and_then(|r| r.as_array().cloned())
+                    .into_iter()
+                    .flatten(),
+            );
+            object.insert("required".to_owned(), Value::Array(required));
+            variants.push(schema);
+        }
+        variants.push(json!({
+            "const": "none",
+            "description": "No loss.",
+            "errorMessage": "Expected a model, `{ type: NAME }` with its parameters, or `none`.",
+        }));
+        definitions.insert(
+            format!("{}_model", mechanism.key),
+            json!({ "description": mechanism.meaning, "oneOf": variants, "x-mechanism": mechanism.key }),
+        );
+    }
+    for (name, schema) in generator.take_definitions(true) {
+        definitions.insert(name, schema);
+    }
+    let object = root.as_object_mut().expect("a document's schema is an object");
+    object.insert("$schema".to_owned(), json!("http://json-schema.org/draft-07/schema#"));
+    object.insert("definitions".to_owned(), Value::Object(definitions));
+    flatten_tagged(&mut root);
+    let mut schema = Schema::try_from(root).expect("an object is a schema");
+    for transform in &mut SchemaSettings::draft07().transforms {
+        transform.transform(&mut schema);
+    }
+    publish(schema.to_value())
+}
+
+/// A variant of a tagged enum is its tag beside a reference to its record: puts both into one record, so that it can be
+/// closed.
+fn flatten_tagged(root: &mut Value) {
+    let Some(definitions) = root.get("definitions").and_then(Value::as_object).cloned() else {
+        return;
+    };
+    let Some(own) = root.get_mut("definitions").and_then(Value::as_object_mut) else {
+        return;
+    };
+    for schema in own.values_mut() {
+        for variant in schema
+            .get_mut("oneOf")
+            .and_then(Value::as_array_mut)
+            .into_iter()
+            .flatten()
+        {
+            let Some(variant) = variant.as_object_mut() else {
+                continue;
+            };
+            let reference = variant
+                .get("$ref")
+                .or_else(|| variant.get("allOf")?.get(0)?.get("$ref"));
+            let name = reference
+                .and_then(Value::as_str)
+                .and_then(|r| r.rsplit('/').next())
+                .map(str::to_owned);
+            let (true, Some(record)) = (
+                variant.contains_key("properties"),
+                name.and_then(|name| definitions.get(&name)),
+            ) else {
+                continue;
+            };
+            variant.shift_remove("$ref");
+            variant.shift_remove("allOf");
+            for key in ["properties", "required"] {
+                match (variant.get_mut(key), record.get(key)) {
+                    (Some(Value::Object(own)), Some(Value::Object(more))) => {
+                        own.extend(more.iter().map(|(k, v)| (k.clone(), v.clone())));
+                    }
+                    (Some(Value::Array(own)), Some(Value::Array(more))) => own.extend(more.iter().cloned()),
+                    _ => {}
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,409 @@
+//! Losses of an electric motor from a map over speed and torque.
+
+use gearloss_document::Ordered;
+use gearloss_document::data::cells::Form;
+use gearloss_document::data::sheet::{Sheet, Wanted, told};
+use gearloss_document::data::{MeasuredFault, fault};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::table::{Axis, Interpolation, Outside, Reading, Table, clamped};
+
+/// An electric motor that heats its rotor and its stator.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct MotorEntry {
+    /// CSV file, relative to this one: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
+    /// map for each temperature. Rows of negative torque are generating.
+    pub map: String,
+    /// Share of the losses that arises in the rotor.
+    #[serde(default)]
+    pub rotor_share: RotorShare,
+    /// Port that the motor drives.
+    #[serde(default = "input")]
+    pub port: String,
+    /// Node of the thermal network that is the rotor.
+    pub rotor: String,
+    /// Node of the thermal network that is the stator.
+    pub stator: String,
+}
+
+/// Share of the losses of a motor that arises in its rotor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum RotorShare {
+    /// The same at all speeds. [-]
+    One(#[schemars(range(min = 0.0, max = 1.0))] f64),
+    /// Over the speed: straight lines between the values, constant beyond.
+    Over(#[schemars(length(min = 1))] Vec<RotorShareAt>),
+}
+
+/// Share at a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RotorShareAt {
+    /// Speed of the motor; rises along the list. [rpm]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub speed: f64,
+    /// Share. [-]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub share: f64,
+}
+
+fn input() -> String {
+    "input".to_owned()
+}
+
+impl Default for RotorShare {
+    // Assumed: motors with magnets inside have 0.1 to 0.3, rising with speed.
+    fn default() -> Self {
+        Self::One(0.2)
+    }
+}
+
+impl RotorShare {
+    /// The share at a speed \[rad/s\] of either sign. \[-\]
+    ///
+    /// # Errors
+    /// If the speeds of the list do not rise.
+    pub fn at(&self, speed: f64) -> Result<f64, MeasuredFault> {
+        match self {
+            Self::One(share) => Ok(*share),
+            Self::Over(list) => {
+                if list.windows(2).any(|pair| pair[1].speed <= pair[0].speed) {
+                    return Err(fault("the speeds of `rotor_share` do not rise", "sort them"));
+                }
+                let speeds: Vec<f64> = list.iter().map(|s| s.speed).collect();
+                let shares: Vec<f64> = list.iter().map(|s| s.share).collect();
+                Ok(clamped(&speeds, &shares, speed.abs()))
+            }
+        }
+    }
+}
+
+/// A loss read from a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorLoss {
+    /// \[W\]
+    pub loss: f64,
+    /// True where speed, torque or temperature lie outside the map, whose end then holds.
+    pub outside: bool,
+}
+
+/// Losses over speed, torque and, where the file has it, temperature.
+///
+/// The loss is interpolated, not the efficiency, which has no value where no power flows. Below the slowest speed and the
+/// smallest torque the loss of the nearest node holds; so it does in corners that the motor does not reach, where the largest
+/// torque at that speed tells it. At standstill without torque the motor is off: there is no loss.
+#[derive(Debug, Clone)]
+pub struct MotorMap {
+    motoring: Quadrant,
+    /// Absent, generating loses what motoring does at the same torque.
+    generating: Option<Quadrant>,
+    /// How the file was understood, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// Nodes with torque of one sign.
+#[derive(Debug, Clone)]
+struct Quadrant {
+    table: Table,
+    /// Speeds and the largest torque at each that the file holds.
+    reach: (Vec<f64>, Vec<f64>),
+    /// First and last temperature, where the file has several.
+    temperatures: Option<(f64, f64)>,
+}
+
+/// One row; the torque without its sign.
+#[derive(Clone, Copy)]
+struct Node {
+    line: u64,
+    speed: f64,
+    torque: f64,
+    temperature: f64,
+    loss: f64,
+}
+
+const SPEED: usize = 0;
+const TORQUE: usize = 1;
+const EFFICIENCY: usize = 2;
+const LOSS: usize = 3;
+const TEMPERATURE: usize = 4;
+
+const QUANTITIES: [Wanted; 5] = [
+    ("speed", "rpm"),
+    ("torque", "Nm"),
+    ("efficiency", "-"),
+    ("loss", "W"),
+    ("temperature", "degC"),
+];
+
+/// How to mend a header.
+const COLUMNS: &str = "a map has columns `speed [rpm],torque [Nm],loss [W]`, or `efficiency [-]`";
+
+/// A grid with fewer of its nodes stated than this is none: speeds or torques of the rows differ where they should be equal.
+const LEAST_FILLED: f64 = 0.3;
+
+impl MotorMap {
+    /// Reads the bytes of a CSV file: `speed [rpm]`, `torque [Nm]`, `efficiency [-]` or `loss [W]`, and if wanted
+    /// `temperature [degC]`. The loss counts where both stand. Rows of an efficiency without speed or torque say nothing and
+    /// are left out.
+    ///
+    /// # Errors
+    /// What is wrong, with line and column.
+    pub fn read(bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
+        let none = Ordered::default();
+        let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, (&none, &none)).map_err(in_header)?;
+        let mut lacks = Vec::new();
+        for (place, what) in [(SPEED, "speed"), (TORQUE, "torque")] {
+            if !sheet.holds(place) {
+                lacks.push(lacking(&sheet, &format!("the {what}")));
+            }
+        }
+        if !sheet.holds(EFFICIENCY) && !sheet.holds(LOSS) {
+            lacks.push(lacking(&sheet, "the efficiency or the loss"));
+        }
+        if !lacks.is_empty() {
+            return Err(lacks);
+        }
+        let mut quadrants = [Vec::new(), Vec::new()];
+        let mut faulty = Vec::new();
+        let mut silent = 0;
+        for row in 0..sheet.table.rows.len() {
+            match node(&sheet, row) {
+                Ok(Some((node, generating))) => quadrants[usize::from(generating)].push(node),
+                Ok(None) => silent += 1,
+                Err(reason) => faulty.push(reason),
+            }
+        }
+        if !faulty.is_empty() {
+            return Err(told(faulty, "correct the cell, or leave the row out"));
+        }
+        let mut notes = sheet.notes.clone();
+        if silent > 0 {
+            notes.push(format!(
+                "{silent} rows without speed or torque left out: an efficiency tells no loss there"
+            ));
+        }
+        let [motoring, generating] = quadrants;
+        Ok(Self {
+            motoring: Quadrant::of(&motoring, "motoring").map_err(|f| vec![f])?,
+            generating: if generating.is_empty() {
+                notes.push("no negative torques: generating loses what motoring does at the same torque".to_owned());
+                None
+            } else {
+                Some(Quadrant::of(&generating, "generating").map_err(|f| vec![f])?)
+            },
+            notes,
+        })
+    }
+
+    /// True where the losses of motoring depend on the temperature.
+    pub fn has_temperature(&self) -> bool {
+        self.motoring.temperatures.is_some()
+    }
+
+    /// The loss at a speed \[rad/s\], a torque \[Nm\] and a temperature \[degC\], which a map without temperatures leaves aside.
+    /// Torque against the speed is generating. In a map with temperatures each quadrant holds those of its own rows.
+    pub fn loss(&self, speed: f64, torque: f64, temperature: f64) -> MotorLoss {
+        if speed == 0.0 && torque == 0.0 {
+            return MotorLoss {
+                loss: 0.0,
+                outside: false,
+            };
+        }
+        let generating = speed * torque < 0.0;
+        let quadrant = self
+            .generating
+            .as_ref()
+            .filter(|_| generating)
+            .unwrap_or(&self.motoring);
+        quadrant.loss(speed.abs(), torque.abs(), temperature)
+    }
+
+    /// The nodes of the motoring map that the file and its filled corners give: speed \[rad/s\], torque \[Nm\], temperature \[degC\]
+    /// where the map has it, and loss \[W\].
+    pub fn nodes(&self) -> Vec<(Vec<f64>, f64)> {
+        self.motoring.table.points()
+    }
+}
+
+/// A map has its units in the header: there is no other place to state them.
+fn in_header(faults: Vec<MeasuredFault>) -> Vec<MeasuredFault> {
+    let unit = |f: MeasuredFault| {
+        if f.mend.starts_with("state it") {
+            fault(f.message, COLUMNS)
+        } else {
+            f
+        }
+    };
+    faults.into_iter().map(unit).collect()
+}
+
+fn lacking(sheet: &Sheet, what: &str) -> MeasuredFault {
+    let missing = sheet.lacks(what, "");
+    fault(missing.message, COLUMNS)
+}
+
+/// A node and whether it is generating; none where an efficiency tells no loss.
+fn node(sheet: &Sheet, row: usize) -> Result<Option<(Node, bool)>, String> {
+    let speed = sheet.not_negative(row, SPEED)?.unwrap_or(0.0);
+    let torque = sheet.number(row, TORQUE)?.unwrap_or(0.0);
+    let power = (speed * torque).abs();
+    let loss = if sheet.holds(LOSS) {
+        sheet.not_negative(row, LOSS)?.unwrap_or(0.0)
+    } else {
+        let efficiency = sheet.number(row, EFFICIENCY)?.unwrap_or(1.0);
+        if power == 0.0 {
+            return Ok(None);
+        }
+        let least = if torque < 0.0 { 0.0 } else { 1e-3 };
+        if !(least..=1.0).contains(&efficiency) {
+            return Err(format!(
+                "{}: an efficiency of {efficiency}; it lies between 0 and 1, or 0 and 100 %",
+                sheet.at(row, EFFICIENCY)
+            ));
+        }
+        if torque < 0.0 {
+            power * (1.0 - efficiency)
+        } else {
+            power * (1.0 / efficiency - 1.0)
+        }
+    };
+    let node = Node {
+        line: sheet.line(row),
+        speed,
+        torque: torque.abs(),
+        temperature: sheet.number(row, TEMPERATURE)?.unwrap_or(0.0),
+        loss,
+    };
+    Ok(Some((node, torque < 0.0)))
+}
+
+/// The different values, rising.
+fn rising(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    // Products with the factor of a unit may differ in their last digit.
+    values.dedup_by(|b, a| (*b - *a).abs() <= 1e-9 * a.abs());
+    values
+}
+
+/// Place of a value among the different ones.
+fn place(values: &[f64], x: f64) -> usize {
+    let after = values.partition_point(|v| *v < x - 1e-9 * x.abs());
+    after.min(values.len() - 1)
+}
+
+impl Quadrant {
+    fn of(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
+        let speeds = rising(nodes.iter().map(|n| n.speed));
+        let torques = rising(nodes.iter().map(|n| n.torque));
+        let temperatures = rising(nodes.iter().map(|n| n.temperature));
+        if speeds.len() < 2 || torques.len() < 2 {
+            return Err(fault(
+                format!(
+                    "the {what} part has {} speeds and {} torques; a map needs two of each",
+                    speeds.len(),
+                    torques.len()
+                ),
+                "add rows",
+            ));
+        }
+        let (m, k) = (torques.len(), temperatures.len());
+        let count = speeds.len().saturating_mul(m).saturating_mul(k);
+        if (nodes.len() as f64) < LEAST_FILLED * count as f64 {
+            return Err(fault(
+                format!(
+                    "the {what} part has {} rows for {} speeds, {m} torques and {k} temperatures, which is no grid",
+                    nodes.len(),
+                    speeds.len()
+                ),
+                "write the same torques at each speed; leave out those that the motor does not reach",
+            ));
+        }
+        let mut cells: Vec<Option<Node>> = vec![None; count];
+        for node in nodes {
+            let (i, j) = (place(&speeds, node.speed), place(&torques, node.torque));
+            let cell = &mut cells[(i * m + j) * k + place(&temperatures, node.temperature)];
+            if let Some(first) = cell {
+                return Err(fault(
+                    format!(
+                        "line {}: this speed and torque stand already in line {}",
+                        node.line, first.line
+                    ),
+                    "leave one of them out",
+                ));
+            }
+            *cell = Some(*node);
+        }
+        let reach: Vec<f64> = (0..speeds.len())
+            .map(|i| {
+                let held = (0..m)
+                    .rev()
+                    .find(|j| (0..k).any(|t| cells[(i * m + j) * k + t].is_some()));
+                held.map_or(0.0, |j| torques[j])
+            })
+            .collect();
+        let values = filled(&cells, speeds.len(), m, k).map_err(|t| {
+            fault(
+                format!(
+                    "the {what} part has a speed without any row at {} degC",
+                    temperatures[t]
+                ),
+                "write the same speeds at each temperature",
+            )
+        })?;
+        let axis = |name: &str, unit: &str, values: &[f64]| Axis {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            values: values.to_vec(),
+        };
+        let mut axes = vec![axis("speed", "rad/s", &speeds), axis("torque", "Nm", &torques)];
+        if k > 1 {
+            axes.push(axis("temperature", "degC", &temperatures));
+        }
+        let reading = Reading {
+            outside: Outside::Clamp,
+            interpolation: Interpolation::Linear,
+            ..Reading::default()
+        };
+        let table = Table::from_grid(axes, values, &reading).map_err(|reason| fault(reason, "correct the map"))?;
+        Ok(Self {
+            table,
+            reach: (speeds, reach),
+            temperatures: (k > 1).then(|| (temperatures[0], temperatures[k - 1])),
+        })
+    }
+
+    fn loss(&self, speed: f64, torque: f64, temperature: f64) -> MotorLoss {
+        let point = [speed, torque, temperature];
+        // A clamped table is defined at every number; a number that is none counts as the map's begin.
+        let loss = self.table.value(&point[..self.table.axes().len()]).unwrap_or(0.0);
+        let (speeds, torques) = &self.reach;
+        let beyond = |x: f64, most: f64| x > most * (1.0 + 1e-9);
+        let outside = beyond(speed, speeds[speeds.len() - 1])
+            || beyond(torque, clamped(speeds, torques, speed))
+            || self
+                .temperatures
+                .is_some_and(|(first, last)| temperature < first || temperature > last);
+        MotorLoss { loss, outside }
+    }
+}
+
+/// Losses of all cells. An empty one takes that of the nearest smaller torque at its speed and temperature, or, below all, of
+/// the nearest larger one. The fault is the place of a temperature at which a speed has no row.
+fn filled(cells: &[Option<Node>], speeds: usize, torques: usize, temperatures: usize) -> Result<Vec<f64>, usize> {
+    let mut values = Vec::with_capacity(cells.len());
+    for i in 0..speeds {
+        for j in 0..torques {
+            for t in 0..temperatures {
+                let at = |j: usize| cells[(i * torques + j) * temperatures + t];
+                let node = (0..=j).rev().find_map(at).or_else(|| (j..torques).find_map(at));
+                values.push(node.ok_or(t)?.loss);
+            }
+        }
+    }
+    Ok(values)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,654 @@
+//! The registry: every linked mechanism, model and catalogue, found without a line anywhere else.
+//!
+//! Entries are not generic, because an outside crate could not collect a generic entry for its own mechanism. Each holds an
+//! erased build function, which is downcast once per resolve.
+
+mod build;
+mod placed;
+mod recipe;
+mod slot;
+
+use std::any::Any;
+
+use schemars::{Schema, SchemaGenerator};
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+pub use build::{Build, Files, Instance};
+pub(crate) use placed::sealed::Sealed;
+pub use placed::{Common, Placed, Section};
+pub use recipe::NetworkRecipe;
+pub use slot::{ModelRef, NamedSlots, Slot};
+
+use crate::conformance;
+use crate::document::{Diagnostic, did_you_mean};
+use crate::eval::{self, Evaluated};
+use crate::generic;
+use crate::loss::{Limit, Observed, Term};
+use crate::mechanism::gear_drag::Scope;
+use crate::mechanism::{Component, Mechanism, QuantityDoc};
+
+pub use inventory;
+
+/// A crate that registers something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+pub struct Package {
+    /// Name as in its Cargo.toml.
+    pub name: &'static str,
+    /// Version as in its Cargo.toml.
+    pub version: &'static str,
+}
+
+impl std::fmt::Display for Package {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", self.name, self.version)
+    }
+}
+
+/// Crate, file and line of a registration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Origin {
+    /// The crate.
+    pub package: Package,
+    /// Its file, as the compiler was told it.
+    pub file: &'static str,
+    /// Line in the file.
+    pub line: u32,
+}
+
+impl std::fmt::Display for Origin {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}, {}:{}", self.package, self.file, self.line)
+    }
+}
+
+/// The place of the invocation.
+#[macro_export]
+macro_rules! origin {
+    () => {
+        $crate::registry::Origin {
+            package: $crate::registry::Package {
+                name: env!("CARGO_PKG_NAME"),
+                version: env!("CARGO_PKG_VERSION"),
+            },
+            file: file!(),
+            line: line!(),
+        }
+    };
+}
+
+/// How well a formula, a default value or an option is known; the weakest comes last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Evidence {
+    /// Several independent sources agree.
+    SeveralSources,
+    /// Derived and checked numerically.
+    Derived,
+    /// One source.
+    OneSource,
+    /// The user's own value.
+    User,
+    /// From memory of a source that was not at hand.
+    Recalled,
+    /// Put together from parts of sources.
+    Reconstructed,
+    /// Sources disagree.
+    Disputed,
+    /// An assumption.
+    Assumed,
+}
+
+impl Evidence {
+    /// Name in documents and options.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SeveralSources => "several_sources",
+            Self::Derived => "derived",
+            Self::OneSource => "one_source",
+            Self::User => "user",
+            Self::Recalled => "recalled",
+            Self::Reconstructed => "reconstructed",
+            Self::Disputed => "disputed",
+            Self::Assumed => "assumed",
+        }
+    }
+
+    /// The grade of a name.
+    pub fn of_name(name: &str) -> Option<Self> {
+        [
+            Self::SeveralSources,
+            Self::Derived,
+            Self::OneSource,
+            Self::User,
+            Self::Recalled,
+            Self::Reconstructed,
+            Self::Disputed,
+            Self::Assumed,
+        ]
+        .into_iter()
+        .find(|grade| grade.name() == name)
+    }
+}
+
+/// The grade of one thing in a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Graded {
+    /// Key of the parameter whose default is graded; empty for the formula itself. A written parameter is graded `user`.
+    pub key: &'static str,
+    /// The grade.
+    pub grade: Evidence,
+    /// What it rests on.
+    pub because: &'static str,
+}
+
+/// Grade of a model's formula.
+pub const fn formula(grade: Evidence, because: &'static str) -> Graded {
+    Graded {
+        key: "",
+        grade,
+        because,
+    }
+}
+
+/// Grade of the default of one parameter.
+pub const fn default_of(key: &'static str, grade: Evidence, because: &'static str) -> Graded {
+    Graded { key, grade, because }
+}
+
+/// An `Arc<M::Model>` in disguise.
+pub type Built = Box<dyn Any + Send + Sync>;
+
+/// One model.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// Key of the mechanism.
+    pub mechanism: &'static str,
+    /// Name in documents.
+    pub name: &'static str,
+    /// Primary source.
+    pub source: &'static str,
+    /// A valid `model:` record, in YAML flow style.
+    pub example: &'static str,
+    /// A part that the example is made for, in YAML; absent, that of the mechanism.
+    pub part: Option<&'static str>,
+    /// Files that the example names, with their text.
+    pub files: &'static [(&'static str, &'static str)],
+    /// Ranges in which the source states the formula to hold.
+    pub limits: &'static [Limit],
+    /// Named shares of the answer.
+    pub terms: &'static [Term],
+    /// Quantities that the reader may look at.
+    pub observed: &'static [Observed],
+    /// How well formula and defaults are known.
+    pub evidence: &'static [Graded],
+    /// Whether a drag model is asked once for each gear or once for each mesh; without meaning for other mechanisms.
+    pub scope: Scope,
+    /// False for a mesh model that serves any pair of gears and looks at no tooth; without meaning for other mechanisms.
+    pub geometry: bool,
+    /// Where it is registered.
+    pub origin: Origin,
+    /// Schema of the parameters.
+    pub schema: fn(&mut SchemaGenerator) -> Schema,
+    /// Builds the model from the resolved parameters.
+    pub build: fn(&Value, &mut Build<'_>) -> Result<Built, Diagnostic>,
+}
+
+inventory::collect!(Entry);
+
+impl Entry {
+    /// Keys of the models that this one cannot do without, each with its mechanism: `tooth_friction` of a mesh model. Read from the schema
+    /// of the parameters, where the slot of a model is a reference to the models of its mechanism.
+    pub fn required_slots(&self) -> Vec<(String, String)> {
+        let schema = (self.schema)(&mut SchemaGenerator::default()).to_value();
+        let is_required = |key: &String| {
+            let required = schema.get("required").and_then(Value::as_array);
+            required.is_some_and(|list| list.iter().any(|own| own.as_str() == Some(key)))
+        };
+        let mechanism = |record: &Value| {
+            let reference = record
+                .get("$ref")
+                .or_else(|| record.pointer("/allOf/0/$ref"))?
+                .as_str()?;
+            let name = reference.strip_prefix("#/definitions/")?.strip_suffix("_model")?;
+            Some(name.to_owned())
+        };
+        let keys = schema.get("properties").and_then(Value::as_object);
+        let slots = keys.into_iter().flatten().filter(|(key, _)| is_required(key));
+        slots
+            .filter_map(|(key, record)| Some((key.clone(), mechanism(record)?)))
+            .collect()
+    }
+
+    /// What it is, as a sentence: the first paragraph of the doc comment of its parameters.
+    pub fn meaning(&self) -> String {
+        let schema = (self.schema)(&mut SchemaGenerator::default());
+        let doc = schema.get("description").and_then(Value::as_str).unwrap_or_default();
+        doc.split("\n\n").next().unwrap_or_default().replace('\n', " ")
+    }
+}
+
+/// One mechanism, without its types.
+#[derive(Clone, Copy)]
+pub struct MechanismEntry {
+    /// Name in documents.
+    pub key: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// What its models answer, with unit.
+    pub answer: &'static str,
+    /// A part in YAML.
+    pub example: &'static str,
+    /// Where it is registered.
+    pub origin: Origin,
+    /// Section of its parts, where it has one.
+    pub section: Option<Section>,
+    /// The quantities of its context.
+    pub quantities: fn() -> Vec<QuantityDoc>,
+    /// The laws between them, as one writes them.
+    pub laws: fn() -> Vec<&'static str>,
+    /// `none`, `constant`, `formula` and `table` for this mechanism.
+    pub generics: fn() -> Vec<Entry>,
+    /// Schema of a part.
+    pub part: fn(&mut SchemaGenerator) -> Schema,
+    /// Evaluates a model alone: resolved model, part and quantities in their documented units.
+    pub eval: fn(&Registry, &Files, &Value, &Value, &Map<String, Value>) -> Result<Evaluated, Diagnostic>,
+    /// What the conformance suite finds wrong with a model on a part.
+    pub conform: fn(&Registry, &Files, &Entry, &Value, &Value) -> Vec<String>,
+}
+
+inventory::collect!(MechanismEntry);
+
+impl MechanismEntry {
+    /// The entry of a mechanism without a section of its own.
+    pub const fn of<M: Mechanism>(origin: Origin) -> Self {
+        Self {
+            key: M::KEY,
+            meaning: M::MEANING,
+            answer: M::ANSWER,
+            example: M::EXAMPLE,
+            origin,
+            section: None,
+            quantities: quantities::<M>,
+            laws: || M::LAWS.iter().map(|law| law.text).collect(),
+            generics: generic::entries::<M>,
+            part: |generator| <M::Part as schemars::JsonSchema>::json_schema(generator),
+            eval: eval::eval::<M>,
+            conform: conformance::conform::<M>,
+        }
+    }
+
+    /// The entry of a mechanism whose parts have a section.
+    pub const fn component<C: Component>(origin: Origin) -> Self {
+        Self {
+            section: Some(Section::of::<C>()),
+            ..Self::of::<C>(origin)
+        }
+    }
+}
+
+fn quantities<M: Mechanism>() -> Vec<QuantityDoc> {
+    M::QUANTITIES
+        .iter()
+        .map(|q| QuantityDoc {
+            name: q.name,
+            doc: q.doc,
+            usual: q.usual,
+            least: q.least,
+            greatest: q.greatest,
+            from: q.from,
+        })
+        .collect()
+}
+
+/// A catalogue: values that fill the absent keys of a component by its designation.
+#[derive(Debug, Clone, Copy)]
+pub struct Catalogue {
+    /// Section whose components it fills.
+    pub section: &'static str,
+    /// CSV text: `designation`, then keys of the section with their unit in the header, then `confidence` and `basis`.
+    pub csv: &'static str,
+    /// Where it comes from and under which licence.
+    pub source: &'static str,
+    /// Where it is registered.
+    pub origin: Origin,
+}
+
+inventory::collect!(Catalogue);
+
+/// A set of models that a crate ships by name.
+#[derive(Debug, Clone, Copy)]
+pub struct ShippedSet {
+    /// Name in `--models` and in studies.
+    pub name: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// The set in YAML, as under `model_sets`.
+    pub yaml: &'static str,
+    /// Where it is registered.
+    pub origin: Origin,
+}
+
+inventory::collect!(ShippedSet);
+
+/// A driving cycle that a crate ships by name.
+#[derive(Debug, Clone, Copy)]
+pub struct ShippedCycle {
+    /// Name in studies.
+    pub name: &'static str,
+    /// CSV text: `time [s],speed [km/h]`, the vehicle's speed.
+    pub csv: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+    /// Where it is registered.
+    pub origin: Origin,
+}
+
+inventory::collect!(ShippedCycle);
+
+/// A kind of document that another crate reads along a schema of its own, such as a study.
+#[derive(Debug, Clone, Copy)]
+pub struct DocumentKind {
+    /// Name of its schema.
+    pub name: &'static str,
+    /// The schema, without the model sets that such a document may hold.
+    pub schema: fn(&mut SchemaGenerator) -> Schema,
+}
+
+inventory::collect!(DocumentKind);
+
+/// All mechanisms and models at hand, in the order of their names.
+#[derive(Clone)]
+pub struct Registry {
+    mechanisms: Vec<MechanismEntry>,
+    models: Vec<Entry>,
+    catalogues: Vec<Catalogue>,
+    sets: Vec<ShippedSet>,
+    cycles: Vec<ShippedCycle>,
+    recipes: Vec<NetworkRecipe>,
+}
+
+impl Registry {
+    /// Everything that is linked into the program.
+    ///
+    /// # Errors
+    /// If nothing is linked, or two entries have one name; each error names modules and lines.
+    pub fn linked() -> Result<Self, Vec<Diagnostic>> {
+        Self::of(
+            inventory::iter::<MechanismEntry>().copied(),
+            inventory::iter::<Entry>().copied(),
+            inventory::iter::<Catalogue>().copied(),
+            inventory::iter::<ShippedSet>().copied(),
+        )?
+        .with_recipes(inventory::iter::<NetworkRecipe>().copied())
+        .with_cycles(inventory::iter::<ShippedCycle>().copied())
+    }
+
+    /// The same with recipes for thermal networks.
+    pub fn with_recipes(mut self, recipes: impl IntoIterator<Item = NetworkRecipe>) -> Self {
+        self.recipes.extend(recipes);
+        self.recipes
+            .sort_by_key(|r| (r.origin.package, r.origin.file, r.origin.line));
+        self
+    }
+
+    /// The same with driving cycles.
+    ///
+    /// # Errors
+    /// If two cycles have one name; each error names modules and lines.
+    pub fn with_cycles(mut self, cycles: impl IntoIterator<Item = ShippedCycle>) -> Result<Self, Vec<Diagnostic>> {
+        self.cycles.extend(cycles);
+        self.cycles
+            .sort_by_key(|c| (c.name, c.origin.package, c.origin.file, c.origin.line));
+        let found: Vec<_> = self
+            .cycles
+            .windows(2)
+            .filter(|pair| pair[0].name == pair[1].name)
+            .map(|pair| twice("cycle", pair[0].name, pair[0].origin, pair[1].origin))
+            .collect();
+        if found.is_empty() { Ok(self) } else { Err(found) }
+    }
+
+    /// A registry of the given entries, for tests and for programs that choose.
+    ///
+    /// # Errors
+    /// As [`Registry::linked`].
+    pub fn of(
+        mechanisms: impl IntoIterator<Item = MechanismEntry>,
+        models: impl IntoIterator<Item = Entry>,
+        catalogues: impl IntoIterator<Item = Catalogue>,
+        sets: impl IntoIterator<Item = ShippedSet>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let mut mechanisms: Vec<_> = mechanisms.into_iter().collect();
+        mechanisms.sort_by_key(|m| (m.key, m.origin.package, m.origin.file, m.origin.line));
+        let mut models: Vec<Entry> = models.into_iter().collect();
+        let mut found = Vec::new();
+        if models.is_empty() {
+            found.push(Diagnostic::error("", "no loss model is linked into this program").mend(
+                "add a crate with models to the program, such as gearloss-plugins, and write `use gearloss_plugins as _;` once",
+            ));
+        }
+        for mechanism in &mechanisms {
+            models.extend((mechanism.generics)());
+        }
+        models.sort_by_key(|m| (m.mechanism, m.name, m.origin.package, m.origin.file, m.origin.line));
+        for pair in mechanisms.windows(2) {
+            if pair[0].key == pair[1].key {
+                found.push(twice("mechanism", pair[0].key, pair[0].origin, pair[1].origin));
+            }
+        }
+        for pair in models.windows(2) {
+            // Two mechanisms of one key bring their generic models twice, which needs no words of its own.
+            let clear = mechanisms.iter().filter(|m| m.key == pair[0].mechanism).count() < 2;
+            if clear && (pair[0].mechanism, pair[0].name) == (pair[1].mechanism, pair[1].name) {
+                let what = format!("{} model", pair[0].mechanism);
+                found.push(twice(&what, pair[0].name, pair[0].origin, pair[1].origin));
+            }
+        }
+        for model in &models {
+            if !mechanisms.iter().any(|m| m.key == model.mechanism) {
+                found.push(
+                    Diagnostic::error(
+                        "",
+                        format!(
+                            "model `{}` belongs to the unknown mechanism `{}`",
+                            model.name, model.mechanism
+                        ),
+                    )
+                    .note(format!("registered at {}", model.origin))
+                    .mend("register the mechanism with `register_mechanism!` or `register_component!`"),
+                );
+            }
+        }
+        let mut sets: Vec<_> = sets.into_iter().collect();
+        sets.sort_by_key(|s| (s.name, s.origin.package, s.origin.file, s.origin.line));
+        for pair in sets.windows(2) {
+            if pair[0].name == pair[1].name {
+                found.push(twice("set of models", pair[0].name, pair[0].origin, pair[1].origin));
+            }
+        }
+        let mut catalogues: Vec<_> = catalogues.into_iter().collect();
+        catalogues.sort_by_key(|c| (c.section, c.origin.package, c.origin.file, c.origin.line));
+        if found.is_empty() {
+            Ok(Self {
+                mechanisms,
+                models,
+                catalogues,
+                sets,
+                cycles: Vec::new(),
+                recipes: Vec::new(),
+            })
+        } else {
+            Err(found)
+        }
+    }
+
+    /// The mechanisms.
+    pub fn mechanisms(&self) -> &[MechanismEntry] {
+        &self.mechanisms
+    }
+
+    /// One mechanism by its key.
+    pub fn mechanism(&self, key: &str) -> Option<&MechanismEntry> {
+        self.mechanisms.iter().find(|m| m.key == key)
+    }
+
+    /// The models of a mechanism.
+    pub fn models<'a>(&'a self, mechanism: &'a str) -> impl Iterator<Item = &'a Entry> {
+        self.models.iter().filter(move |m| m.mechanism == mechanism)
+    }
+
+    /// One model.
+    pub fn model(&self, mechanism: &str, name: &str) -> Option<&Entry> {
+        self.models.iter().find(|m| m.mechanism == mechanism && m.name == name)
+    }
+
+    /// One mechanism by the key that somebody wrote.
+    ///
+    /// # Errors
+    /// If there is none; names those that there are, or a close one.
+    pub fn mechanism_named(&self, key: &str) -> Result<&MechanismEntry, Diagnostic> {
+        self.mechanism(key).ok_or_else(|| {
+            let names: Vec<&str> = self.mechanisms.iter().map(|m| m.key).collect();
+            missing(format!("no mechanism is called `{key}`"), key, &names)
+        })
+    }
+
+    /// One model of a mechanism by the name that somebody wrote.
+    ///
+    /// # Errors
+    /// As [`Registry::mechanism_named`].
+    pub fn model_named(&self, mechanism: &str, name: &str) -> Result<&Entry, Diagnostic> {
+        self.model(mechanism, name).ok_or_else(|| {
+            let names: Vec<&str> = self.models(mechanism).map(|m| m.name).collect();
+            missing(format!("no {mechanism} model is called `{name}`"), name, &names)
+        })
+    }
+
+    /// The mechanisms that have a section of their own.
+    pub fn sections(&self) -> impl Iterator<Item = (&MechanismEntry, &Section)> {
+        self.mechanisms
+            .iter()
+            .filter_map(|m| m.section.as_ref().map(|s| (m, s)))
+    }
+
+    /// The catalogues of a section.
+    pub fn catalogues<'a>(&'a self, section: &'a str) -> impl Iterator<Item = &'a Catalogue> {
+        self.catalogues.iter().filter(move |c| c.section == section)
+    }
+
+    /// The sets of models that linked crates ship.
+    pub fn shipped_sets(&self) -> &[ShippedSet] {
+        &self.sets
+    }
+
+    /// The driving cycles that linked crates ship, in the order of their names.
+    pub fn cycles(&self) -> &[ShippedCycle] {
+        &self.cycles
+    }
+
+    /// One driving cycle by its name.
+    pub fn cycle(&self, name: &str) -> Option<&ShippedCycle> {
+        self.cycles.iter().find(|c| c.name == name)
+    }
+
+    /// The recipe that lays out thermal networks.
+    ///
+    /// # Errors
+    /// Where no crate ships one, or two do.
+    pub fn network_recipe(&self) -> Result<&NetworkRecipe, Diagnostic> {
+        recipe::only(&self.recipes)
+    }
+
+    /// Crates that registered something, in the order of their names.
+    pub fn packages(&self) -> Vec<Package> {
+        let models = self.models.iter().map(|m| m.origin);
+        let mut packages: Vec<Package> = models
+            .chain(self.mechanisms.iter().map(|m| m.origin))
+            .chain(self.catalogues.iter().map(|c| c.origin))
+            .chain(self.sets.iter().map(|s| s.origin))
+            .chain(self.cycles.iter().map(|c| c.origin))
+            .chain(self.recipes.iter().map(|r| r.origin))
+            .map(|origin| origin.package)
+            .collect();
+        packages.sort_unstable();
+        packages.dedup();
+        packages
+    }
+}
+
+fn missing(message: String, name: &str, names: &[&str]) -> Diagnostic {
+    Diagnostic::error("", message).mend(match did_you_mean(name, names.iter().copied()) {
+        Some(close) => format!("write {close}"),
+        None => format!("name one of {}", names.join(", ")),
+    })
+}
+
+fn twice(what: &str, name: &str, one: Origin, other: Origin) -> Diagnostic {
+    Diagnostic::error("", format!("two registrations of the {what} `{name}`"))
+        .note(format!("one at {one}, the other at {other}"))
+        .mend("rename one of them")
+}
+
+/// Reads a struct from a resolved value, which cannot fail but for a bug. `type` is the framework's key, not the model's.
+pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json::Error> {
+    let fields = value
+        .as_object()
+        .into_iter()
+        .flatten()
+        .filter(|(key, _)| *key != "type")
+        .map(|(key, value)| (key.as_str(), value));
+    T::deserialize(serde::de::value::MapDeserializer::new(fields))
+}
+
+/// Registers a mechanism that has no section of its own.
+#[macro_export]
+macro_rules! register_mechanism {
+    ($M:ty) => {
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::of::<$M>($crate::origin!()) }
+    };
+}
+
+/// Registers a mechanism with its section.
+#[macro_export]
+macro_rules! register_component {
+    ($C:ty) => {
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::component::<$C>($crate::origin!()) }
+    };
+}
+
+/// Registers a model: mechanism, name in documents, parameters, then its head. What the model is stands in the doc comment of
+/// its parameters. Without `prepare` the parameters are the model; with it, `prepare(parameters, &mut Build)` makes the model.
+#[macro_export]
+macro_rules! register {
+    ($M:ty, $name:literal, $Params:ty,
+        source: $source:expr, example: $example:expr, $(part: $part:expr,)? $(files: [$($file:expr),* $(,)?],)?
+        evidence: [$($graded:expr),* $(,)?]
+        $(, limits: [$($limit:expr),* $(,)?])? $(, terms: [$($term:expr),* $(,)?])? $(, observed: [$($observed:expr),* $(,)?])?
+        $(, scope: $scope:expr)? $(, geometry: $geometry:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
+        $crate::registry::inventory::submit! {
+            $crate::registry::Entry {
+                mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: $example, part: $crate::register!(@part $($part)?), files: &[$($($file),*)?], evidence: &[$($graded),*],
+                limits: &[$($($limit),*)?], terms: &[$($($term),*)?], observed: &[$($($observed),*)?],
+                scope: $crate::register!(@scope $($scope)?),
+                geometry: $crate::register!(@geometry $($geometry)?),
+                origin: $crate::origin!(),
+                schema: |generator| <$Params as $crate::schemars::JsonSchema>::json_schema(generator),
+                build: |value, cx| {
+                    let params: $Params = cx.params(value)?;
+                    let model = $crate::register!(@model params, cx $(, $prepare)?);
+                    let model: ::std::sync::Arc<<$M as $crate::mechanism::Mechanism>::Model> = ::std::sync::Arc::new(model);
+                    Ok(Box::new(model))
+                },
+            }
+        }
+    };
+    (@part) => { None };
+    (@part $part:expr) => { Some($part) };
+    (@scope) => { $crate::mechanism::gear_drag::Scope::Gear };
+    (@scope $scope:expr) => { $scope };
+    (@geometry) => { true };
+    (@geometry $geometry:expr) => { $geometry };
+    (@model $params:ident, $cx:ident) => { $params };
+    (@model $params:ident, $cx:ident, $prepare:expr) => { $prepare($params, $cx)? };
+}

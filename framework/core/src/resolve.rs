@@ -1,0 +1,351 @@
+//! From the walked description to the resolved one: still pure data with paths.
+//!
+//! Every component gets its own model, catalogue values and defaults; `models` and `model_sets` are gone afterwards. A
+//! written path is an override of this document, so a change is: write it, resolve again, build again.
+
+mod catalogue;
+mod choice;
+mod designation;
+mod network;
+mod paths;
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value};
+
+pub use catalogue::{CatalogueRow, CatalogueTable, without_suffix};
+pub use choice::{Choice, ModelSet, OWN_MODELS, called_own, expand_set, sets_of};
+pub use paths::{lookup, matches};
+
+pub use paths::{meets, no_match};
+
+use crate::document::{Diagnostic, did_you_mean};
+use crate::language::{DRAGS, HEAT, Language};
+use crate::registry::Files;
+
+/// Where a value of the resolved document comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Came {
+    /// Written in the document, or the default of a key that was not written; the places of the walk tell which.
+    Document,
+    /// From a catalogue.
+    Catalogue {
+        /// Designation of the row.
+        designation: String,
+        /// The row's confidence.
+        confidence: String,
+    },
+    /// From `models`, by mechanism.
+    Models,
+    /// From a set of models.
+    Set(String),
+    /// From `surface` of the gearbox.
+    Surface,
+    /// From the recipe behind `network: auto`.
+    Network,
+    /// From an override.
+    Override,
+}
+
+/// The resolved document.
+#[derive(Debug, Clone)]
+pub struct Resolved {
+    /// SI, total, plain data.
+    pub value: Value,
+    /// Where values come from, by path; a path stands for everything below it. What is not listed comes from the document.
+    pub came: BTreeMap<String, Came>,
+    /// Models of the set in use that no component took, because each has its own or there is none.
+    pub unreached: Vec<String>,
+    /// Components that nobody chose a model for, not even `none`: they count no loss. One line for each section.
+    pub without: Vec<String>,
+}
+
+impl Resolved {
+    /// Where the value at a path comes from.
+    pub fn came(&self, path: &str) -> &Came {
+        let mut end = path.len();
+        loop {
+            if let Some(came) = self.came.get(&path[..end]) {
+                return came;
+            }
+            match path[..end].rfind('.') {
+                Some(dot) => end = dot,
+                None => return &Came::Document,
+            }
+        }
+    }
+}
+
+/// Resolves a walked description with a set of models and overrides.
+///
+/// # Errors
+/// All findings at once: unknown designations, sets that do not exist, overrides that meet nothing or do not fit.
+pub fn resolve(
+    language: &Language,
+    files: &Files,
+    walked: &Value,
+    choice: &Choice,
+) -> Result<Resolved, Vec<Diagnostic>> {
+    let mut found = Vec::new();
+    let mut value = walked.clone();
+    let mut came = BTreeMap::new();
+    let mut unreached = Vec::new();
+
+    let set = match &choice.set {
+        Some(name) => choice::find(language, &value, &choice.sets, name, &mut found).map(|set| (name.clone(), set)),
+        None => None,
+    };
+    let of_set = set.iter().flat_map(|(_, set)| &set.changes);
+    let (first, later): (Vec<_>, Vec<_>) = own_overrides(&value)
+        .into_iter()
+        .chain(of_set.map(|(path, value, _)| (path.clone(), value.clone())))
+        .chain(choice.overrides.iter().cloned())
+        .partition(|(path, _)| path.ends_with(".designation"));
+    apply(language, &mut value, &first, &mut came, &mut found);
+    catalogue::fill(language, files, &mut value, &mut came, &mut found);
+    surfaces(&mut value, &mut came);
+
+    let own = value.get("models").cloned().unwrap_or(Value::Null);
+    let without = give_models(language, &mut value, &own, set.as_ref(), &mut came, &mut unreached);
+    if let Some(document) = value.as_object_mut() {
+        for key in ["models", "model_sets", "extends", "set"] {
+            document.shift_remove(key);
+        }
+    }
+    // A network that is laid out sees all other changes, and those inside it change what was laid out.
+    let (inside, later): (Vec<_>, Vec<_>) = later.into_iter().partition(|(path, _)| network::meets_inside(path));
+    apply(language, &mut value, &later, &mut came, &mut found);
+    if network::expand(language, &mut value, &mut came, &mut found) {
+        apply(language, &mut value, &inside, &mut came, &mut found);
+    }
+    if found.is_empty() {
+        Ok(Resolved {
+            value,
+            came,
+            unreached,
+            without,
+        })
+    } else {
+        Err(found)
+    }
+}
+
+/// Overrides that the document itself states beside `extends`.
+fn own_overrides(value: &Value) -> Vec<(String, Value)> {
+    let set = value.get("set").and_then(Value::as_object);
+    set.into_iter()
+        .flatten()
+        .map(|(path, value)| (path.clone(), value.clone()))
+        .collect()
+}
+
+fn surfaces(value: &mut Value, came: &mut BTreeMap<String, Came>) {
+    let Some(surface) = value.get("surface").filter(|s| s.is_object()).cloned() else {
+        return;
+    };
+    for (id, gear) in entries_mut(value, "gears") {
+        if gear.get("surface").is_none_or(Value::is_null) {
+            gear.insert("surface".to_owned(), surface.clone());
+            came.insert(format!("gears.{id}.surface"), Came::Surface);
+        }
+    }
+}
+
+fn entries_mut<'a>(
+    value: &'a mut Value,
+    section: &str,
+) -> impl Iterator<Item = (&'a String, &'a mut Map<String, Value>)> + use<'a> {
+    value
+        .get_mut(section)
+        .and_then(Value::as_object_mut)
+        .into_iter()
+        .flatten()
+        .filter_map(|(id, entry)| entry.as_object_mut().map(|entry| (id, entry)))
+}
+
+fn absent(entry: &Map<String, Value>, key: &str) -> bool {
+    entry.get(key).is_none_or(Value::is_null)
+}
+
+/// Gives every component its model: its own, the set's where the set names the component, the set's default, the
+/// gearbox's default, or `none`. Says which have none that anybody chose.
+fn give_models(
+    language: &Language,
+    value: &mut Value,
+    own: &Value,
+    set: Option<&(String, ModelSet)>,
+    came: &mut BTreeMap<String, Came>,
+    unreached: &mut Vec<String>,
+) -> Vec<String> {
+    let mut without = Vec::new();
+    let named = |path: &str| set.and_then(|(name, s)| s.named(path).map(|model| (name, model)));
+    let default_of = |key: &str| -> Option<(Value, Came)> {
+        match set {
+            Some((name, s)) if s.models.contains_key(key) => Some((s.models[key].clone(), Came::Set(name.clone()))),
+            _ => own.get(key).filter(|v| !v.is_null()).map(|v| (v.clone(), Came::Models)),
+        }
+    };
+    for (section, key) in language.sections() {
+        let default = default_of(key);
+        let mut taken = 0;
+        let (mut kept, mut bare) = (Vec::new(), Vec::new());
+        for (id, entry) in entries_mut(value, section) {
+            let path = format!("{section}.{id}.model");
+            if let Some((name, model)) = named(&path) {
+                entry.insert("model".to_owned(), model.clone());
+                came.insert(path, Came::Set(name.clone()));
+            } else if absent(entry, "model") {
+                taken += 1;
+                if default.is_none() {
+                    bare.push(id.clone());
+                }
+                let (model, from) = default.clone().unwrap_or((Value::from("none"), Came::Models));
+                entry.insert("model".to_owned(), model);
+                came.insert(path, from);
+            } else {
+                kept.push(id.clone());
+            }
+        }
+        if !bare.is_empty() {
+            without.push(format!(
+                "{section}: no model is chosen for {}, so no loss counts",
+                bare.join(", ")
+            ));
+        }
+        if let Some((name, s)) = set {
+            if s.models.contains_key(key) && !kept.is_empty() {
+                unreached.push(format!(
+                    "{section}: {} keep their own model under `{name}`",
+                    kept.join(", ")
+                ));
+            } else if s.models.contains_key(key) && taken == 0 && s.models[key] != "none" {
+                unreached.push(format!("`{name}` states a {key} model, and no component takes it"));
+            }
+        }
+    }
+    // Named slots: a gear's, a mesh's or the housing's own slots replace the defaults of the same name. The defaults of drags
+    // go to one place in the document, because only the model's scope tells whether gears or meshes carry them.
+    let slots_of = |key: &str| {
+        let (slots, from) = default_of(key).unwrap_or((Value::Null, Came::Models));
+        (slots.as_object().cloned().unwrap_or_default(), from)
+    };
+    let (ways, from) = slots_of(HEAT);
+    if let Some(thermal) = value.get_mut("thermal").and_then(Value::as_object_mut) {
+        let own = thermal
+            .get(HEAT)
+            .and_then(Value::as_object)
+            .cloned()
+            .unwrap_or_default();
+        let path = |slot: &str| format!("thermal.{HEAT}.{slot}");
+        let mut slots = Map::new();
+        if let Some((name, s)) = set {
+            let kept: Vec<&str> = ways
+                .keys()
+                .filter(|slot| own.contains_key(*slot))
+                .map(String::as_str)
+                .collect();
+            if s.models.contains_key(HEAT) && !kept.is_empty() {
+                unreached.push(format!(
+                    "thermal.{HEAT}: {} keep their own model under `{name}`",
+                    kept.join(", ")
+                ));
+            }
+        }
+        for (slot, model) in ways.iter().filter(|(slot, _)| !own.contains_key(*slot)) {
+            slots.insert(slot.clone(), model.clone());
+            came.insert(path(slot), from.clone());
+        }
+        slots.extend(own);
+        for (slot, model) in &mut slots {
+            if let Some((name, named)) = named(&path(slot)) {
+                *model = named.clone();
+                came.insert(path(slot), Came::Set(name.clone()));
+            }
+        }
+        thermal.insert(HEAT.to_owned(), Value::Object(slots));
+    }
+    let (drags, from) = slots_of(DRAGS);
+    for section in ["gears", "meshes"] {
+        for (id, entry) in entries_mut(value, section) {
+            let own = entry
+                .get("drag")
+                .and_then(Value::as_object)
+                .cloned()
+                .unwrap_or_default();
+            let mut slots = Map::new();
+            for (slot, model) in &drags {
+                if !own.contains_key(slot) && language.fits_scope(section, model) {
+                    slots.insert(slot.clone(), model.clone());
+                    came.insert(format!("{section}.{id}.drag.{slot}"), from.clone());
+                }
+            }
+            slots.extend(own);
+            if let Some((name, s)) = set {
+                for slot in s.drag_slots(section, id) {
+                    let path = format!("{section}.{id}.drag.{slot}");
+                    if let Some((_, model)) = named(&path) {
+                        slots.insert(slot, model.clone());
+                        came.insert(path, Came::Set(name.clone()));
+                    }
+                }
+            }
+            entry.insert("drag".to_owned(), Value::Object(slots));
+        }
+    }
+    without
+}
+
+/// Writes overrides into the resolved document, each checked against the schema at its place.
+fn apply(
+    language: &Language,
+    value: &mut Value,
+    overrides: &[(String, Value)],
+    came: &mut BTreeMap<String, Came>,
+    found: &mut Vec<Diagnostic>,
+) {
+    for (pattern, new) in overrides {
+        let mut hits = matches(value, pattern);
+        if hits.is_empty() {
+            found.push(paths::no_match(value, pattern));
+            continue;
+        }
+        // A key that the chosen `type` does not have would be ignored; of several matches those that have it count.
+        hits.retain(|path| language.has_place(value, path));
+        if hits.is_empty() {
+            let key = pattern.rsplit('.').next().unwrap_or(pattern);
+            found.push(no_place(value, pattern, key));
+            continue;
+        }
+        for path in hits {
+            match language.checked_in(value, new, &path) {
+                Ok(checked) => {
+                    if !paths::write(value, &path, checked) {
+                        found.push(Diagnostic::error(&path, "cannot be set here").mend("set the key above it"));
+                        break;
+                    }
+                    came.insert(path, Came::Override);
+                }
+                Err(more) => {
+                    found.extend(more);
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// The error for a path whose last key nothing has: the key that was probably meant, or where the keys are listed.
+fn no_place(value: &Value, pattern: &str, key: &str) -> Diagnostic {
+    let error = Diagnostic::error(pattern, format!("nothing here has a key `{key}`"));
+    let above = pattern.rsplit_once('.').map_or("", |(above, _)| above);
+    let records = matches(value, above);
+    let record = records.iter().find_map(|path| lookup(value, path)?.as_object());
+    let keys: Vec<&str> = record.into_iter().flatten().map(|(key, _)| key.as_str()).collect();
+    match did_you_mean(key, keys.iter().copied()) {
+        Some(close) => error.mend(format!("write `{close}`")),
+        None if keys.contains(&"type") => {
+            error.mend("a model has the keys of its own `type`: `gearloss models MECHANISM MODEL` lists them")
+        }
+        None => error.mend("`gearloss check --resolved` prints every path"),
+    }
+}

@@ -1,0 +1,340 @@
+//! From the description of a network to the network: names looked up, laws built.
+
+use std::sync::Arc;
+
+use super::faults;
+use super::parts::{Exchanger, Law, Lawful, Link, Motor, Network, Rate};
+use crate::attach::dangling;
+use crate::description::network::{ExchangerEntry, LinkEntry, NetworkEntry};
+use crate::description::{GearboxEntry, NetworkChoice};
+use crate::document::Diagnostic;
+use crate::lubricant::Lubricant;
+use crate::mechanism::heat_dissipation::HousingPart;
+use crate::mechanism::heat_link::{GearShape, HeatLink, HeatLinkPart};
+use crate::motor::{MotorEntry, MotorMap};
+use crate::registry::{Build, Files};
+use crate::transmission::{AMBIENT, GearSeat, NodeNames, Port};
+
+/// What a network needs of the transmission that is being built.
+pub(crate) struct Around<'a> {
+    /// Names of nodes.
+    pub names: &'a NodeNames,
+    /// Names of members.
+    pub members: &'a [String],
+    /// Gears.
+    pub gears: &'a [GearSeat],
+    /// Oils by name; empty where one has a fault that was reported.
+    pub lubricants: &'a [(String, Arc<Lubricant>)],
+    /// The outside of the housing.
+    pub housing: &'a HousingPart,
+    /// Ports.
+    pub ports: &'a [Port],
+    /// Files that the description names.
+    pub files: &'a Files,
+}
+
+impl Network {
+    /// The network of a description; absent without one, and where it has faults, which go to the findings.
+    pub(crate) fn new(
+        entry: &GearboxEntry,
+        around: &Around<'_>,
+        build: &mut Build<'_>,
+        found: &mut Vec<Diagnostic>,
+    ) -> Option<Self> {
+        let Some(NetworkChoice::Written(network)) = &entry.thermal.network else {
+            return None;
+        };
+        let before = found.len();
+        let ambient = entry.thermal.ambient;
+        let all = || network.nodes.iter().map(|(_, node)| node);
+        let of_oil = entry.housing.oil.as_ref().map(|oil| oil.lubricant.as_str());
+        let lubricant = of_oil
+            .map_or_else(
+                || around.lubricants.first(),
+                |id| around.lubricants.iter().find(|(name, _)| name == id),
+            )
+            .map(|(_, lubricant)| Arc::clone(lubricant));
+        let links: Vec<Link> = network
+            .links
+            .iter()
+            .filter_map(|(id, link)| {
+                let path = format!("thermal.network.links.{id}");
+                law(&path, link, around, lubricant.as_ref(), build, found)
+            })
+            .collect();
+        let node = |path: &str, id: &str, found: &mut Vec<Diagnostic>| node_of(around.names, path, id, found);
+        let mut flows = Vec::new();
+        for (id, flow) in network.flows.iter() {
+            let path = format!("thermal.network.flows.{id}");
+            let ends = [
+                node(&format!("{path}.from"), &flow.from, found),
+                node(&format!("{path}.to"), &flow.to, found),
+            ];
+            if flow.capacity.is_some() && flow.share.is_some() {
+                found.push(
+                    Diagnostic::error(path.clone(), "both `capacity` and `share` are given")
+                        .mend("leave one of them out"),
+                );
+            }
+            let rate = rate(&path, flow.capacity, flow.share, network, found);
+            if let ([Some(from), Some(to)], Some(rate)) = (ends, rate) {
+                if from == to {
+                    found.push(same(&path));
+                }
+                flows.push(([from, to], rate));
+            }
+        }
+        let exchangers: Vec<Exchanger> = network
+            .exchangers
+            .iter()
+            .filter_map(|(id, e)| exchanger(&format!("thermal.network.exchangers.{id}"), e, network, around, found))
+            .collect();
+        let mut sources = Vec::new();
+        for (id, source) in network.sources.iter() {
+            let path = format!("thermal.network.sources.{id}.into");
+            sources.extend(node(&path, &source.into, found).map(|node| (node, source.heat)));
+        }
+        let motors: Vec<Motor> = network
+            .motors
+            .iter()
+            .filter_map(|(id, e)| motor(&format!("thermal.network.motors.{id}"), e, around, found))
+            .collect();
+        let built = Self {
+            names: around.names.names().to_vec(),
+            capacities: std::iter::once(0.0).chain(all().map(|n| n.heat_capacity)).collect(),
+            held: std::iter::once(Some(ambient))
+                .chain(all().map(|n| n.temperature))
+                .collect(),
+            starts: std::iter::once(None).chain(all().map(|n| n.start)).collect(),
+            links,
+            flows,
+            exchangers,
+            sources,
+            motors,
+            heat: Vec::new(),
+            oil: around.names.of_oil(""),
+            pumped: network.oil_flow,
+            lubricant: lubricant?,
+            ambient,
+        };
+        if found.len() == before {
+            faults::check(&built.shape(), found);
+        }
+        (found.len() == before).then_some(built)
+    }
+}
+
+fn node_of(names: &NodeNames, path: &str, id: &str, found: &mut Vec<Diagnostic>) -> Option<usize> {
+    let node = names.node(id);
+    if node.is_none() {
+        let ids: Vec<&str> = names.names().iter().map(String::as_str).collect();
+        found.push(dangling(path, "node", id, &ids));
+    }
+    node
+}
+
+fn same(path: &str) -> Diagnostic {
+    Diagnostic::error(path, "both ends are one node").mend("name two nodes")
+}
+
+fn law(
+    path: &str,
+    link: &LinkEntry,
+    around: &Around<'_>,
+    own: Option<&Arc<Lubricant>>,
+    build: &mut Build<'_>,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Link> {
+    let between = match &link.between[..] {
+        [a, b] => [a, b].map(|id| node_of(around.names, &format!("{path}.between"), id, found)),
+        _ => return None,
+    };
+    let gear = link.gear.as_ref().map(|id| {
+        let gear = around.gears.iter().find(|g| g.id == *id);
+        if gear.is_none() {
+            let ids: Vec<&str> = around.gears.iter().map(|g| g.id.as_str()).collect();
+            found.push(dangling(&format!("{path}.gear"), "gear", id, &ids));
+        }
+        gear
+    });
+    let member = match &link.shaft {
+        Some(id) => {
+            let member = around.members.iter().position(|m| m == id);
+            if member.is_none() {
+                let ids: Vec<&str> = around.members.iter().map(String::as_str).collect();
+                found.push(dangling(&format!("{path}.shaft"), "shaft or loose gear", id, &ids));
+            }
+            member
+        }
+        None => gear.flatten().map(|g| g.member),
+    };
+    let lubricant = match &link.lubricant {
+        Some(id) => {
+            let named = around
+                .lubricants
+                .iter()
+                .find(|(name, _)| name == id)
+                .map(|(_, oil)| oil);
+            if named.is_none() && !around.lubricants.is_empty() {
+                let ids: Vec<&str> = around.lubricants.iter().map(|(name, _)| name.as_str()).collect();
+                found.push(dangling(&format!("{path}.lubricant"), "lubricant", id, &ids));
+            }
+            named
+        }
+        None => own,
+    };
+    if matches!(gear, Some(None)) {
+        return None;
+    }
+    let law = match (link.conductance, &link.model) {
+        (Some(given), None) => Law::Given(given),
+        (None, Some(choice)) => {
+            let part = Arc::new(HeatLinkPart {
+                housing: Some(*around.housing),
+                gear: gear.flatten().filter(|g| g.diameters[0] > 0.0).map(shape),
+            });
+            match build.slot_at::<HeatLink>(&format!("{path}.model"), &part, &choice.value) {
+                Ok(model) => Law::Model(Box::new(Lawful {
+                    model,
+                    part,
+                    member,
+                    lubricant: Arc::clone(lubricant?),
+                })),
+                Err(error) => {
+                    found.push(error);
+                    return None;
+                }
+            }
+        }
+        (given, _) => {
+            let (what, mend) = if given.is_some() {
+                ("both `conductance` and `model` are given", "leave one of them out")
+            } else {
+                ("the link has no conductance", "add `conductance: 10 W/K`, or a `model`")
+            };
+            found.push(Diagnostic::error(path, what).mend(mend));
+            return None;
+        }
+    };
+    let [Some(first), Some(second)] = between else {
+        return None;
+    };
+    if first == second {
+        found.push(same(path));
+        return None;
+    }
+    Some(Link {
+        path: path.to_owned(),
+        between: [first, second],
+        law,
+    })
+}
+
+/// A gear as a law of heat sees it.
+fn shape(gear: &GearSeat) -> GearShape {
+    let [pitch, tip, root] = gear.diameters;
+    GearShape {
+        teeth: gear.z,
+        pitch_diameter: pitch,
+        tip_diameter: tip,
+        tooth_height: 0.5 * (tip - root).abs(),
+        facewidth: gear.facewidth,
+    }
+}
+
+fn rate(
+    path: &str,
+    capacity: Option<f64>,
+    share: Option<f64>,
+    network: &NetworkEntry,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Rate> {
+    match capacity {
+        Some(given) => Some(Rate::Given(given)),
+        None if network.oil_flow.is_some() => Some(Rate::Share(share.unwrap_or(1.0))),
+        None => {
+            found.push(
+                Diagnostic::error(path, "nothing says how much flows")
+                    .mend("add `oil_flow: 8 l/min` to the network, or `capacity: 200 W/K` here"),
+            );
+            None
+        }
+    }
+}
+
+fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Diagnostic>) -> Option<Motor> {
+    let rotor = node_of(around.names, &format!("{path}.rotor"), &entry.rotor, found);
+    let stator = node_of(around.names, &format!("{path}.stator"), &entry.stator, found);
+    let port = around.ports.iter().find(|p| p.name == entry.port);
+    if port.is_none() {
+        let ids: Vec<&str> = around.ports.iter().map(|p| p.name.as_str()).collect();
+        found.push(dangling(&format!("{path}.port"), "port", &entry.port, &ids));
+    }
+    if let Err(fault) = entry.rotor_share.at(0.0) {
+        found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).mend(fault.mend));
+    }
+    let map = match around.files.text(&entry.map) {
+        Err(reason) => {
+            let error = Diagnostic::error(format!("{path}.map"), reason);
+            found.push(error.mend("file names are relative to the gearbox document"));
+            None
+        }
+        Ok(text) => match MotorMap::read(text.as_bytes()) {
+            Ok(map) => Some(map),
+            Err(faults) => {
+                for fault in faults {
+                    let message = format!("{}: {}", entry.map, fault.message);
+                    found.push(Diagnostic::error(format!("{path}.map"), message).mend(fault.mend));
+                }
+                None
+            }
+        },
+    };
+    let map = map?;
+    Some(Motor {
+        path: path.to_owned(),
+        notes: map.notes.clone(),
+        map,
+        rotor_share: entry.rotor_share.clone(),
+        member: port?.member,
+        rotor: rotor?,
+        stator: stator?,
+    })
+}
+
+fn exchanger(
+    path: &str,
+    entry: &ExchangerEntry,
+    network: &NetworkEntry,
+    around: &Around<'_>,
+    found: &mut Vec<Diagnostic>,
+) -> Option<Exchanger> {
+    let from = node_of(around.names, &format!("{path}.from"), &entry.from, found);
+    let to = node_of(around.names, &format!("{path}.to"), &entry.to, found);
+    let oil = rate(path, entry.capacity, None, network, found);
+    if from.is_some() && from == to {
+        found.push(same(path));
+    }
+    let held = network
+        .nodes
+        .get(&entry.to)
+        .is_some_and(|node| node.temperature.is_some());
+    if held || entry.to == AMBIENT {
+        let message = format!("`{}` is held at a temperature, and the exchanger decides it", entry.to);
+        found.push(
+            Diagnostic::error(format!("{path}.to"), message)
+                .mend("name a node of its own for the oil behind the exchanger, without a `temperature`"),
+        );
+    }
+    Some(Exchanger {
+        path: path.to_owned(),
+        from: from?,
+        to: to?,
+        oil: oil?,
+        ua: entry.ua,
+        arrangement: entry.arrangement,
+        coolant_flow: entry.coolant_flow * entry.coolant_density,
+        coolant_heat_capacity: entry.coolant_heat_capacity,
+        coolant_temperature: entry.coolant_temperature,
+    })
+}

@@ -1,0 +1,205 @@
+//! A thermal network as built: indices in place of names, laws in place of choices.
+
+use std::sync::Arc;
+
+use super::faults;
+use crate::document::Diagnostic;
+use crate::lubricant::Lubricant;
+use crate::mechanism::heat_link::{HeatLink, HeatLinkPart};
+use crate::motor::{MotorMap, RotorShare};
+use crate::registry::Slot;
+use crate::thermal::Arrangement;
+use crate::transmission::HeatPath;
+
+/// What surrounds a gearbox at one time. Absent is what the description says.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Surroundings {
+    /// Temperature of the surroundings. \[degC\]
+    pub ambient: Option<f64>,
+    /// Speed of the vehicle. \[m/s\]
+    pub vehicle_speed: f64,
+    /// Mass flow of the oil that a pump drives round. \[kg/s\]
+    pub oil_flow: Option<f64>,
+    /// Mass flow of the coolant of every heat exchanger. \[kg/s\]
+    pub coolant_flow: Option<f64>,
+    /// Temperature at which it comes in. \[degC\]
+    pub coolant_temperature: Option<f64>,
+}
+
+/// Conductance of a link.
+pub(super) enum Law {
+    Given(f64),
+    Model(Box<Lawful>),
+}
+
+/// A law with what it sees.
+pub(super) struct Lawful {
+    pub(super) model: Slot<HeatLink>,
+    pub(super) part: Arc<HeatLinkPart>,
+    pub(super) member: Option<usize>,
+    pub(super) lubricant: Arc<Lubricant>,
+}
+
+/// One link.
+pub struct Link {
+    /// Path, such as `thermal.network.links.casing_air`.
+    pub path: String,
+    pub(super) between: [usize; 2],
+    pub(super) law: Law,
+}
+
+/// How much flows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Rate {
+    /// Mass flow times specific heat. \[W/K\]
+    Given(f64),
+    /// A share of the oil that a pump drives round.
+    Share(f64),
+}
+
+pub(super) struct Exchanger {
+    pub(super) path: String,
+    pub(super) from: usize,
+    pub(super) to: usize,
+    pub(super) oil: Rate,
+    pub(super) ua: f64,
+    pub(super) arrangement: Arrangement,
+    /// \[kg/s\]
+    pub(super) coolant_flow: f64,
+    pub(super) coolant_heat_capacity: f64,
+    pub(super) coolant_temperature: f64,
+}
+
+/// An electric motor at a port.
+pub(super) struct Motor {
+    pub(super) path: String,
+    /// What was noted while its map was read.
+    pub(super) notes: Vec<String>,
+    pub(super) map: MotorMap,
+    pub(super) rotor_share: RotorShare,
+    pub(super) member: usize,
+    pub(super) rotor: usize,
+    pub(super) stator: usize,
+}
+
+/// A thermal network.
+pub struct Network {
+    pub(super) names: Vec<String>,
+    pub(super) capacities: Vec<f64>,
+    /// Temperatures of held nodes; the first node is the surroundings. \[degC\]
+    pub(super) held: Vec<Option<f64>>,
+    /// Temperatures at the start, where stated. \[degC\]
+    pub(super) starts: Vec<Option<f64>>,
+    pub(super) links: Vec<Link>,
+    pub(super) flows: Vec<([usize; 2], Rate)>,
+    pub(super) exchangers: Vec<Exchanger>,
+    pub(super) sources: Vec<(usize, f64)>,
+    pub(super) motors: Vec<Motor>,
+    pub(super) heat: Vec<HeatPath>,
+    /// The oil of the housing.
+    pub(super) oil: usize,
+    pub(super) pumped: Option<f64>,
+    pub(super) lubricant: Arc<Lubricant>,
+    pub(super) ambient: f64,
+}
+
+impl Network {
+    /// Says where the heat of each part goes, in the order of the parts.
+    pub(crate) fn set_heat(&mut self, heat: Vec<HeatPath>) {
+        self.heat = heat;
+    }
+    /// Names, capacities and connections, for checks.
+    pub(super) fn shape(&self) -> faults::Shape<'_> {
+        faults::Shape {
+            names: &self.names,
+            capacities: &self.capacities,
+            held: self.held.iter().map(Option::is_some).collect(),
+            links: self.links.iter().map(|link| link.between).collect(),
+            flows: self
+                .flows
+                .iter()
+                .map(|(ends, _)| *ends)
+                .chain(self.exchangers.iter().map(|e| [e.from, e.to]))
+                .collect(),
+            cooled: self.exchangers.iter().map(|e| e.to).collect(),
+        }
+    }
+    /// Names of the nodes, the surroundings first.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+    /// Heat capacities of the nodes. \[J/K\]
+    pub fn capacities(&self) -> &[f64] {
+        &self.capacities
+    }
+    /// True for nodes that are held at a temperature.
+    pub fn is_held(&self, node: usize) -> bool {
+        self.held[node].is_some()
+    }
+    /// Number of the node that is the oil of the housing.
+    pub fn oil(&self) -> usize {
+        self.oil
+    }
+    /// Links with their paths and ends.
+    pub fn links(&self) -> impl ExactSizeIterator<Item = (&str, [usize; 2])> {
+        self.links.iter().map(|link| (link.path.as_str(), link.between))
+    }
+    /// True where a pump drives oil round, so that a recorded flow counts.
+    pub fn is_pumped(&self) -> bool {
+        self.pumped.is_some()
+    }
+    /// Paths of the heat exchangers.
+    pub fn exchangers(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.exchangers.iter().map(|e| e.path.as_str())
+    }
+    /// What is worth knowing: notes on the maps of motors, and nodes from which not as much oil flows as comes.
+    pub(crate) fn warnings(&self) -> Vec<Diagnostic> {
+        let mut warnings = Vec::new();
+        for motor in &self.motors {
+            let path = format!("{}.map", motor.path);
+            let notes = motor.notes.iter();
+            warnings.extend(notes.map(|note| Diagnostic::warning(path.clone(), note.clone())));
+        }
+        let flows = self.flows.iter().copied();
+        let exchangers = self.exchangers.iter().map(|e| ([e.from, e.to], e.oil));
+        let ways: Vec<([usize; 2], Rate)> = flows.chain(exchangers).collect();
+        for (node, name) in self.names.iter().enumerate().filter(|(i, _)| !self.is_held(*i)) {
+            // What is given and what is a share of the pump add up each for itself.
+            let mut net = [0.0_f64; 2];
+            for ([from, to], rate) in &ways {
+                let (kind, amount) = match rate {
+                    Rate::Given(given) => (0, *given),
+                    Rate::Share(share) => (1, *share),
+                };
+                if *to == node {
+                    net[kind] += amount;
+                }
+                if *from == node {
+                    net[kind] -= amount;
+                }
+            }
+            if net.iter().any(|net| net.abs() > 1e-9) {
+                warnings.push(
+                    Diagnostic::warning(
+                        format!("thermal.network.nodes.{name}"),
+                        format!("not as much oil flows out of `{name}` as into it: heat leaves with it, or comes from nowhere"),
+                    )
+                    .mend("close the circuit by flows, each with the share that it takes on"),
+                );
+            }
+        }
+        warnings
+    }
+    /// Paths of the motors.
+    pub fn motors(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.motors.iter().map(|m| m.path.as_str())
+    }
+    /// Heat from elsewhere by node. \[W\]
+    pub fn sources(&self) -> &[(usize, f64)] {
+        &self.sources
+    }
+    /// Where the heat of a part goes, by its number.
+    pub fn heat(&self, part: usize) -> &HeatPath {
+        &self.heat[part]
+    }
+}

@@ -1,0 +1,307 @@
+//! The transmission: immutable, validated, indices in place of names, models built, everything precomputed.
+
+mod build;
+mod case;
+mod drags;
+mod gearing;
+mod members;
+mod nodes;
+mod oils;
+mod planets;
+mod plausible;
+mod stage;
+mod states;
+mod statics;
+
+use std::sync::Arc;
+
+pub use case::Case;
+pub use drags::DragSeat;
+pub use gearing::{GearSeat, MeshSeat};
+pub use nodes::{AMBIENT, HeatPath};
+pub use oils::{Oils, Surface};
+pub use stage::Stage;
+pub use states::GearState;
+
+pub(crate) use states::RowName;
+
+pub(crate) use nodes::NodeNames;
+pub(crate) use planets::Sharing;
+
+use crate::description::{RatingEntry, ThermalMode};
+use crate::document::Diagnostic;
+use crate::loads::{ShaftLoads, StaticRating};
+use crate::loss::NoteBase;
+use crate::mechanism::gear_drag::{DragPart, GearDrag};
+use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
+use crate::registry::{Instance, Placed, Slot};
+use crate::thermal::Housing;
+use crate::thermal::network::Network;
+
+/// What a part is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PartKind {
+    /// A component of a mechanism's section; its number among the placed components.
+    Component(usize),
+    /// The load-dependent loss of a mesh; its number.
+    Mesh(usize),
+    /// A drag model on a gear or on a mesh; its number.
+    Drag(usize),
+}
+
+/// One part that loses power.
+#[derive(Debug, Clone)]
+pub struct PartInfo {
+    /// Path of the component, such as `bearings.B1`; for drags with the slot, such as `gears.G4.drag.churning`.
+    pub path: String,
+    /// Key of the mechanism.
+    pub mechanism: &'static str,
+    /// What it is.
+    pub kind: PartKind,
+    /// Number of equal copies.
+    pub count: f64,
+    /// Factor on the loss of the model.
+    pub loss_factor: f64,
+    /// Where the notes of its model stand.
+    pub notes: NoteBase,
+}
+
+/// Name of the port that the ports of `wheels` become.
+pub const WHEELS: &str = "wheels";
+
+/// A port.
+#[derive(Debug, Clone)]
+pub struct Port {
+    /// Name.
+    pub name: String,
+    /// Member; the number behind the last one for the axle of [`WHEELS`].
+    pub member: usize,
+}
+
+/// One mesh with its model.
+pub(crate) struct MeshModel {
+    pub seat: MeshSeat,
+    pub part: Arc<MeshPart>,
+    pub model: Slot<GearMesh>,
+    pub oil: u16,
+    /// Nodes of the bodies of both gears, where a thermal network has them.
+    pub bodies: Option<[usize; 2]>,
+    /// Factor on the loss of the model.
+    pub loss_factor: f64,
+    /// Sharing of the set, where its planets carry different loads.
+    pub sharing: Option<Sharing>,
+    /// Tangential force of one copy per multiplier of its row. \[1/m\]
+    pub force_per_multiplier: f64,
+}
+
+/// One drag model with its seat.
+pub(crate) struct DragModel {
+    pub seat: DragSeat,
+    pub part: Arc<DragPart>,
+    pub model: Slot<GearDrag>,
+    pub oil: u16,
+    /// Factor on the loss of the model.
+    pub loss_factor: f64,
+}
+
+/// A component with its number of copies.
+pub(crate) struct Component {
+    pub placed: Box<dyn Placed>,
+    /// The two members that feel its reaction.
+    pub between: [Option<u16>; 2],
+    /// True where its loss may depend on torque or load.
+    pub loaded: bool,
+    /// False where its model notes the same at all loads.
+    pub notes_hang_on_load: bool,
+    /// True where its model is `none`.
+    pub off: bool,
+    /// Number of its support, where it carries load.
+    pub support: Option<u16>,
+    /// Sharing of the set, where it sits on a planet and the planets carry different loads.
+    pub sharing: Option<Sharing>,
+    /// Where the notes of its model stand.
+    pub notes: NoteBase,
+    /// Number of copies, times the factor on the loss.
+    pub count: f64,
+}
+
+impl Component {
+    /// A placed component. Unequal sharing counts only where the loss may depend on load.
+    fn new(placed: Box<dyn Placed>, count: f64, sharing: Option<Sharing>) -> Self {
+        Self {
+            between: placed.between(),
+            loaded: placed.loaded(),
+            notes_hang_on_load: placed.notes_hang_on_load(),
+            off: placed.off(),
+            support: placed.support(),
+            sharing: sharing.filter(|_| placed.loaded()),
+            notes: placed.notes(),
+            placed,
+            count,
+        }
+    }
+}
+
+/// A support whose static load rating is known.
+#[derive(Debug, Clone, Copy)]
+pub struct RatedSupport {
+    /// Its number.
+    pub support: usize,
+    /// Rating of one bearing.
+    pub rating: StaticRating,
+    /// True where it sits on a planet of a set whose planets carry different loads.
+    pub uneven: bool,
+}
+
+/// A transmission, ready to be evaluated at any number of points from any number of threads.
+pub struct Transmission {
+    pub(crate) title: String,
+    pub(crate) members: Vec<String>,
+    pub(crate) ports: Vec<Port>,
+    /// Ports that turn at one speed and are one among `ports`; mostly none.
+    pub(crate) wheels: Vec<Port>,
+    pub(crate) states: Vec<GearState>,
+    pub(crate) gears: Vec<GearSeat>,
+    pub(crate) meshes: Vec<MeshModel>,
+    pub(crate) drags: Vec<DragModel>,
+    pub(crate) components: Vec<Component>,
+    pub(crate) parts: Vec<PartInfo>,
+    pub(crate) instances: Vec<Instance>,
+    /// Cells of notes: those of the models, then the static safety of each rated support.
+    pub(crate) cells: usize,
+    /// Supports whose static load rating is known.
+    pub(crate) rated: Vec<RatedSupport>,
+    pub(crate) oils: Oils,
+    pub(crate) loads: ShaftLoads,
+    /// For each support; empty where all are one.
+    pub(crate) load_factors: Vec<statics::LoadFactors>,
+    pub(crate) imported: Option<statics::Imported>,
+    pub(crate) supports: Vec<String>,
+    /// True where the planets of a set carry different loads.
+    pub(crate) uneven: bool,
+    /// Relative speed over that at which bodies turn together, below which they hold each other.
+    pub(crate) locked_below: f64,
+    /// Findings that do not keep the transmission from being evaluated.
+    pub warnings: Vec<Diagnostic>,
+    /// Temperature of the oil as described, where it is not found by balance. \[degC\]
+    pub oil_temperature: f64,
+    /// How the temperature is found, as described.
+    pub thermal_mode: ThermalMode,
+    /// Largest torque and speed that it is made for. \[Nm and rad/s\]
+    pub rating: Option<RatingEntry>,
+    pub(crate) housing: Housing,
+    pub(crate) network: Option<Network>,
+}
+
+impl Transmission {
+    /// Title.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+    /// Names of shafts and loose gears, by number.
+    pub fn members(&self) -> &[String] {
+        &self.members
+    }
+    /// Ports.
+    pub fn ports(&self) -> &[Port] {
+        &self.ports
+    }
+    /// Ports that turn at one speed and are one among [`Transmission::ports`]; mostly none.
+    pub fn wheels(&self) -> &[Port] {
+        &self.wheels
+    }
+    /// Gear states, neutral included.
+    pub fn states(&self) -> &[GearState] {
+        &self.states
+    }
+    /// Gears with their geometry.
+    pub fn gears(&self) -> &[GearSeat] {
+        &self.gears
+    }
+    /// Every part that may lose power, in the order of the document.
+    pub fn parts(&self) -> &[PartInfo] {
+        &self.parts
+    }
+    /// Every model that was built, with its path.
+    pub fn instances(&self) -> &[Instance] {
+        &self.instances
+    }
+    /// Cell of notes of the first rated support; models have those before.
+    pub fn rated_cells(&self) -> usize {
+        self.cells - self.rated.len()
+    }
+    /// Supports whose static load rating is known.
+    pub fn rated(&self) -> &[RatedSupport] {
+        &self.rated
+    }
+    /// Paths of the supports, by number.
+    pub fn supports(&self) -> &[String] {
+        &self.supports
+    }
+    /// Numbers of the gears of every mesh, and whether a carrier turns it, in the order of [`Transmission::meshes`].
+    pub fn mesh_seats(&self) -> impl Iterator<Item = ([usize; 2], bool)> {
+        self.meshes.iter().map(|m| (m.seat.gears, m.seat.carrier.is_some()))
+    }
+    /// Path, geometry and roughness of every mesh.
+    pub fn meshes(&self) -> impl Iterator<Item = (&str, &MeshPart)> {
+        self.meshes.iter().map(|m| (m.seat.path.as_str(), m.part.as_ref()))
+    }
+    /// Ids of both gears of a mesh by its path; none where there is no such mesh.
+    pub fn gears_of_mesh(&self, path: &str) -> Vec<&str> {
+        let mesh = self.meshes.iter().find(|m| m.seat.path == path);
+        let gears = mesh.into_iter().flat_map(|m| m.seat.gears);
+        gears.map(|g| self.gears[g].id.as_str()).collect()
+    }
+    /// Path of the first mesh that a gear is part of.
+    pub fn mesh_of_gear(&self, gear: &str) -> Option<&str> {
+        let index = self.gears.iter().position(|g| g.id == gear)?;
+        let mesh = self.meshes.iter().find(|m| m.seat.gears.contains(&index))?;
+        Some(&mesh.seat.path)
+    }
+    /// Name of the first member that feels the reaction of a placed component.
+    pub fn member_of_component(&self, component: usize) -> Option<&str> {
+        let [first, second] = self.components.get(component)?.between;
+        let member = first.or(second)?;
+        self.members.get(member as usize).map(String::as_str)
+    }
+    /// The ways on which heat leaves.
+    pub fn housing(&self) -> &Housing {
+        &self.housing
+    }
+    /// Density and specific heat of the sump at a temperature in degC. \[kg/m3 and J/(kg K)\]
+    pub(crate) fn sump_heat(&self, temperature: f64) -> (f64, f64) {
+        self.oils.heat(temperature)
+    }
+    /// The thermal network.
+    pub fn network(&self) -> Option<&Network> {
+        self.network.as_ref()
+    }
+    /// Number of the temperature nodes.
+    pub fn nodes(&self) -> usize {
+        self.network.as_ref().map_or(1, |n| n.names().len())
+    }
+    /// Number of a gear state by its name.
+    ///
+    /// # Errors
+    /// Where there is none, with the names of the others.
+    pub fn state(&self, name: &str) -> Result<usize, Diagnostic> {
+        self.states.iter().position(|s| s.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.states.iter().map(|s| s.name.as_str()).collect();
+            crate::attach::dangling("gear_states", "gear state", name, &names)
+        })
+    }
+    /// Number of a port by its name.
+    ///
+    /// # Errors
+    /// Where there is none, with the names of the others.
+    pub fn port(&self, name: &str) -> Result<usize, Diagnostic> {
+        self.ports.iter().position(|p| p.name == name).ok_or_else(|| {
+            let names: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();
+            crate::attach::dangling("ports", "port", name, &names)
+        })
+    }
+    /// The port that torque, speed and efficiency refer to: `input`, or the first.
+    pub fn reference_port(&self) -> usize {
+        self.ports.iter().position(|p| p.name == "input").unwrap_or(0)
+    }
+}

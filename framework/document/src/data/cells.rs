@@ -1,0 +1,276 @@
+//! From bytes to cells: encoding, separator, decimal sign, header, units.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{MeasuredFault, fault};
+use crate::Unit;
+
+/// What separates cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Separator {
+    /// `,`
+    Comma,
+    /// `;`
+    Semicolon,
+    /// A tabulator.
+    Tab,
+}
+
+impl Separator {
+    fn byte(self) -> u8 {
+        match self {
+            Self::Comma => b',',
+            Self::Semicolon => b';',
+            Self::Tab => b'\t',
+        }
+    }
+}
+
+/// Decimal sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Decimal {
+    /// `1.5`
+    Point,
+    /// `1,5`
+    Comma,
+}
+
+impl Decimal {
+    /// A finite number.
+    pub fn number(self, cell: &str) -> Option<f64> {
+        let number = match self {
+            Self::Point => cell.parse::<f64>(),
+            Self::Comma if cell.contains('.') => return None,
+            Self::Comma => cell.replace(',', ".").parse::<f64>(),
+        };
+        number.ok().filter(|x| x.is_finite())
+    }
+}
+
+/// Encoding of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Encoding {
+    /// UTF-8, with or without a byte order mark.
+    Utf8,
+    /// ISO 8859-1.
+    Latin1,
+}
+
+/// What is stated of how a file is written; the rest is recognised.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Form {
+    /// What separates cells.
+    pub separator: Option<Separator>,
+    /// The decimal sign.
+    pub decimal: Option<Decimal>,
+    /// The encoding.
+    pub encoding: Option<Encoding>,
+}
+
+/// Cells with their lines.
+pub struct Table {
+    /// Headers.
+    pub names: Vec<String>,
+    /// Unit of each column, where the header or a row of units states it.
+    pub units: Vec<Option<String>>,
+    /// Line of the header.
+    pub header_line: u64,
+    /// Cells of each row with its line.
+    pub rows: Vec<(u64, Vec<String>)>,
+    /// The decimal sign.
+    pub decimal: Decimal,
+}
+
+/// The number in a cell, or what stands there instead.
+pub fn number(
+    decimal: Decimal,
+    (line, cells): (u64, &[String]),
+    (place, header): (usize, &str),
+) -> Result<f64, String> {
+    let cell = cells.get(place).map_or("", String::as_str);
+    decimal.number(cell).ok_or_else(|| {
+        let at = format!("line {line}, column {} `{header}`", place + 1);
+        if cell.is_empty() {
+            format!("{at}: empty")
+        } else {
+            format!("{at}: `{cell}` is not a number")
+        }
+    })
+}
+
+fn decoded(bytes: &[u8], encoding: Option<Encoding>, notes: &mut Vec<String>) -> Result<String, MeasuredFault> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let latin = || bytes.iter().map(|b| char::from(*b)).collect::<String>();
+    match (encoding, std::str::from_utf8(bytes)) {
+        (Some(Encoding::Latin1), _) => Ok(latin()),
+        (_, Ok(text)) => Ok(text.to_owned()),
+        (None, Err(_)) => {
+            notes.push("read as Latin-1: it is no UTF-8".to_owned());
+            Ok(latin())
+        }
+        (Some(Encoding::Utf8), Err(e)) => Err(fault(
+            format!("byte {} is no UTF-8", e.valid_up_to() + 1),
+            "write `encoding: latin1`, or convert the file",
+        )),
+    }
+}
+
+/// The separator of which the header holds most; a semicolon or tabulator wins over commas, which may be decimal.
+fn separator(header: &str) -> Separator {
+    let count = |c: char| header.chars().filter(|x| *x == c).count();
+    if count(';') > 0 {
+        Separator::Semicolon
+    } else if count('\t') > 0 {
+        Separator::Tab
+    } else {
+        Separator::Comma
+    }
+}
+
+/// `name [unit]`, `name (unit)`, `name / unit`, or a bare name.
+fn name_and_unit(header: &str) -> (String, Option<String>) {
+    let header = header.trim();
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some((name, rest)) = header.split_once(open) {
+            return (
+                name.trim().to_owned(),
+                Some(rest.trim_end().trim_end_matches(close).trim().to_owned()),
+            );
+        }
+    }
+    match header.split_once(" / ") {
+        Some((name, unit)) => (name.trim().to_owned(), Some(unit.trim().to_owned())),
+        None => (header.to_owned(), None),
+    }
+}
+
+fn is_unit(cell: &str) -> bool {
+    let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    matches!(bare, "" | "%" | "-" | "1") || Unit::of_symbol(bare).is_some()
+}
+
+/// Line of a record: its position is that of the comments and empty lines before it.
+fn line_of(text: &str, at: &csv::Position) -> u64 {
+    let rest = usize::try_from(at.byte()).ok().and_then(|byte| text.get(byte..));
+    let skipped = rest.unwrap_or_default().lines();
+    at.line()
+        + skipped
+            .take_while(|line| line.is_empty() || line.starts_with('#'))
+            .count() as u64
+}
+
+/// Reads the cells of a text and notes how it was understood.
+///
+/// # Errors
+/// The first fault, with its line.
+pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
+    let text = decoded(bytes, form.encoding, notes)?;
+    let Some(first) = text
+        .lines()
+        .find(|line| !line.trim().is_empty() && !line.starts_with('#'))
+    else {
+        return Err(fault("the file is empty", "name another file"));
+    };
+    let separator = form.separator.unwrap_or_else(|| {
+        let found = separator(first);
+        if found != Separator::Comma {
+            notes.push(format!(
+                "cells separated by `{}`",
+                char::from(found.byte()).escape_default()
+            ));
+        }
+        found
+    });
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(separator.byte())
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|e| fault(e.to_string(), "check quotes and separators"))?;
+        let line = record.position().map_or(0, |at| line_of(&text, at));
+        if record.iter().all(str::is_empty) {
+            continue;
+        }
+        rows.push((line, record.iter().map(str::to_owned).collect()));
+    }
+    if rows.is_empty() {
+        return Err(fault("the file is empty", "name another file"));
+    }
+    let (header_line, header) = rows.remove(0);
+    let (names, mut units): (Vec<String>, Vec<Option<String>>) = header.iter().map(|h| name_and_unit(h)).unzip();
+    // A row of units: every cell is a unit, and at least one is no number.
+    let numeric = |cell: &String| cell.replace(',', ".").parse::<f64>().is_ok();
+    let unit_row = rows.first().is_some_and(|(_, cells)| {
+        cells.iter().all(|c| is_unit(c)) && cells.iter().any(|c| !c.is_empty() && !numeric(c))
+    });
+    if unit_row {
+        let (line, cells) = rows.remove(0);
+        notes.push(format!("units in line {line}"));
+        for (unit, cell) in units.iter_mut().zip(&cells) {
+            let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+            if !bare.is_empty() {
+                *unit = Some(bare.to_owned());
+            }
+        }
+    }
+    for (line, cells) in &rows {
+        if cells.len() > names.len() {
+            return Err(fault(
+                format!(
+                    "line {line}: {} cells where the header has {}",
+                    cells.len(),
+                    names.len()
+                ),
+                "a decimal comma in a file separated by commas? State `separator` or quote such cells",
+            ));
+        }
+    }
+    Ok(Table {
+        decimal: decimal(&rows, form, notes)?,
+        names,
+        units,
+        header_line,
+        rows,
+    })
+}
+
+/// The decimal sign: a comma where numbers hold commas and none holds a point.
+fn decimal(rows: &[(u64, Vec<String>)], form: Form, notes: &mut Vec<String>) -> Result<Decimal, MeasuredFault> {
+    if let Some(stated) = form.decimal {
+        return Ok(stated);
+    }
+    let digits = |cell: &str, sign: char| {
+        cell.contains(sign)
+            && cell
+                .chars()
+                .all(|c| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+' | 'e' | 'E'))
+    };
+    let with = |sign: char| {
+        let cells = rows
+            .iter()
+            .flat_map(|(line, cells)| cells.iter().map(move |c| (*line, c)));
+        cells
+            .into_iter()
+            .find(|(_, cell)| digits(cell, sign))
+            .map(|(line, _)| line)
+    };
+    match (with(','), with('.')) {
+        (Some(comma), Some(point)) => Err(fault(
+            format!("line {comma} holds a decimal comma and line {point} a decimal point"),
+            "state `decimal: comma` or `decimal: point`, and write numbers without signs between thousands",
+        )),
+        (Some(_), None) => {
+            notes.push("decimal comma".to_owned());
+            Ok(Decimal::Comma)
+        }
+        _ => Ok(Decimal::Point),
+    }
+}

@@ -1,0 +1,200 @@
+//! The columns of a file that hold wanted quantities.
+
+use super::cells::{Form, Table, number, table};
+use super::{MeasuredFault, fault, scale};
+use crate::{Ordered, did_you_mean};
+
+/// A quantity that a file may hold: name and documented unit, which is empty for texts.
+pub type Wanted<'a> = (&'a str, &'a str);
+
+/// How many faults of one kind are told.
+pub const TOLD: usize = 5;
+
+/// Beyond this no quantity of a duty has a meaning; products of such numbers stay finite.
+const MOST: f64 = 1e12;
+
+struct Column {
+    place: usize,
+    header: String,
+    /// Factor and offset to SI; absent for texts.
+    unit: Option<(f64, f64)>,
+}
+
+/// A table with the places of the wanted quantities.
+pub struct Sheet {
+    /// All cells.
+    pub table: Table,
+    /// How the file was understood.
+    pub notes: Vec<String>,
+    columns: Vec<Option<Column>>,
+}
+
+impl Sheet {
+    /// Reads the bytes and finds a column for each wanted quantity: the one that `columns` names, or the one of the same name.
+    pub fn open(
+        bytes: &[u8],
+        form: Form,
+        wanted: &[Wanted],
+        (columns, units): (&Ordered<String>, &Ordered<String>),
+    ) -> Result<Self, Vec<MeasuredFault>> {
+        let mut notes = Vec::new();
+        let table = table(bytes, form, &mut notes).map_err(|f| vec![f])?;
+        let names = || table.names.join(", ");
+        let mut found = Vec::new();
+        for key in columns.ids().chain(units.ids()) {
+            if wanted.iter().all(|(name, _)| *name != key) {
+                let all: Vec<&str> = wanted.iter().map(|(name, _)| *name).collect();
+                let list = format!("the quantities are {}", all.join(", "));
+                let help = match did_you_mean(key, all.iter().copied()) {
+                    Some(close) => format!("write `{close}`; {list}"),
+                    None => list,
+                };
+                found.push(fault(format!("`{key}` is no quantity of such a file"), help));
+            }
+        }
+        let mut places = Vec::new();
+        for (name, due) in wanted {
+            let written = columns.get(name);
+            let header = written.map_or(*name, String::as_str);
+            // A column that is named for another quantity does not count by its own name.
+            let taken = written.is_none() && columns.iter().any(|(_, column)| column == name);
+            let place = table.names.iter().position(|n| n == header).filter(|_| !taken);
+            let column = place.and_then(|place| {
+                let stated = units.get(name).or(table.units[place].as_ref());
+                let unit = if due.is_empty() {
+                    None
+                } else {
+                    match scale((name, due), stated.map(String::as_str), header) {
+                        Ok(unit) => Some(unit),
+                        Err(f) => {
+                            let message = format!("line {}, {}", table.header_line, f.message);
+                            found.push(fault(message, f.mend));
+                            return None;
+                        }
+                    }
+                };
+                Some(Column {
+                    place,
+                    header: header.to_owned(),
+                    unit,
+                })
+            });
+            if let (Some(header), true) = (written, !table.names.contains(&header.to_owned())) {
+                found.push(fault(
+                    format!(
+                        "line {}: no column is called `{header}`; there are: {}",
+                        table.header_line,
+                        names()
+                    ),
+                    match did_you_mean(header, table.names.iter().map(String::as_str)) {
+                        Some(close) => format!("write `{close}`"),
+                        None => "name one of them".to_owned(),
+                    },
+                ));
+            }
+            places.push(column);
+        }
+        if found.is_empty() {
+            Ok(Self {
+                table,
+                notes,
+                columns: places,
+            })
+        } else {
+            Err(found)
+        }
+    }
+
+    /// True where the file holds the wanted quantity of this place.
+    pub fn holds(&self, wanted: usize) -> bool {
+        self.columns[wanted].is_some()
+    }
+
+    /// A number of a row; absent where the file has no such column.
+    pub fn number(&self, row: usize, wanted: usize) -> Result<Option<f64>, String> {
+        let Some(column) = &self.columns[wanted] else {
+            return Ok(None);
+        };
+        let (line, cells) = &self.table.rows[row];
+        let number = number(self.table.decimal, (*line, cells), (column.place, &column.header))?;
+        let (factor, offset) = column.unit.unwrap_or((1.0, 0.0));
+        let number = number * factor + offset;
+        if number.abs() > MOST {
+            return Err(format!(
+                "{}: `{}` is larger than anything that occurs",
+                self.at(row, wanted),
+                self.text(row, wanted).unwrap_or_default()
+            ));
+        }
+        Ok(Some(number))
+    }
+
+    /// As [`Sheet::number`], refused below zero.
+    pub fn not_negative(&self, row: usize, wanted: usize) -> Result<Option<f64>, String> {
+        let number = self.number(row, wanted)?;
+        if number.is_some_and(|x| x < 0.0) {
+            return Err(format!(
+                "{}: `{}` is below zero",
+                self.at(row, wanted),
+                self.text(row, wanted).unwrap_or_default()
+            ));
+        }
+        Ok(number)
+    }
+
+    /// As [`Sheet::number`], refused where no oil, coolant or air is so cold or so warm. \[degC\]
+    pub fn temperature(&self, row: usize, wanted: usize) -> Result<Option<f64>, String> {
+        let number = self.number(row, wanted)?;
+        if number.is_some_and(|t| !(-60.0..=250.0).contains(&t)) {
+            return Err(format!(
+                "{}: `{}` lies outside of -60 to 250 degC",
+                self.at(row, wanted),
+                self.text(row, wanted).unwrap_or_default()
+            ));
+        }
+        Ok(number)
+    }
+
+    /// A text of a row; absent where the file has no such column, or the cell is empty.
+    pub fn text(&self, row: usize, wanted: usize) -> Option<&str> {
+        let column = self.columns[wanted].as_ref()?;
+        let cell = self.table.rows[row].1.get(column.place)?;
+        (!cell.is_empty()).then_some(cell.as_str())
+    }
+
+    /// Line and column in words.
+    pub fn at(&self, row: usize, wanted: usize) -> String {
+        let line = self.line(row);
+        self.columns[wanted].as_ref().map_or_else(
+            || format!("line {line}"),
+            |c| format!("line {line}, column {} `{}`", c.place + 1, c.header),
+        )
+    }
+
+    /// Line of a row.
+    pub fn line(&self, row: usize) -> u64 {
+        self.table.rows[row].0
+    }
+
+    /// That no column holds what is due.
+    pub fn lacks(&self, what: &str, name: &str) -> MeasuredFault {
+        fault(
+            format!(
+                "line {}: no column holds {what}; there are: {}",
+                self.table.header_line,
+                self.table.names.join(", ")
+            ),
+            format!("name one under `columns: {{ {name}: ... }}`"),
+        )
+    }
+}
+
+/// One fault for each of the first messages, and how many there are beyond.
+pub fn told(messages: Vec<String>, mend: &str) -> Vec<MeasuredFault> {
+    let beyond = messages.len().saturating_sub(TOLD);
+    let mut faults: Vec<_> = messages.into_iter().take(TOLD).map(|m| fault(m, mend)).collect();
+    if let (Some(last), 1..) = (faults.last_mut(), beyond) {
+        last.message = format!("{}; {beyond} more of this kind follow", last.message);
+    }
+    faults
+}

@@ -1,0 +1,348 @@
+//! What is wrong, where, and how to mend it.
+
+use std::fmt;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use serde::Serialize;
+
+use super::node::Span;
+
+/// How bad a finding is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Severity {
+    /// The document cannot be used.
+    Error,
+    /// The document can be used; something deserves a look.
+    Warning,
+}
+
+/// What kind of finding it is, for programs: the word stays where the message is put better. A stage of reading gives its word to
+/// all that it finds without one of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Code {
+    /// A file cannot be read.
+    Unreadable,
+    /// The text is no YAML as documents are written in it.
+    Syntax,
+    /// A key that has no meaning at its place.
+    UnknownKey,
+    /// A key that is needed.
+    MissingKey,
+    /// A `type`, or a word, that there is not.
+    UnknownName,
+    /// A value of another kind, unit or range.
+    Value,
+    /// A model, catalogue value, set or override that does not fit.
+    Choice,
+    /// What is described cannot be built, or deserves a look.
+    Gearbox,
+    /// A study, its data or what it points at does not fit.
+    Study,
+    /// Anything else.
+    Other,
+}
+
+/// One finding.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What kind of finding it is, where its author or a stage has said so.
+    pub code: Option<Code>,
+    /// Path in the document; empty where there is none.
+    pub path: String,
+    /// What is wrong.
+    pub message: String,
+    /// Places in the text: the first is the place itself, the others say why.
+    pub spans: Vec<(Span, String)>,
+    /// More about it.
+    pub notes: Vec<String>,
+    /// How to mend it.
+    pub mend: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error at a path.
+    pub fn error(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Error,
+            code: None,
+            path: path.into(),
+            message: message.into(),
+            spans: Vec::new(),
+            notes: Vec::new(),
+            mend: None,
+        }
+    }
+
+    /// A warning at a path.
+    pub fn warning(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Warning,
+            ..Self::error(path, message)
+        }
+    }
+
+    /// Says what kind of finding it is, unless it was said.
+    pub fn code(mut self, code: Code) -> Self {
+        self.code.get_or_insert(code);
+        self
+    }
+
+    /// Adds a place in the text.
+    pub fn at(self, span: Span) -> Self {
+        self.label(span, "")
+    }
+
+    /// Adds a place in the text with a label.
+    pub fn label(mut self, span: Span, label: impl Into<String>) -> Self {
+        self.spans.push((span, label.into()));
+        self
+    }
+
+    /// Adds a note.
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// Says how to mend it.
+    pub fn mend(mut self, mend: impl Into<String>) -> Self {
+        self.mend = Some(mend.into());
+        self
+    }
+
+    /// The finding about a path at another place: that of the change which led to it.
+    pub fn moved(self, place: impl Into<String>, path: &str) -> Self {
+        Self {
+            path: place.into(),
+            message: format!("`{path}`: {}", self.message),
+            spans: Vec::new(),
+            ..self
+        }
+    }
+
+    /// The finding in one line: path and message.
+    pub fn title(&self) -> String {
+        if self.path.is_empty() {
+            self.message.clone()
+        } else {
+            format!("{}: {}", self.path, self.message)
+        }
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.title())?;
+        if let Some(mend) = &self.mend {
+            write!(f, " (mend: {mend})")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Diagnostic {}
+
+/// The texts that spans point into, by number.
+#[derive(Debug, Clone, Default)]
+pub struct Sources(Vec<(String, String)>);
+
+impl Sources {
+    /// Adds a text with the name to print; returns its number.
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> u16 {
+        self.0.push((name.into(), text.into()));
+        (self.0.len() - 1) as u16
+    }
+
+    /// Name and text of a number.
+    pub fn get(&self, source: u16) -> Option<(&str, &str)> {
+        self.0
+            .get(source as usize)
+            .map(|(name, text)| (name.as_str(), text.as_str()))
+    }
+
+    /// Name, line and column (from one, in characters) of a span's start.
+    pub fn locate(&self, span: Span) -> Option<(&str, usize, usize)> {
+        let (name, text) = self.get(span.source)?;
+        let before = text.get(..(span.start as usize).min(text.len()))?;
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        Some((name, line, column))
+    }
+
+    /// A finding with the excerpt of its text, plain, without colours.
+    pub fn render(&self, finding: &Diagnostic) -> String {
+        let level = match finding.severity {
+            Severity::Error => Level::ERROR,
+            Severity::Warning => Level::WARNING,
+        };
+        let title = finding.title();
+        let mut group = level
+            .primary_title(title.as_str())
+            .elements(std::iter::empty::<annotate_snippets::Padding>());
+        let mut by_source: Vec<(u16, Vec<(bool, &Span, &str)>)> = Vec::new();
+        for (i, (span, label)) in finding.spans.iter().enumerate() {
+            let entry = (i == 0, span, label.as_str());
+            match by_source.iter_mut().find(|(source, _)| *source == span.source) {
+                Some((_, list)) => list.push(entry),
+                None => by_source.push((span.source, vec![entry])),
+            }
+        }
+        for (source, spans) in &by_source {
+            let Some((name, text)) = self.get(*source) else {
+                continue;
+            };
+            let mut snippet = Snippet::source(text).path(name).fold(true);
+            for (primary, span, label) in spans {
+                let range = clip(text, **span);
+                let kind = if *primary {
+                    AnnotationKind::Primary
+                } else {
+                    AnnotationKind::Context
+                };
+                let annotation = kind.span(range);
+                snippet = snippet.annotation(if label.is_empty() {
+                    annotation
+                } else {
+                    annotation.label(*label)
+                });
+            }
+            group = group.element(snippet);
+        }
+        for note in &finding.notes {
+            group = group.element(Level::NOTE.message(note.as_str()));
+        }
+        if let Some(mend) = &finding.mend {
+            group = group.element(Level::HELP.with_name("mend").message(mend.as_str()));
+        }
+        Renderer::plain().render(&[group])
+    }
+}
+
+/// A range of the text at character boundaries, at least one character where there is one.
+fn clip(text: &str, span: Span) -> std::ops::Range<usize> {
+    let floor = |mut at: usize| {
+        at = at.min(text.len());
+        while !text.is_char_boundary(at) {
+            at -= 1;
+        }
+        at
+    };
+    let start = floor(span.start as usize);
+    let end = floor(span.end as usize).max(start);
+    // A span over several lines is shown by its first.
+    let line = text[start..end].find('\n').map_or(end, |newline| start + newline);
+    start..line.max(start)
+}
+
+/// The candidate that was probably meant: one letter differs, or it is the only one of which the word is a part, as `pitch` of
+/// `pitch_point`, or at most a third of its letters differ.
+pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let candidates: Vec<&'a str> = candidates.into_iter().collect();
+    let misspelt = misspelt(word, &candidates);
+    let one_letter = misspelt.filter(|(away, _)| *away <= 1);
+    let close = one_letter.or_else(|| abbreviated(word, &candidates).map(|candidate| (0, candidate)));
+    close.or(misspelt).map(|(_, candidate)| candidate)
+}
+
+/// The only candidate that has the word between its underscores.
+fn abbreviated<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    let has_part = |candidate: &&&str| candidate.to_lowercase().split('_').any(|part| part == word);
+    let mut found = candidates.iter().filter(has_part);
+    // Parts of one or two letters are numbers and sides, which many names have.
+    let first = found.next().filter(|_| word.chars().count() > 2)?;
+    found.all(|other| other == first).then_some(first)
+}
+
+/// The candidate with the fewest edits, and their number.
+fn misspelt<'a>(word: &str, candidates: &[&'a str]) -> Option<(usize, &'a str)> {
+    candidates
+        .iter()
+        .copied()
+        .filter_map(|candidate| {
+            let length = word.chars().count().max(candidate.chars().count());
+            if length > 64 {
+                return None;
+            }
+            let away = distance(word, candidate);
+            (away * 3 <= length + 1 && away < length).then_some((away, candidate))
+        })
+        .min_by_key(|(away, _)| *away)
+}
+
+/// Edits, with a swap of neighbours as one (optimal string alignment).
+pub fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
+    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            rows[i][j] = if i == 0 {
+                j
+            } else if j == 0 {
+                i
+            } else {
+                let change = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+                let mut best = change.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    best = best.min(rows[i - 2][j - 2] + 1);
+                }
+                best
+            };
+        }
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_misspelt_word_finds_its_neighbour() {
+        assert_eq!(did_you_mean("palmgrem", ["coulomb", "palmgren"]), Some("palmgren"));
+        assert_eq!(did_you_mean("facewdith", ["facewidth", "face"]), Some("facewidth"));
+        assert_eq!(did_you_mean("xyz", ["facewidth"]), None);
+    }
+
+    #[test]
+    fn a_part_of_one_word_finds_it() {
+        assert_eq!(did_you_mean("pitch", ["path", "pitch_point"]), Some("pitch_point"));
+        assert_eq!(did_you_mean("gear", ["gears", "gear_mesh"]), Some("gears"));
+        assert_eq!(did_you_mean("pitch", ["pitch_point", "pitch_speed"]), None);
+        assert_eq!(did_you_mean("in", ["torque_in"]), None);
+    }
+
+    #[test]
+    fn a_finding_prints_file_line_column_and_caret() {
+        let mut sources = Sources::default();
+        let source = sources.add("gear.yaml", "a: 1\nb: 30 Nm\n");
+        let finding = Diagnostic::error("b", "a torque")
+            .at(Span {
+                source,
+                start: 8,
+                end: 13,
+            })
+            .mend("write `30 mm`");
+        let text = sources.render(&finding);
+        assert!(
+            text.contains("error: b: a torque") && text.contains("gear.yaml:2:4") && text.contains("^^^^^"),
+            "{text}"
+        );
+        assert!(text.contains("mend: write `30 mm`"), "{text}");
+        assert_eq!(
+            sources
+                .locate(Span {
+                    source,
+                    start: 8,
+                    end: 13
+                })
+                .unwrap(),
+            ("gear.yaml", 2, 4)
+        );
+    }
+}

@@ -1,0 +1,29 @@
+//! Documents: YAML text to nodes with places, one collecting walk along a compiled schema, values in SI.
+
+mod by_type;
+pub mod data;
+mod diagnostic;
+pub mod files;
+mod misplaced;
+mod node;
+mod ordered;
+mod places;
+mod publish;
+mod quantity;
+mod schema;
+mod unit;
+mod walk;
+mod yaml;
+
+pub use by_type::records_by_type;
+pub use diagnostic::distance;
+pub use diagnostic::{Code, Diagnostic, Severity, Sources, did_you_mean};
+pub use node::{Content, Key, Node, Span};
+pub use ordered::Ordered;
+pub use places::{Place, Places};
+pub use publish::publish;
+pub use quantity::{QuantityFault, number_length, parse_quantity};
+pub use schema::{Field, Schema, Shape, Unsupported};
+pub use unit::{Dimension, Unit};
+pub use walk::{Walked, walk, walk_at, walk_shape};
+pub use yaml::{Read, read_yaml};

@@ -1,0 +1,74 @@
+//! A schematic of the gearbox as SVG: the unfolded axial view with gears to scale and the usual symbols.
+
+mod along;
+mod axes;
+mod canvas;
+mod draw;
+mod things;
+
+use serde_json::Value;
+
+use along::{Along, along};
+use axes::{Axes, axes};
+use canvas::Canvas;
+use gearloss_framework::transmission::Transmission;
+use things::Things;
+
+/// Width that gears and bearings take at most. \[px\]
+const WIDTH: f64 = 760.0;
+/// Height that the drawing takes at most, where the symbols allow it. \[px\]
+const HEIGHT: f64 = 620.0;
+
+/// Draws a gearbox as a self-contained `<svg>` element.
+///
+/// The x axis is the place along the shafts. Gears have their true face width and tip diameter, all to one scale that a bar
+/// states in mm; bearings have their true width. The axes are unfolded into one plane: that of the reference port first,
+/// each further one at the sum of the tip radii from the one that it meshes with, coaxial shafts on one line. Of a planetary
+/// set one planet is drawn, between its sun and the upper half of its ring. Gears in mesh that cannot touch in one plane are
+/// joined by a dotted line. Of seals, couplings and auxiliaries whose `at` was not written the resolved document says
+/// zero; they get a free place and a dashed outline. Every component is a group with its path in `data-part`.
+///
+/// `resolved` is the resolved document that the transmission was built from (`Resolved::value`).
+pub fn schematic(transmission: &Transmission, resolved: &Value) -> String {
+    let things = Things::new(transmission, resolved);
+    let (scale, along, axes) = laid_out(&things);
+    let mut canvas = Canvas::default();
+    draw::all(&mut canvas, &things, &along, &axes, scale);
+    canvas.finish(&format!("Schematic of {}", transmission.title()))
+}
+
+/// The largest scale in px/m at which the drawing keeps its size, with all places.
+fn laid_out(things: &Things) -> (f64, Along, Axes) {
+    let mut scale = WIDTH / length(things);
+    let lay = |scale: f64| {
+        let along = along(things, scale);
+        let axes = axes(things, &along, scale);
+        (along, axes)
+    };
+    let (mut places, mut heights) = lay(scale);
+    // Symbols keep their size at any scale, so the height does not follow it strictly.
+    for _ in 0..3 {
+        let rects = (0..things.wheels.len()).map(|g| heights.rectangle(things, &places, g).y);
+        let [top, bottom] = rects.fold([0.0_f64, 0.0_f64], |a, y| [a[0].min(y[0]), a[1].max(y[1])]);
+        if bottom - top <= 1.02 * HEIGHT {
+            break;
+        }
+        scale *= HEIGHT / (bottom - top);
+        (places, heights) = lay(scale);
+    }
+    (scale, places, heights)
+}
+
+/// From the first face to the last, of all that has a place. \[m\]
+fn length(things: &Things) -> f64 {
+    let gears = things.wheels.iter().map(|w| (w.at, 0.5 * w.width));
+    let parts = things
+        .parts
+        .iter()
+        .filter_map(|p| p.at.map(|at| (at, 0.5 * p.size[0].unwrap_or(0.0))));
+    let all = gears.chain(parts);
+    let [first, last] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |span, (at, half)| {
+        [span[0].min(at - half), span[1].max(at + half)]
+    });
+    if last > first { (last - first).max(1e-3) } else { 0.1 }
+}

@@ -1,0 +1,21 @@
+//! Analyses: many points of one transmission, in parallel, with the same bits on any number of threads.
+
+mod bits;
+mod cycle;
+mod grid;
+mod notes;
+mod pieces;
+mod rows;
+mod solve;
+mod sums;
+mod temperature;
+
+pub use bits::Bits;
+pub use cycle::{Driven, Ride, Stretch, can_drive, drive};
+pub use gearloss_numerics::statistics::{Statistics, bands, correlation, histogram, levels, quantile};
+pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
+pub use notes::{Note, STATIC_SAFETY, Stated, WeakPoint, evidence, notes};
+pub use pieces::{MOST_HELD, Make, Numbered, Piece, held, solve_pieces};
+pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
+pub use sums::{SUMS, sum_of};
+pub use temperature::{Found, OilTemperature};

@@ -1,0 +1,249 @@
+//! Many points: every torque at every speed of a grid, or a list.
+
+use std::sync::Arc;
+
+use super::{OilTemperature, Piece, held, solve_pieces};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::flow::Status;
+use gearloss_framework::loss::{Extent, MOST_TERMS, Undefined};
+use gearloss_framework::thermal::Outcome as ThermalOutcome;
+use gearloss_framework::transmission::{Case, Transmission};
+
+/// The points of a grid and how they are prescribed.
+#[derive(Debug, Clone)]
+pub struct Points {
+    /// Gear state.
+    pub gear: String,
+    /// Ports with given torque: that of the points at the first, none at the others. Those that the gear state has no use for
+    /// are left out.
+    pub torque_at: Vec<String>,
+    /// Ports with given speed: that of the points at the first; the others stand still.
+    pub speed_at: Vec<String>,
+    /// Torques and speeds.
+    pub field: Field,
+    /// Temperature of the oil where the list gives none.
+    pub oil: OilTemperature,
+    /// Real or ideal flow.
+    pub flow: PowerFlow,
+    /// Whether losses are kept term by term.
+    pub terms: bool,
+}
+
+/// Torque and speed of one point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Given {
+    /// Torque. \[Nm\]
+    pub torque: f64,
+    /// Speed. \[rad/s\]
+    pub speed: f64,
+    /// Temperature of the oil at this point; absent, that of all. \[degC\]
+    pub oil: Option<f64>,
+}
+
+impl Given {
+    fn on_grid(torques: &[f64], speeds: &[f64], place: usize) -> Self {
+        Self {
+            torque: torques[place / speeds.len()],
+            speed: speeds[place % speeds.len()],
+            oil: None,
+        }
+    }
+}
+
+/// Torques and speeds of many points.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Field {
+    /// Every torque at every speed; torques outside, speeds inside.
+    Grid {
+        /// Torques. \[Nm\]
+        torques: Vec<f64>,
+        /// Speeds. \[rad/s\]
+        speeds: Vec<f64>,
+    },
+    /// Some places of such a grid.
+    Part {
+        /// Torques. \[Nm\]
+        torques: Vec<f64>,
+        /// Speeds. \[rad/s\]
+        speeds: Vec<f64>,
+        /// Numbers of the places, rising.
+        places: Arc<[u32]>,
+    },
+    /// One after the other.
+    List(Vec<Given>),
+}
+
+impl Field {
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Grid { torques, speeds } => torques.len() * speeds.len(),
+            Self::Part { places, .. } => places.len(),
+            Self::List(list) => list.len(),
+        }
+    }
+
+    /// True without points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A point by its number.
+    ///
+    /// # Panics
+    /// If there are not as many points: a bug of the caller.
+    pub fn at(&self, i: usize) -> Given {
+        match self {
+            Self::Grid { torques, speeds } => Given::on_grid(torques, speeds, i),
+            Self::Part {
+                torques,
+                speeds,
+                places,
+            } => Given::on_grid(torques, speeds, places[i] as usize),
+            Self::List(list) => list[i],
+        }
+    }
+
+    /// The place on the grid of a point by its number; the number itself for a list.
+    pub fn place(&self, i: usize) -> usize {
+        match self {
+            Self::Part { places, .. } => places[i] as usize,
+            _ => i,
+        }
+    }
+}
+
+/// One solved point, as numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointResult {
+    /// Given torque. \[Nm\]
+    pub torque: f64,
+    /// Given speed. \[rad/s\]
+    pub speed: f64,
+    /// Speed of the port at which the torque is given; zero where none is. \[rad/s\]
+    pub torque_speed: f64,
+    /// Speed of the reference port. \[rad/s\]
+    pub reference_speed: f64,
+    /// Speed of the other port, where there are two. \[rad/s\]
+    pub output_speed: Option<f64>,
+    /// Whether the torque is given at the reference port.
+    pub at_reference: bool,
+    /// Temperature of the oil; absent where no balance was found, and with it everything that hangs on it. \[degC\]
+    pub oil: Option<f64>,
+    /// Temperature of the surface, where it was found by balance. \[degC\]
+    pub surface: Option<f64>,
+    /// What became of the balance, where the temperature is not given.
+    pub balance: Option<ThermalOutcome>,
+    /// Temperatures of the nodes of a thermal network; none without one. \[degC\]
+    pub nodes: Vec<f64>,
+    /// What the transmission does.
+    pub status: Status,
+    /// Power out over power in.
+    pub efficiency: Option<f64>,
+    /// Sum of all losses. \[W\]
+    pub loss: Option<f64>,
+    /// Loss over the speed of the reference port. \[Nm\]
+    pub loss_torque: Option<f64>,
+    /// Power in. \[W\]
+    pub input: Option<f64>,
+    /// Power out. \[W\]
+    pub output: Option<f64>,
+    /// The usual sums, in the order of [`super::SUMS`]. \[W\]
+    pub sums: [f64; 6],
+    /// Losses of all parts, in the order of the parts. \[W\]
+    pub parts: Vec<f64>,
+    /// The same by the terms of their models, where that was asked for. \[W\]
+    pub terms: Vec<[f64; MOST_TERMS]>,
+    /// True where a model left its stated range.
+    pub outside: bool,
+    /// Why a loss has no value: number of the part and the reason.
+    pub undefined: Option<(usize, Undefined)>,
+    /// Passes over the loss models.
+    pub passes: usize,
+    /// Evaluations of the point on the way to its temperature.
+    pub evaluations: usize,
+}
+
+impl PointResult {
+    /// Without all that hangs on a temperature that was not found.
+    pub(super) fn without_temperature(self) -> Self {
+        Self {
+            oil: None,
+            nodes: Vec::new(),
+            efficiency: None,
+            loss: None,
+            loss_torque: None,
+            input: None,
+            output: None,
+            sums: [0.0; 6],
+            parts: vec![0.0; self.parts.len()],
+            terms: Vec::new(),
+            ..self
+        }
+    }
+}
+
+/// Solved points.
+#[derive(Debug, Clone, Default)]
+pub struct GridResult {
+    /// The points, in the order of the field.
+    pub points: Vec<PointResult>,
+    /// What was seen of limits and observed quantities over all points.
+    pub seen: Vec<Extent>,
+    /// Wall time is no result; calls of loss models are: the sum of passes.
+    pub passes: usize,
+}
+
+impl Points {
+    /// The case of these points.
+    ///
+    /// # Errors
+    /// If the gear state or a port is unknown, or the prescription does not fit.
+    pub fn case(&self, transmission: &Transmission) -> Result<Case, Vec<Diagnostic>> {
+        let state = transmission.state(&self.gear).map_err(|e| vec![e])?;
+        let needed = transmission.torques_needed(state);
+        let torques: Vec<&str> = self.torque_at.iter().map(String::as_str).take(needed).collect();
+        let speeds: Vec<&str> = self.speed_at.iter().map(String::as_str).collect();
+        transmission.case(&self.gear, &speeds, &torques)
+    }
+}
+
+/// Solves all points and holds them. `progress` hears how many more are solved; where it answers false the work is broken
+/// off, and there is no result.
+///
+/// # Errors
+/// If the case does not fit.
+pub fn run_grid(
+    transmission: &Transmission,
+    points: &Points,
+    progress: &(dyn Fn(usize) -> bool + Sync),
+) -> Result<Option<GridResult>, Vec<Diagnostic>> {
+    let numbers: Vec<usize> = (0..points.field.pieces()).collect();
+    let mut all = GridResult::default();
+    let whole = solve_pieces(transmission, points, &numbers, &held, progress, &mut |piece| {
+        all.add(piece);
+        true
+    })?;
+    Ok(whole.then_some(all))
+}
+
+impl GridResult {
+    /// Adds the piece that follows.
+    pub fn add(&mut self, piece: Piece) {
+        merge(&mut self.seen, &piece.seen);
+        self.passes += piece.points().map(|p| p.passes).sum::<usize>();
+        self.points.extend(piece.into_points());
+    }
+}
+
+/// Adds what was seen of limits and observed quantities to what was seen before; both in the order of one transmission.
+pub fn merge(total: &mut Vec<Extent>, more: &[Extent]) {
+    if total.is_empty() {
+        total.extend_from_slice(more);
+    } else {
+        for (a, b) in total.iter_mut().zip(more) {
+            *a = a.merge(*b);
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! What was seen of limits and observed quantities, with the paths of their models, and how well models are known.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use gearloss_framework::loads::LEAST_STATIC_SAFETY;
+use gearloss_framework::loss::Extent;
+use gearloss_framework::registry::{Evidence, Instance};
+use gearloss_framework::resolve::{Came, Resolved, lookup};
+use gearloss_framework::transmission::Transmission;
+
+/// Name of the note of a bearing's static safety.
+pub const STATIC_SAFETY: &str = "S0 = C0/P0";
+
+/// One limit or observed quantity over many points.
+#[derive(Debug, Clone, Serialize)]
+pub struct Note {
+    /// Path of the model.
+    pub path: String,
+    /// Symbol.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// Least value seen.
+    pub least: f64,
+    /// Greatest value seen.
+    pub greatest: f64,
+    /// At how many points it was seen.
+    pub points: u32,
+    /// At how many points it was outside of the stated range; zero for an observed quantity.
+    pub outside: u32,
+    /// The stated range; absent for an observed quantity.
+    pub range: Option<Stated>,
+}
+
+/// The range in which a model is stated to hold, in the unit of the note.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Stated {
+    /// Lower end.
+    pub least: f64,
+    /// Upper end.
+    pub greatest: f64,
+    /// Where it comes from.
+    pub origin: &'static str,
+}
+
+/// All limits and observed quantities that were seen, and the static safety of bearings that have too little of it.
+pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for instance in transmission.instances() {
+        for limit in instance.entry.limits {
+            let extent = seen[instance.notes.limits() + limit.index];
+            let stated = Stated {
+                least: limit.least,
+                greatest: limit.greatest,
+                origin: limit.origin,
+            };
+            notes.extend(note(instance, limit.name, limit.unit, extent, Some(stated)));
+        }
+        for observed in instance.entry.observed {
+            notes.extend(note(
+                instance,
+                observed.name,
+                observed.unit,
+                seen[instance.notes.observed() + observed.index],
+                None,
+            ));
+        }
+    }
+    // A safety that suffices is no news.
+    let rated = transmission.rated().iter().zip(&seen[transmission.rated_cells()..]);
+    notes.extend(rated.filter(|(_, seen)| seen.outside > 0).map(|(rated, seen)| Note {
+        path: transmission.supports()[rated.support].clone(),
+        name: STATIC_SAFETY,
+        unit: "-",
+        least: seen.least,
+        greatest: seen.greatest,
+        points: seen.seen,
+        outside: seen.outside,
+        range: Some(Stated {
+            least: LEAST_STATIC_SAFETY,
+            greatest: f64::INFINITY,
+            origin: "static safety, ISO 76",
+        }),
+    }));
+    notes
+}
+
+fn note(
+    instance: &Instance,
+    name: &'static str,
+    unit: &'static str,
+    extent: Extent,
+    range: Option<Stated>,
+) -> Option<Note> {
+    (extent.seen > 0).then(|| Note {
+        path: instance.path.clone(),
+        name,
+        unit,
+        least: extent.least,
+        greatest: extent.greatest,
+        points: extent.seen,
+        outside: extent.outside,
+        range,
+    })
+}
+
+/// A formula, default or catalogue value that a result rests on, with its grade.
+#[derive(Debug, Clone, Serialize)]
+pub struct WeakPoint {
+    /// Model, and the parameter where the grade is that of a default.
+    pub what: String,
+    /// The grade.
+    pub grade: Evidence,
+    /// What it rests on.
+    pub because: String,
+    /// Paths that use it.
+    pub paths: Vec<String>,
+}
+
+/// How well everything that the transmission uses is known, the weakest first. A parameter that is written counts as the
+/// user's own and is left out.
+pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn Fn(&str) -> bool) -> Vec<WeakPoint> {
+    let mut points: Vec<WeakPoint> = Vec::new();
+    let mut add =
+        |what: String, grade: Evidence, because: &str, path: &str| match points.iter_mut().find(|p| p.what == what) {
+            Some(point) => point.paths.push(path.to_owned()),
+            None => points.push(WeakPoint {
+                what,
+                grade,
+                because: because.to_owned(),
+                paths: vec![path.to_owned()],
+            }),
+        };
+    for instance in transmission.instances() {
+        let entry = &instance.entry;
+        if entry.name == "none" {
+            continue;
+        }
+        let model = format!("{}/{}", entry.mechanism, entry.name);
+        for graded in entry.evidence {
+            if graded.key.is_empty() {
+                add(model.clone(), graded.grade, graded.because, &instance.path);
+                continue;
+            }
+            let path = format!("{}.{}", instance.path, graded.key);
+            let value = lookup(&resolved.value, &path);
+            let own = written(&path) || *resolved.came(&path) == Came::Override;
+            // A parameter with a default that nobody wrote, or one that the model fills itself.
+            if !own || value.is_none_or(Value::is_null) {
+                add(
+                    format!("{model}.{}", graded.key),
+                    graded.grade,
+                    graded.because,
+                    &instance.path,
+                );
+            }
+        }
+    }
+    for (path, _) in resolved.came.iter().filter(|(_, came)| **came == Came::Network) {
+        let because = "capacities and conductances by size";
+        add("network: auto".to_owned(), Evidence::Assumed, because, path);
+    }
+    for (path, came) in &resolved.came {
+        if let Came::Catalogue {
+            designation,
+            confidence,
+        } = came
+        {
+            let grade = match confidence.as_str() {
+                "high" => Evidence::SeveralSources,
+                "medium" => Evidence::OneSource,
+                "low" => Evidence::Recalled,
+                _ => Evidence::User,
+            };
+            let owner = path.rsplit_once('.').map_or(path.as_str(), |(owner, _)| owner);
+            let what = format!("catalogue row {designation}");
+            if !points
+                .iter()
+                .any(|p| p.what == what && p.paths.iter().any(|p| p == owner))
+            {
+                match points.iter_mut().find(|p| p.what == what) {
+                    Some(point) => point.paths.push(owner.to_owned()),
+                    None => points.push(WeakPoint {
+                        what,
+                        grade,
+                        because: format!("confidence {confidence}"),
+                        paths: vec![owner.to_owned()],
+                    }),
+                }
+            }
+        }
+    }
+    points.sort_by(|a, b| b.grade.cmp(&a.grade).then_with(|| a.what.cmp(&b.what)));
+    points
+}

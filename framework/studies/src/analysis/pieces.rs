@@ -1,0 +1,270 @@
+//! Many points, solved in parallel piece by piece, so that few of them are held.
+
+use std::iter::repeat_n;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+
+use super::solve::{Solver, Space};
+use super::{Field, PointResult, Points, merge};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::lanes::LANES;
+use gearloss_framework::loss::Extent;
+use gearloss_framework::transmission::Transmission;
+
+/// Points of a piece that is no part of a grid.
+const PIECE: usize = 1024;
+
+/// The most points of a piece that is a part of a grid: so many that a square map of 10^7 points has full blocks.
+const LARGEST: usize = LANES * 3200;
+
+/// Points that are solved at once: at least one piece, at most as many pieces as make this number.
+const TOGETHER: usize = LANES * 2048;
+
+/// Of how many points something is held at most while a field is solved piece by piece.
+pub const MOST_HELD: usize = 2 * LARGEST;
+
+/// Points of a task, where a piece has more of them. Each begins anew, without what the speeds before say.
+const TASK: usize = 4096;
+
+/// Some points of a field that follow each other, solved: what became of them, by tasks.
+#[derive(Debug, Clone)]
+pub struct Piece<T = Vec<PointResult>> {
+    /// Number of the piece among those of the field.
+    pub number: usize,
+    /// What became of the points of each task, which are in the order of the field.
+    pub(super) tasks: Vec<T>,
+    /// The order of the field: number of a task and how many of its next points follow.
+    order: Vec<(usize, usize)>,
+    /// What was seen of limits and observed quantities over these points.
+    pub seen: Vec<Extent>,
+}
+
+/// Points with their numbers in the field, rising.
+pub type Numbered<'a> = [(usize, &'a mut PointResult)];
+
+/// What is made of the points of a task where they were solved.
+pub type Make<'a, T> = dyn Fn(&mut Numbered<'_>) -> T + Sync + 'a;
+
+/// The points themselves, where they are still wanted; what is left has no parts, terms and nodes.
+pub fn held(points: &mut Numbered<'_>) -> Vec<PointResult> {
+    let taken = |(_, point): &mut (usize, &mut PointResult)| PointResult {
+        nodes: std::mem::take(&mut point.nodes),
+        parts: std::mem::take(&mut point.parts),
+        terms: std::mem::take(&mut point.terms),
+        ..**point
+    };
+    points.iter_mut().map(taken).collect()
+}
+
+impl<T> Piece<T> {
+    /// The order of the points in the field: number of a task and its points that follow.
+    pub fn runs(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
+        let mut done = vec![0; self.tasks.len()];
+        self.order.iter().map(move |(task, count)| {
+            let start = done[*task];
+            done[*task] += count;
+            (*task, start..start + count)
+        })
+    }
+
+    /// The piece with something else in place of what became of each task.
+    pub fn map<U>(self, other: impl FnMut(T) -> U) -> Piece<U> {
+        Piece {
+            number: self.number,
+            tasks: self.tasks.into_iter().map(other).collect(),
+            order: self.order,
+            seen: self.seen,
+        }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.order.iter().map(|(_, count)| count).sum()
+    }
+
+    /// True without points.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl Piece {
+    /// A piece of points in the order of the field, and what was seen of limits and observed quantities over them.
+    pub fn new(number: usize, points: Vec<PointResult>, seen: Vec<Extent>) -> Self {
+        Self {
+            number,
+            order: vec![(0, points.len())],
+            tasks: vec![points],
+            seen,
+        }
+    }
+
+    /// The points, in the order of the field.
+    pub fn points(&self) -> impl Iterator<Item = &PointResult> {
+        self.runs().flat_map(|(task, own)| &self.tasks[task][own])
+    }
+
+    /// The same, without the piece.
+    pub fn into_points(self) -> impl Iterator<Item = PointResult> {
+        let mut tasks: Vec<_> = self.tasks.into_iter().map(Vec::into_iter).collect();
+        let in_order = self.order.into_iter().flat_map(|(task, count)| repeat_n(task, count));
+        in_order.filter_map(move |task| tasks[task].next())
+    }
+
+    /// What becomes of points that were solved elsewhere, the first of which has a number in the field.
+    pub fn made<T: Send>(self, first: usize, make: &Make<'_, T>) -> Piece<T> {
+        let (number, seen) = (self.number, self.seen.clone());
+        let mut points: Vec<PointResult> = self.into_points().collect();
+        let mut points: Vec<(usize, &mut PointResult)> = (first..).zip(&mut points).collect();
+        Piece {
+            number,
+            order: points.chunks(TASK).map(<[_]>::len).enumerate().collect(),
+            tasks: points.par_chunks_mut(TASK).with_max_len(1).map(make).collect(),
+            seen,
+        }
+    }
+}
+
+impl Field {
+    /// Points of a piece. On a grid a piece is made of whole lines of one torque, so many that blocks of one speed are full
+    /// where memory allows it.
+    fn piece(&self) -> usize {
+        match self {
+            Self::Grid { speeds, .. } if (1..=LARGEST).contains(&speeds.len()) => {
+                speeds.len() * (LARGEST / speeds.len()).min(LANES)
+            }
+            _ => PIECE,
+        }
+    }
+
+    /// Number of pieces.
+    pub fn pieces(&self) -> usize {
+        self.len().div_ceil(self.piece())
+    }
+
+    /// Numbers of the points of a piece.
+    pub fn of_piece(&self, number: usize) -> Range<usize> {
+        let piece = self.piece();
+        number * piece..((number + 1) * piece).min(self.len())
+    }
+
+    /// The points of a piece in the order in which they are solved: those of one speed and oil one after the other.
+    fn in_order(&self, number: usize) -> Vec<usize> {
+        let own = self.of_piece(number);
+        if let Self::Grid { speeds, .. } = self {
+            let mut numbers = Vec::with_capacity(own.len());
+            for first in own.start..(own.start + speeds.len()).min(own.end) {
+                numbers.extend((first..own.end).step_by(speeds.len()));
+            }
+            return numbers;
+        }
+        let mut numbers: Vec<usize> = own.collect();
+        numbers.sort_by(|a, b| {
+            let (a, b) = (self.at(*a), self.at(*b));
+            let oil = |oil: Option<f64>| oil.unwrap_or(f64::NEG_INFINITY);
+            a.speed.total_cmp(&b.speed).then(oil(a.oil).total_cmp(&oil(b.oil)))
+        });
+        numbers
+    }
+}
+
+/// What became of a task.
+struct Task<T> {
+    made: T,
+    /// Number of a point, and how many follow in the order of the field with it.
+    runs: Vec<(usize, usize)>,
+    seen: Vec<Extent>,
+}
+
+/// Solves the pieces of given numbers and hands them over in this order. What is wanted of the points `make` takes from them
+/// where they were solved, while they are in the caches, on all threads; a point itself does not last, but where that is what it
+/// makes ([`held`]). Of no more points than [`MOST_HELD`] something is held: while some are taken, the next are solved.
+/// `progress` hears how many more are solved; where it or `take` answers false the work is broken off, and so does this answer.
+///
+/// # Errors
+/// If the case does not fit.
+pub fn solve_pieces<T: Send>(
+    transmission: &Transmission,
+    points: &Points,
+    numbers: &[usize],
+    make: &Make<'_, T>,
+    progress: &(dyn Fn(usize) -> bool + Sync),
+    take: &mut dyn FnMut(Piece<T>) -> bool,
+) -> Result<bool, Vec<Diagnostic>> {
+    let case = points.case(transmission)?;
+    let solver = Solver::new(transmission, &case, points);
+    let going = AtomicBool::new(true);
+    // As many as tasks run at once, kept from task to task.
+    let spaces: Mutex<Vec<Space>> = Mutex::default();
+    let solve = |task: &[usize]| {
+        if !going.load(Ordering::Relaxed) {
+            return None;
+        }
+        let spare = spaces.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let mut space = spare.unwrap_or_else(|| solver.space());
+        let solved = solver.solve(task, &mut space);
+        let mut points: Vec<(usize, &mut PointResult)> = task.iter().copied().zip(solved).collect();
+        // They rise in runs, which this sort merges.
+        points.sort_by_key(|(number, _)| *number);
+        let made = make(&mut points);
+        if !progress(task.len()) {
+            going.store(false, Ordering::Relaxed);
+        }
+        let runs = points.chunk_by(|a, b| b.0 == a.0 + 1);
+        let runs = runs.map(|run| (run[0].0, run.len())).collect();
+        let seen = space.take_seen();
+        spaces.lock().unwrap_or_else(PoisonError::into_inner).push(space);
+        Some(Task { made, runs, seen })
+    };
+    let solve_all = |numbers: &[usize]| -> Vec<Piece<T>> {
+        let orders: Vec<Vec<usize>> = numbers.iter().map(|number| points.field.in_order(*number)).collect();
+        let tasks: Vec<&[usize]> = orders.iter().flat_map(|order| order.chunks(TASK)).collect();
+        // One by one, or the last threads would have several left while others have none.
+        let solved: Option<Vec<Task<T>>> = tasks.into_par_iter().with_max_len(1).map(solve).collect();
+        // Nothing, where the work was broken off.
+        let Some(solved) = solved else {
+            return Vec::new();
+        };
+        let mut solved = solved.into_iter();
+        let piece = |(number, order): (&usize, &Vec<usize>)| {
+            let (mut seen, mut made, mut runs) = (Vec::new(), Vec::new(), Vec::new());
+            for (i, task) in solved.by_ref().take(order.len().div_ceil(TASK)).enumerate() {
+                merge(&mut seen, &task.seen);
+                made.push(task.made);
+                runs.extend(task.runs.into_iter().map(|(first, count)| (first, i, count)));
+            }
+            runs.sort_unstable();
+            Piece {
+                number: *number,
+                tasks: made,
+                order: runs.into_iter().map(|(_, task, count)| (task, count)).collect(),
+                seen,
+            }
+        };
+        numbers.iter().zip(&orders).map(piece).collect()
+    };
+    let mut ready: Vec<Piece<T>> = Vec::new();
+    let mut groups = numbers.chunks((TOGETHER / points.field.piece()).max(1));
+    loop {
+        let next = groups.next();
+        let mut solved = Vec::new();
+        rayon::in_place_scope(|scope| {
+            if let Some(next) = next {
+                scope.spawn(|_| solved = solve_all(next));
+            }
+            if !ready.drain(..).all(&mut *take) {
+                going.store(false, Ordering::Relaxed);
+            }
+        });
+        if !going.load(Ordering::Relaxed) {
+            return Ok(false);
+        }
+        if next.is_none() {
+            return Ok(true);
+        }
+        ready = solved;
+    }
+}

@@ -1,0 +1,312 @@
+//! Points of a file, solved under one choice of models, with the transmissions that their bound columns need.
+
+use serde_json::Value;
+
+use super::{Field, Given, OilTemperature, PointResult, Points, merge, run_grid};
+use crate::measured::{Measured, PortSpeeds, Rig, Row, sense};
+use gearloss_framework::description::ThermalMode;
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::language::Language;
+use gearloss_framework::loss::{Extent, Step};
+use gearloss_framework::resolve::{Choice, Resolved};
+use gearloss_framework::transmission::Transmission;
+
+/// Rows of a file and how they are prescribed.
+#[derive(Debug, Clone)]
+pub struct Rows<'a> {
+    /// The rows.
+    pub measured: &'a Measured,
+    /// Paths of the bound columns, in the order of their values.
+    pub bind: Vec<&'a str>,
+    /// Gear state where a row tells none; absent, the first.
+    pub gear: Option<&'a str>,
+    /// Port at which the torque is given.
+    pub torque_at: &'a str,
+    /// Port at which the speed is given.
+    pub speed_at: &'a str,
+    /// Temperature of the oil where a row tells none; absent, that of the gearbox. \[degC\]
+    pub oil: Option<f64>,
+    /// Real or ideal flow.
+    pub flow: PowerFlow,
+    /// Whether losses are kept term by term.
+    pub terms: bool,
+}
+
+/// What a rig adds, and at which speeds of the ports in every row.
+#[derive(Debug, Clone, Copy)]
+pub struct OnRig<'a> {
+    /// The rig.
+    pub rig: Rig,
+    /// Speeds of the rows, of [`Rows::speeds`].
+    pub speeds: &'a [PortSpeeds],
+}
+
+/// A transmission with the resolved description that it was built from.
+pub type BuiltFrom = (Resolved, Transmission);
+
+/// Solved rows.
+pub struct SolvedRows {
+    /// One transmission for each combination of bound values, in the order in which rows name them.
+    pub transmissions: Vec<BuiltFrom>,
+    /// For each row the number of its transmission, its gear state and its point.
+    pub rows: Vec<(usize, String, PointResult)>,
+    /// What was seen of limits and observed quantities over all rows.
+    pub seen: Vec<Extent>,
+}
+
+impl Rows<'_> {
+    /// The transmissions of a choice: one for each combination of bound values.
+    ///
+    /// # Errors
+    /// Everything that resolving and building find.
+    pub fn build(&self, language: &Language, gearbox: &Gearbox, choice: &Choice) -> Result<Vec<BuiltFrom>, Findings> {
+        let of = |bound: &&Vec<String>| {
+            let mut choice = choice.clone();
+            let values = self.bind.iter().zip(bound.iter());
+            choice
+                .overrides
+                .extend(values.map(|(path, text)| ((*path).to_owned(), bound_value(text))));
+            let resolved = gearbox.resolve(language, &choice)?;
+            let transmission = gearbox.build(language, &resolved)?;
+            self.ports_fit(&transmission)
+                .map_err(|error| Findings::from(vec![error]))?;
+            Ok((resolved, transmission))
+        };
+        self.combinations().iter().map(of).collect()
+    }
+
+    fn combinations(&self) -> Vec<&Vec<String>> {
+        let mut combinations: Vec<&Vec<String>> = Vec::new();
+        for row in &self.measured.rows {
+            if !combinations.contains(&&row.bound) {
+                combinations.push(&row.bound);
+            }
+        }
+        combinations
+    }
+
+    /// The points of each gear state of each transmission, with the number of the latter; without torques and speeds.
+    pub fn kinds(&self, transmissions: &[BuiltFrom]) -> Vec<(usize, Points)> {
+        let mut kinds: Vec<(usize, Points)> = Vec::new();
+        for (place, gear) in self.keys(transmissions) {
+            if !kinds
+                .iter()
+                .any(|(own, points)| (*own, points.gear.as_str()) == (place, gear))
+            {
+                kinds.push((place, self.points(gear, &transmissions[place].1, Vec::new())));
+            }
+        }
+        kinds
+    }
+
+    /// Number of the transmission and gear state of each row.
+    fn keys<'s>(&'s self, transmissions: &'s [BuiltFrom]) -> Vec<(usize, &'s str)> {
+        let combinations = self.combinations();
+        let key = |row: &'s Row| {
+            let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
+            (place, self.state(row, &transmissions[place].1))
+        };
+        self.measured.rows.iter().map(key).collect()
+    }
+
+    /// Whether the transmission has one other port than that of the conditions, where rows give torque or speed there.
+    ///
+    /// # Errors
+    /// If it is not clear which port that is.
+    pub fn ports_fit(&self, transmission: &Transmission) -> Result<(), Diagnostic> {
+        let out = match (self.measured.torque_at_other_port, self.measured.speed_at_other_port) {
+            (true, _) => "torque_out",
+            (_, true) => "speed_out",
+            _ => return Ok(()),
+        };
+        let wrong = |message: String, help: &str| Err(Diagnostic::error("", message).mend(help));
+        if self.torque_at != self.speed_at {
+            let message = format!(
+                "`{out}` alone does not say at which port it was measured: the conditions give the torque at `{}` and the speed at `{}`",
+                self.torque_at, self.speed_at
+            );
+            return wrong(
+                message,
+                "name one port in `torque_at` and `speed_at`, or the columns `torque` and `speed`",
+            );
+        }
+        match transmission.ports().len() {
+            2 => Ok(()),
+            count => wrong(
+                format!("`{out}` alone needs a gearbox with two ports; this one has {count}"),
+                "join ports as `wheels`, or name the columns `torque` and `speed` and their ports in the conditions",
+            ),
+        }
+    }
+
+    /// Signs that turn torque and speed as they were measured into those of the transmission: other than one only at the other
+    /// port, which may turn backward where that of the conditions turns forward.
+    fn signs(&self, gear: &str, transmission: &Transmission) -> [f64; 2] {
+        let [torque, speed] = [self.measured.torque_at_other_port, self.measured.speed_at_other_port];
+        if !torque && !speed {
+            return [1.0, 1.0];
+        }
+        let state = transmission.states().iter().position(|state| state.name == gear);
+        let ratio = state.and_then(|state| transmission.ratios(state).first()?.1);
+        let other = sense(ratio.unwrap_or(1.0));
+        [if torque { -other } else { 1.0 }, if speed { other } else { 1.0 }]
+    }
+
+    fn points(&self, gear: &str, transmission: &Transmission, list: Vec<Given>) -> Points {
+        let [torque_at, speed_at] = [
+            (self.torque_at, self.measured.torque_at_other_port),
+            (self.speed_at, self.measured.speed_at_other_port),
+        ]
+        .map(|(own, other)| port_of(transmission, own, other).to_owned());
+        Points {
+            gear: gear.to_owned(),
+            torque_at: vec![torque_at],
+            speed_at: vec![speed_at],
+            field: Field::List(list),
+            oil: OilTemperature::of(transmission, self.oil),
+            flow: self.flow,
+            terms: self.terms,
+        }
+    }
+
+    /// Solves every row with the torque that is left for the transmission once a rig has had its share. A measured temperature
+    /// of the oil counts where the model does not find its own. `progress` hears how many more are solved; where it answers
+    /// false there is no result.
+    ///
+    /// # Errors
+    /// If a row's gear state or the ports do not fit.
+    pub fn solve(
+        &self,
+        transmissions: Vec<BuiltFrom>,
+        rig: Option<OnRig<'_>>,
+        progress: &(dyn Fn(usize) -> bool + Sync),
+    ) -> Result<Option<SolvedRows>, Vec<Diagnostic>> {
+        let keys = self.keys(&transmissions);
+        let mut found: Vec<Option<PointResult>> = vec![None; keys.len()];
+        let mut seen: Vec<Extent> = Vec::new();
+        // Rows of one transmission and gear state are solved together.
+        for (i, key) in keys.iter().enumerate() {
+            if found[i].is_some() {
+                continue;
+            }
+            let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
+            let transmission = &transmissions[key.0].1;
+            let signs = self.signs(key.1, transmission);
+            let list = own.iter().map(|k| self.given(*k, transmission, signs, rig)).collect();
+            let points = self.points(key.1, transmission, list);
+            let Some(solved) = run_grid(transmission, &points, progress)? else {
+                return Ok(None);
+            };
+            // The transmissions of one choice differ in bound values only, so their limits stand in the same order.
+            merge(&mut seen, &solved.seen);
+            for (k, point) in own.into_iter().zip(solved.points) {
+                found[k] = Some(point);
+            }
+        }
+        let rows = keys.into_iter().zip(found.into_iter().flatten());
+        let rows = rows
+            .map(|((place, gear), point)| (place, gear.to_owned(), point))
+            .collect();
+        Ok(Some(SolvedRows {
+            transmissions,
+            rows,
+            seen,
+        }))
+    }
+
+    /// Branches that the models of a part take at a solved point of [`Self::solve`], each with the path of its model; none where the
+    /// point cannot be prescribed.
+    pub fn branches(
+        &self,
+        transmission: &Transmission,
+        gear: &str,
+        point: &PointResult,
+        part: usize,
+    ) -> Vec<(String, &'static str)> {
+        let points = self.points(gear, transmission, Vec::new());
+        let Ok(case) = points.case(transmission) else {
+            return Vec::new();
+        };
+        let torques = vec![
+            point.torque;
+            transmission
+                .state(gear)
+                .map_or(0, |s| transmission.torques_needed(s))
+                .min(1)
+        ];
+        let mut scratch = transmission.scratch(&case);
+        let prescribed = Point {
+            speeds: &[point.speed],
+            torques: &torques,
+            flow: self.flow,
+            ..Point::default()
+        };
+        let wanted = match (transmission.thermal_mode, point.oil) {
+            (ThermalMode::Fixed, Some(oil)) => OilTemperature::Fixed(oil),
+            _ => points.oil,
+        };
+        let warm = wanted.find(transmission, &case, &prescribed, &mut scratch);
+        let solution = transmission.evaluate(&case, &prescribed, warm.temperatures(), &mut scratch);
+        let (_, trace) = solution.explain(part);
+        let branch = |step: Step| match step {
+            Step::Branch { instance, taken } => Some((transmission.instances()[instance].path.clone(), taken)),
+            Step::Value { .. } => None,
+        };
+        trace.into_steps().into_iter().filter_map(branch).collect()
+    }
+
+    /// The gear state of a row.
+    fn state<'s>(&'s self, row: &'s Row, transmission: &'s Transmission) -> &'s str {
+        let first = transmission.states().first().map_or("", |s| s.name.as_str());
+        row.gear.as_deref().or(self.gear).unwrap_or(first)
+    }
+
+    fn given(
+        &self,
+        i: usize,
+        transmission: &Transmission,
+        [torque_sign, speed_sign]: [f64; 2],
+        rig: Option<OnRig<'_>>,
+    ) -> Given {
+        let row = &self.measured.rows[i];
+        let value = |quantity: &str| self.measured.value(row, quantity);
+        let fixed = transmission.thermal_mode == ThermalMode::Fixed;
+        let torque_at = port_of(transmission, self.torque_at, self.measured.torque_at_other_port);
+        let at_in = transmission.port(torque_at).ok() == Some(transmission.reference_port());
+        let added = rig.map_or(0.0, |on| on.rig.added(on.speeds[i])[usize::from(!at_in)]);
+        Given {
+            torque: torque_sign * value("torque").unwrap_or(0.0) - added,
+            speed: speed_sign * value("speed").unwrap_or(0.0),
+            oil: value("oil_temperature").filter(|_| fixed),
+        }
+    }
+
+    /// Speeds of the reference port and of the other one in solved rows; they follow from the gear states alone.
+    ///
+    /// # Errors
+    /// If a rig adds something at a second port of a transmission that has not two ports.
+    pub fn speeds(&self, solved: &SolvedRows, at_out: bool) -> Result<Vec<PortSpeeds>, Diagnostic> {
+        let of = |(_, _, point): &(usize, String, PointResult)| match point.output_speed {
+            None if at_out => Err(Diagnostic::error(
+                "",
+                "a rig has something at `out`, but this gearbox has not two ports",
+            )
+            .mend("leave what belongs to `out` out of `rig`")),
+            speed => Ok([point.reference_speed, speed.unwrap_or(0.0)]),
+        };
+        solved.rows.iter().map(of).collect()
+    }
+}
+
+/// The port that rows count from, or the other one.
+fn port_of<'s>(transmission: &'s Transmission, own: &'s str, other: bool) -> &'s str {
+    let mut ports = transmission.ports().iter().map(|port| port.name.as_str());
+    ports.find(|port| other && *port != own).unwrap_or(own)
+}
+
+/// A bound value as it goes into the document: a text with its unit, or a bare number.
+fn bound_value(text: &str) -> Value {
+    text.parse::<f64>().map_or_else(|_| Value::from(text), Value::from)
+}

@@ -1,0 +1,35 @@
+//! The usual sums of losses.
+
+use gearloss_framework::evaluate::PartLoss;
+use gearloss_framework::registry::Instance;
+use gearloss_framework::transmission::{PartInfo, Transmission};
+
+/// Names and meanings of the sums, in their order.
+pub const SUMS: [(&str, &str); 6] = [
+    ("P_VZP", "gears, load-dependent"),
+    ("P_VZ0", "gears, not load-dependent"),
+    ("P_VLP", "bearings, load-dependent"),
+    ("P_VL0", "bearings, not load-dependent"),
+    ("P_VD", "seals"),
+    ("P_VX", "others"),
+];
+
+/// Number of the sum that a term of a mechanism belongs to.
+pub fn sum_of(mechanism: &str, load_dependent: bool) -> usize {
+    match (mechanism, load_dependent) {
+        ("gear_mesh" | "gear_drag" | "planetary_drag", true) => 0,
+        ("gear_mesh" | "gear_drag" | "planetary_drag", false) => 1,
+        ("bearing", true) => 2,
+        ("bearing", false) => 3,
+        ("seal", _) => 4,
+        _ => 5,
+    }
+}
+
+/// Adds the terms of a part to the sums.
+pub(super) fn add(sums: &mut [f64; 6], transmission: &Transmission, part: &PartInfo, loss: &PartLoss) {
+    let instance: &Instance = &transmission.instances()[part.notes.instance()];
+    for term in instance.entry.terms {
+        sums[sum_of(part.mechanism, term.load_dependent)] += loss.term_watts(term.index);
+    }
+}

@@ -1,0 +1,112 @@
+//! The temperatures at which points are evaluated: given, or found by balance of the oil or of a thermal network.
+
+use gearloss_framework::description::ThermalMode;
+use gearloss_framework::evaluate::{Point, Scratch};
+use gearloss_framework::thermal::network::{Moment, Steady, Surroundings};
+use gearloss_framework::thermal::{Equilibrium, Outcome};
+use gearloss_framework::transmission::{Case, Transmission};
+
+/// How the temperature of the oil is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OilTemperature {
+    /// It is given. \[degC\]
+    Fixed(f64),
+    /// Losses and heat are in balance, at every point anew.
+    Balance,
+    /// Every node of the thermal network is in balance, at every point anew.
+    Network,
+}
+
+/// The temperatures of a point, and how they were found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// Temperature of the oil of the housing; where there is no balance, the greatest that was asked for. \[degC\]
+    pub oil: f64,
+    /// The balance behind it.
+    pub balance: Option<Equilibrium>,
+    /// The thermal network at rest.
+    pub network: Option<Steady>,
+}
+
+impl Found {
+    /// Temperatures to evaluate the point at: that of the oil, or those of all nodes. \[degC\]
+    pub fn temperatures(&self) -> &[f64] {
+        match &self.network {
+            Some(steady) => &steady.temperatures,
+            None => std::slice::from_ref(&self.oil),
+        }
+    }
+
+    /// What became of the search; absent where the temperature is given.
+    pub fn outcome(&self) -> Option<Outcome> {
+        let balance = self.balance.as_ref().map(|b| b.outcome);
+        balance.or(self.network.as_ref().map(|n| n.outcome))
+    }
+
+    /// True where temperatures are given, or were found.
+    pub fn is_sound(&self) -> bool {
+        self.balance.as_ref().is_none_or(|b| b.oil().is_some())
+            && self.network.as_ref().is_none_or(|n| n.outcome == Outcome::Converged)
+    }
+
+    /// Evaluations of the point on the way.
+    pub fn evaluations(&self) -> usize {
+        let balance = self.balance.as_ref().map_or(0, Equilibrium::evaluations);
+        balance + self.network.as_ref().map_or(0, |n| n.evaluations)
+    }
+}
+
+impl OilTemperature {
+    /// That of the conditions where they give one, else that of the gearbox.
+    pub fn of(transmission: &Transmission, given: Option<f64>) -> Self {
+        match (given, transmission.thermal_mode) {
+            (Some(given), _) => Self::Fixed(given),
+            (None, ThermalMode::Fixed) => Self::Fixed(transmission.oil_temperature),
+            (None, ThermalMode::Balance) => Self::Balance,
+            (None, ThermalMode::Network) => Self::Network,
+        }
+    }
+
+    /// The given temperature. \[degC\]
+    pub fn given(self) -> Option<f64> {
+        match self {
+            Self::Fixed(given) => Some(given),
+            Self::Balance | Self::Network => None,
+        }
+    }
+
+    /// The temperatures at which to evaluate a point.
+    pub fn find(self, transmission: &Transmission, case: &Case, point: &Point<'_>, scratch: &mut Scratch) -> Found {
+        let given = |oil| Found {
+            oil,
+            balance: None,
+            network: None,
+        };
+        match self {
+            Self::Fixed(oil) => given(oil),
+            Self::Balance => {
+                let found = transmission.equilibrium(case, point, scratch);
+                Found {
+                    balance: Some(found.clone()),
+                    ..given(found.oil().unwrap_or(transmission.housing().maximum))
+                }
+            }
+            Self::Network => {
+                let around = Surroundings::default();
+                let moment = Moment {
+                    case,
+                    point,
+                    around: &around,
+                };
+                match (transmission.steady(&moment, scratch), transmission.network()) {
+                    (Some(steady), Some(network)) => Found {
+                        oil: steady.temperatures[network.oil()],
+                        balance: None,
+                        network: Some(steady),
+                    },
+                    _ => given(transmission.oil_temperature),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! A duty over time: rows of a file, checked, and the intervals between them.
+
+use super::{Demand, FileCycleEntry, Given, Interval, Vehicle};
+use crate::measured::text::Form;
+use crate::measured::{MeasuredFault, fault};
+use gearloss_document::data::sheet::{Sheet, Wanted, told};
+
+/// One row of a series; SI.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sample {
+    /// Line in the file.
+    pub line: u64,
+    /// \[s\]
+    pub time: f64,
+    /// Torque and speed at the port, where they were recorded. \[Nm, rad/s\]
+    pub port: Option<(f64, f64)>,
+    /// Rise over run of the road. \[-\]
+    pub grade: f64,
+    /// What else the row tells.
+    pub given: Given,
+    /// Measured temperatures in the order of [`Trace::nodes`]. \[degC\]
+    pub temperatures: Vec<f64>,
+}
+
+/// A series over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Trace {
+    /// The rows, at rising times; at least two.
+    pub samples: Vec<Sample>,
+    /// Nodes of the thermal network whose temperatures were measured.
+    pub nodes: Vec<String>,
+    /// How often the series is driven.
+    pub repeat: u32,
+    /// How the file was understood, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// The most intervals that a series may have, repeated: a gigabyte of them.
+const MOST_INTERVALS: usize = 5_000_000;
+
+/// A step longer than this many median steps is a gap.
+const GAP: f64 = 5.0;
+
+const TIME: usize = 0;
+const VEHICLE_SPEED: usize = 1;
+const GRADE: usize = 2;
+const TORQUE: usize = 3;
+const SPEED: usize = 4;
+const OIL_FLOW: usize = 5;
+const OIL_TEMPERATURE: usize = 6;
+const COOLANT_FLOW: usize = 7;
+const COOLANT_TEMPERATURE: usize = 8;
+const AMBIENT: usize = 9;
+const GEAR: usize = 10;
+
+/// What a file may hold, in the order of the places above; nodes come behind.
+const QUANTITIES: [Wanted; 11] = [
+    ("time", "s"),
+    ("vehicle_speed", "m/s"),
+    ("grade", "-"),
+    ("torque", "Nm"),
+    ("speed", "rpm"),
+    ("oil_flow", "kg/s"),
+    ("oil_temperature", "degC"),
+    ("coolant_flow", "kg/s"),
+    ("coolant_temperature", "degC"),
+    ("ambient", "degC"),
+    ("gear", ""),
+];
+
+impl Trace {
+    /// Reads the bytes of the file that an entry names.
+    ///
+    /// # Errors
+    /// What is wrong, with line and column: columns first, then cells, then the course of times and speeds.
+    pub fn read(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
+        let sheet = open(entry, bytes)?;
+        let mut samples = Vec::new();
+        let mut faulty = Vec::new();
+        for row in 0..sheet.table.rows.len() {
+            match sample(&sheet, row, entry.temperatures.len()) {
+                Ok(sample) => samples.push(sample),
+                Err(reason) => faulty.push(reason),
+            }
+        }
+        if !faulty.is_empty() {
+            return Err(told(faulty, "correct the cell, or leave the row out"));
+        }
+        let found = sheet.table.rows.len();
+        let inside = |s: &Sample| entry.start.is_none_or(|t| s.time >= t) && entry.end.is_none_or(|t| s.time <= t);
+        let ordered = not_rising(&samples);
+        if !ordered.is_empty() {
+            return Err(told(
+                ordered,
+                "sort the rows by time, with one row for each; a recording that starts again is another file",
+            ));
+        }
+        samples.retain(inside);
+        if samples.len() < 2 {
+            let mend = if found < 2 {
+                "check the file, its header and its separator"
+            } else {
+                "widen `start` and `end`"
+            };
+            let count = samples.len();
+            let rows = if count == 1 { "row" } else { "rows" };
+            return Err(vec![fault(
+                format!("{count} {rows} of {found} count; a series over time needs two"),
+                mend,
+            )]);
+        }
+        let mut wrong = gaps(&samples, entry.gap);
+        wrong.extend(jumps(&samples, entry));
+        if !wrong.is_empty() {
+            return Err(wrong);
+        }
+        Ok(Self {
+            samples,
+            nodes: entry.temperatures.ids().map(str::to_owned).collect(),
+            repeat: entry.repeat,
+            notes: sheet.notes,
+        })
+    }
+
+    /// Time from the first row to the last, once. \[s\]
+    pub fn duration(&self) -> f64 {
+        match (self.samples.first(), self.samples.last()) {
+            (Some(first), Some(last)) => last.time - first.time,
+            _ => 0.0,
+        }
+    }
+
+    /// The intervals between rows, with the mean of each number over its two rows and the gear of the first of them, repeated.
+    ///
+    /// # Errors
+    /// If the rows tell the vehicle's speed alone and no vehicle is stated.
+    pub fn intervals(&self, vehicle: Option<&Vehicle>) -> Result<Vec<Interval>, MeasuredFault> {
+        let count = self.samples.len().saturating_mul(self.repeat as usize);
+        if count > MOST_INTERVALS {
+            return Err(fault(
+                format!(
+                    "{} rows {} times are more than {MOST_INTERVALS} intervals",
+                    self.samples.len(),
+                    self.repeat
+                ),
+                "repeat it less often, or give fewer rows",
+            ));
+        }
+        let mut once = Vec::with_capacity(self.samples.len());
+        for pair in self.samples.windows(2) {
+            let [from, to] = pair else { continue };
+            let duration = to.time - from.time;
+            let given = mean_given(&from.given, &to.given);
+            let demand = match (from.port.zip(to.port), given.vehicle_speed, vehicle) {
+                (Some((a, b)), ..) => match (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1)) {
+                    (0.0, 0.0) => Demand::Rest,
+                    (torque, speed) => Demand::Port { torque, speed },
+                },
+                (None, Some(speed), Some(vehicle)) => {
+                    let speeds = [&from.given, &to.given].map(|g| g.vehicle_speed.unwrap_or(speed));
+                    let acceleration = (speeds[1] - speeds[0]) / duration;
+                    vehicle.demand(speed, acceleration, f64::midpoint(from.grade, to.grade))
+                }
+                _ => {
+                    return Err(fault(
+                        "the duty tells the speed of a vehicle and no torque",
+                        "state the `vehicle`, or columns of torque and speed at a port",
+                    ));
+                }
+            };
+            once.push(Interval {
+                start: from.time,
+                duration,
+                demand,
+                given,
+            });
+        }
+        let mut all = Vec::with_capacity(once.len() * self.repeat as usize);
+        for time in 0..self.repeat {
+            let later = f64::from(time) * self.duration();
+            all.extend(once.iter().map(|interval| Interval {
+                start: interval.start + later,
+                ..interval.clone()
+            }));
+        }
+        Ok(all)
+    }
+}
+
+fn mean_given(a: &Given, b: &Given) -> Given {
+    let mean = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| f64::midpoint(a, b));
+    Given {
+        vehicle_speed: mean(a.vehicle_speed, b.vehicle_speed),
+        oil_flow: mean(a.oil_flow, b.oil_flow),
+        oil_temperature: mean(a.oil_temperature, b.oil_temperature),
+        coolant_flow: mean(a.coolant_flow, b.coolant_flow),
+        coolant_temperature: mean(a.coolant_temperature, b.coolant_temperature),
+        ambient: mean(a.ambient, b.ambient),
+        gear: a.gear.clone(),
+    }
+}
+
+fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault>> {
+    let form = Form {
+        separator: entry.separator,
+        decimal: entry.decimal,
+        encoding: entry.encoding,
+    };
+    let mut wanted: Vec<Wanted> = QUANTITIES.to_vec();
+    wanted.extend(entry.temperatures.ids().map(|node| (node, "degC")));
+    let mut columns = entry.columns.clone();
+    for (name, column) in entry.temperatures.iter() {
+        if QUANTITIES.iter().any(|(quantity, _)| *quantity == name) {
+            return Err(vec![fault(
+                format!("the node `{name}` has the name of a quantity"),
+                "rename the node",
+            )]);
+        }
+        columns.0.push((name.to_owned(), column.clone()));
+    }
+    let sheet = Sheet::open(bytes, form, &wanted, (&columns, &entry.units))?;
+    let mut lacks = Vec::new();
+    if !sheet.holds(TIME) {
+        lacks.push(sheet.lacks("the time", "time"));
+    }
+    match (sheet.holds(VEHICLE_SPEED), sheet.holds(TORQUE), sheet.holds(SPEED)) {
+        (_, true, false) => lacks.push(sheet.lacks("the speed beside the torque", "speed")),
+        (_, false, true) => lacks.push(sheet.lacks("the torque beside the speed", "torque")),
+        (false, false, false) => lacks.push(sheet.lacks("the vehicle's speed, nor torque and speed", "vehicle_speed")),
+        _ => {}
+    }
+    if lacks.is_empty() { Ok(sheet) } else { Err(lacks) }
+}
+
+fn sample(sheet: &Sheet, row: usize, nodes: usize) -> Result<Sample, String> {
+    let port = sheet.number(row, TORQUE)?.zip(sheet.number(row, SPEED)?);
+    Ok(Sample {
+        line: sheet.line(row),
+        time: sheet.number(row, TIME)?.unwrap_or(0.0),
+        port,
+        grade: sheet.number(row, GRADE)?.unwrap_or(0.0),
+        given: Given {
+            vehicle_speed: sheet.not_negative(row, VEHICLE_SPEED)?,
+            oil_flow: sheet.not_negative(row, OIL_FLOW)?,
+            oil_temperature: sheet.temperature(row, OIL_TEMPERATURE)?,
+            coolant_flow: sheet.not_negative(row, COOLANT_FLOW)?,
+            coolant_temperature: sheet.temperature(row, COOLANT_TEMPERATURE)?,
+            ambient: sheet.temperature(row, AMBIENT)?,
+            gear: sheet.text(row, GEAR).map(str::to_owned),
+        },
+        temperatures: (QUANTITIES.len()..QUANTITIES.len() + nodes)
+            .map(|place| Ok(sheet.number(row, place)?.unwrap_or(0.0)))
+            .collect::<Result<_, String>>()?,
+    })
+}
+
+/// Times that repeat or fall.
+fn not_rising(samples: &[Sample]) -> Vec<String> {
+    let pairs = samples.windows(2).filter(|pair| pair[1].time <= pair[0].time);
+    pairs
+        .map(|pair| {
+            let (a, b) = (&pair[0], &pair[1]);
+            if a.time < b.time || b.time < a.time {
+                format!(
+                    "line {}: time {} s is before the {} s of line {}",
+                    b.line, b.time, a.time, a.line
+                )
+            } else {
+                format!("line {}: time {} s stands already in line {}", b.line, b.time, a.line)
+            }
+        })
+        .collect()
+}
+
+/// Steps that are much longer than the usual one.
+fn gaps(samples: &[Sample], stated: Option<f64>) -> Vec<MeasuredFault> {
+    let mut steps: Vec<f64> = samples.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
+    steps.sort_by(f64::total_cmp);
+    let median = steps[steps.len() / 2];
+    // Differences of decimal times carry their rounding.
+    let most = stated.unwrap_or(GAP * median) * (1.0 + 1e-9);
+    let mut longest = 0.0_f64;
+    let mut messages = Vec::new();
+    for pair in samples.windows(2) {
+        let (a, b) = (&pair[0], &pair[1]);
+        let step = b.time - a.time;
+        if step > most {
+            longest = longest.max(step);
+            messages.push(format!(
+                "line {}: a gap of {} s, from {} s to {} s; the median step is {} s",
+                b.line,
+                tidy(step),
+                a.time,
+                b.time,
+                tidy(median)
+            ));
+        }
+    }
+    told(
+        messages,
+        &format!("fill it, or accept it by `gap: {} s`", tidy(longest)),
+    )
+}
+
+/// Accelerations that no vehicle, or no shaft, has.
+fn jumps(samples: &[Sample], entry: &FileCycleEntry) -> Vec<MeasuredFault> {
+    let rates = |value: fn(&Sample) -> Option<f64>| {
+        samples.windows(2).filter_map(move |pair| {
+            let change = value(&pair[1])? - value(&pair[0])?;
+            Some((pair[1].line, change / (pair[1].time - pair[0].time)))
+        })
+    };
+    let most = entry.most_acceleration;
+    let vehicle = rates(|s| s.given.vehicle_speed).filter(|(_, a)| a.abs() > most);
+    let vehicle = vehicle
+        .map(|(line, a)| {
+            format!(
+                "line {line}: an acceleration of {} m/s2 from the line before; the most is {} m/s2",
+                tidy(a),
+                tidy(most)
+            )
+        })
+        .collect();
+    let mut found = told(
+        vehicle,
+        "correct the speeds and their unit, or state `most_acceleration`",
+    );
+    if let Some(most) = entry.most_speed_change {
+        let rpm = 30.0 / std::f64::consts::PI;
+        let shaft = rates(|s| s.port.map(|(_, speed)| speed)).filter(|(_, a)| a.abs() > most);
+        let shaft = shaft
+            .map(|(line, a)| {
+                format!(
+                    "line {line}: the speed changes by {} rpm/s from the line before; the most is {} rpm/s",
+                    tidy(a * rpm),
+                    tidy(most * rpm)
+                )
+            })
+            .collect();
+        found.extend(told(
+            shaft,
+            "correct the speeds and their unit, or state another `most_speed_change`",
+        ));
+    }
+    found
+}
+
+/// A number without the rounding of its last digits.
+fn tidy(x: f64) -> f64 {
+    let digits = 10_f64.powi(5 - x.abs().max(1e-30).log10().floor().clamp(-20.0, 20.0) as i32);
+    (x * digits).round() / digits
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,266 @@
+//! The vehicle between wheels and road: what torque a course of speeds asks of the wheels, and how much of it may be regained.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::Demand;
+use gearloss_framework::document::Diagnostic;
+
+/// Standard gravity. \[m/s2\]
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// Density of air at 20 degC and one atmosphere, as usual in road loads. \[kg/m3\]
+const AIR_DENSITY: f64 = 1.2;
+
+/// A vehicle. Its road load is stated by `coast_down`, or by `drag_area` and `rolling_resistance`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct VehicleEntry {
+    /// Mass with load. [kg]
+    #[schemars(range(min = 1.0, max = 1e6))]
+    pub mass: f64,
+    /// Road load from a coast-down test.
+    pub coast_down: Option<CoastDownEntry>,
+    /// Drag coefficient times frontal area. [m2]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub drag_area: Option<f64>,
+    /// Rolling resistance per weight. [-]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub rolling_resistance: Option<f64>,
+    /// Density of the air beside `drag_area`; absent, 1.2 kg/m3. [kg/m3]
+    #[schemars(range(min = 0.1, max = 10.0))]
+    pub air_density: Option<f64>,
+    /// Rolling radius of the driven wheels. [mm]
+    #[schemars(range(min = 10.0, max = 5000.0))]
+    pub tyre_radius: f64,
+    /// Mass that accelerates, with that of turning parts, over the mass. The default is assumed: cars with one ratio have 1.03
+    /// to 1.05. [-]
+    #[serde(default = "rotating_mass_factor")]
+    #[schemars(range(min = 1.0, max = 3.0))]
+    pub rotating_mass_factor: f64,
+    /// What may be regained while braking: `none`, or its limits.
+    pub regeneration: RegenerationEntry,
+    /// A fixed efficiency between port and wheels; absent, the losses of the transmission count. [-]
+    #[schemars(range(min = 0.01, max = 1.0))]
+    pub efficiency: Option<f64>,
+}
+
+fn rotating_mass_factor() -> f64 {
+    1.04
+}
+
+/// Coefficients of a coast-down test: force over the speed, a + b v + c v2.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+pub struct CoastDownEntry {
+    /// Constant force. [N]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub a: f64,
+    /// Force per speed. [N s/m]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub b: f64,
+    /// Force per square of the speed. [N s2/m2]
+    #[schemars(range(min = -1e4, max = 1e4))]
+    pub c: f64,
+}
+
+/// What may be regained while braking.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum RegenerationEntry {
+    /// A word.
+    Word(NoRegeneration),
+    /// Limits up to which all braking goes through the transmission.
+    Limits(Regeneration),
+}
+
+/// The word for brakes that do all the braking.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum NoRegeneration {
+    /// The brakes do all the braking.
+    None,
+}
+
+/// Limits of regeneration at the port of the motor; the brakes do the rest.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+pub struct Regeneration {
+    /// Greatest torque. [Nm]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub torque: f64,
+    /// Greatest power. [kW]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub power: f64,
+    /// Speed of the vehicle below which it fades away. The default is assumed. [m/s]
+    #[serde(default = "fade_speed")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub fade_speed: f64,
+}
+
+fn fade_speed() -> f64 {
+    2.0
+}
+
+impl Regeneration {
+    /// The greatest braking torque at the port, min(T, P/w) min(1, v/v_fade), at a speed of the port \[rad/s\] and of the
+    /// vehicle \[m/s\]. \[Nm\]
+    pub fn limit(&self, port_speed: f64, vehicle_speed: f64) -> f64 {
+        let speed = port_speed.abs();
+        let torque = if self.torque * speed > self.power {
+            self.power / speed
+        } else {
+            self.torque
+        };
+        let fade = if vehicle_speed < self.fade_speed {
+            vehicle_speed.max(0.0) / self.fade_speed
+        } else {
+            1.0
+        };
+        torque * fade
+    }
+}
+
+/// Torque at the port for a torque at the wheels with a fixed efficiency, which divides while driving and multiplies while
+/// braking. `ratio` is the speed of the port over that of the wheels. \[Nm\]
+pub fn input_torque(wheel_torque: f64, ratio: f64, efficiency: f64) -> f64 {
+    if wheel_torque > 0.0 {
+        wheel_torque / (ratio * efficiency)
+    } else {
+        wheel_torque * efficiency / ratio
+    }
+}
+
+/// Force of the road on a vehicle that rolls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RoadLoad {
+    /// a + b v + c v2, as measured on a level road.
+    CoastDown(CoastDownEntry),
+    /// Drag and rolling resistance.
+    Resistance {
+        /// Drag coefficient times frontal area. \[m2\]
+        drag_area: f64,
+        /// Rolling resistance per weight. \[-\]
+        rolling_resistance: f64,
+        /// \[kg/m3\]
+        air_density: f64,
+    },
+}
+
+/// A vehicle as it counts; SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vehicle {
+    /// \[kg\]
+    pub mass: f64,
+    /// Force of the road.
+    pub road_load: RoadLoad,
+    /// \[m\]
+    pub tyre_radius: f64,
+    /// \[-\]
+    pub rotating_mass_factor: f64,
+    /// \[m/s2\]
+    pub gravity: f64,
+    /// Limits of regeneration; absent, there is none.
+    pub regeneration: Option<Regeneration>,
+    /// Fixed efficiency between port and wheels, where it is stated. \[-\]
+    pub efficiency: Option<f64>,
+}
+
+impl VehicleEntry {
+    /// The vehicle. `path` is that of the entry in its document.
+    ///
+    /// # Errors
+    /// If no road load is stated, or two are.
+    pub fn vehicle(&self, path: &str) -> Result<Vehicle, Diagnostic> {
+        let mend = "state `coast_down`, or `drag_area` and `rolling_resistance`";
+        let road_load = match (self.coast_down, self.drag_area, self.rolling_resistance) {
+            (Some(coast_down), None, None) => {
+                if self.air_density.is_some() {
+                    let at = format!("{path}.air_density");
+                    return Err(
+                        Diagnostic::error(at, "a coast-down test holds the air's density already")
+                            .mend("leave `air_density` out"),
+                    );
+                }
+                RoadLoad::CoastDown(coast_down)
+            }
+            (None, Some(drag_area), Some(rolling_resistance)) => RoadLoad::Resistance {
+                drag_area,
+                rolling_resistance,
+                air_density: self.air_density.unwrap_or(AIR_DENSITY),
+            },
+            (None, None, None) => return Err(Diagnostic::error(path, "no road load is stated").mend(mend)),
+            (None, Some(_), None) => {
+                return Err(Diagnostic::error(path, "`rolling_resistance` is missing beside `drag_area`").mend(mend));
+            }
+            (None, None, Some(_)) => {
+                return Err(Diagnostic::error(path, "`drag_area` is missing beside `rolling_resistance`").mend(mend));
+            }
+            (Some(_), ..) => return Err(Diagnostic::error(path, "the road load is stated twice").mend(mend)),
+        };
+        Ok(Vehicle {
+            mass: self.mass,
+            road_load,
+            tyre_radius: self.tyre_radius,
+            rotating_mass_factor: self.rotating_mass_factor,
+            gravity: STANDARD_GRAVITY,
+            regeneration: match self.regeneration {
+                RegenerationEntry::Word(NoRegeneration::None) => None,
+                RegenerationEntry::Limits(limits) => Some(limits),
+            },
+            efficiency: self.efficiency,
+        })
+    }
+}
+
+impl Vehicle {
+    /// Force of air and tyres at a speed \[m/s\] on a road that rises by `grade` over its run; none at standstill. \[N\]
+    pub fn road_load(&self, speed: f64, grade: f64) -> f64 {
+        if speed <= 0.0 {
+            return 0.0;
+        }
+        match self.road_load {
+            RoadLoad::CoastDown(CoastDownEntry { a, b, c }) => a + speed * (b + c * speed),
+            RoadLoad::Resistance {
+                drag_area,
+                rolling_resistance,
+                air_density,
+            } => {
+                let cosine = 1.0 / grade.hypot(1.0);
+                self.mass * self.gravity * rolling_resistance * cosine + 0.5 * air_density * drag_area * speed * speed
+            }
+        }
+    }
+
+    /// Force at the driven wheels: inertia, air and tyres, and the slope. Acceleration in m/s2. \[N\]
+    pub fn force(&self, speed: f64, acceleration: f64, grade: f64) -> f64 {
+        let sine = grade / grade.hypot(1.0);
+        self.mass * (self.rotating_mass_factor * acceleration + self.gravity * sine) + self.road_load(speed, grade)
+    }
+
+    /// Speed of the wheels at a speed of the vehicle \[m/s\], without slip. \[rad/s\]
+    pub fn wheel_speed(&self, speed: f64) -> f64 {
+        speed / self.tyre_radius
+    }
+
+    /// What is asked of the driven wheels; rest at standstill, where brakes hold the vehicle.
+    pub fn demand(&self, speed: f64, acceleration: f64, grade: f64) -> Demand {
+        if speed <= 0.0 {
+            return Demand::Rest;
+        }
+        Demand::Wheel {
+            torque: self.force(speed, acceleration, grade) * self.tyre_radius,
+            speed: self.wheel_speed(speed),
+        }
+    }
+
+    /// A braking torque at the port as far as it may be regained, the rest being left to the brakes; a driving torque as it is.
+    /// Speeds of the port \[rad/s\] and of the vehicle \[m/s\]. \[Nm\]
+    pub fn regained(&self, port_torque: f64, port_speed: f64, vehicle_speed: f64) -> f64 {
+        if port_torque >= 0.0 {
+            return port_torque;
+        }
+        let limit = self.regeneration.map_or(0.0, |r| r.limit(port_speed, vehicle_speed));
+        port_torque.max(-limit)
+    }
+}
+
+#[cfg(test)]
+mod tests;

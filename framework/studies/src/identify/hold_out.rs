@@ -1,0 +1,333 @@
+//! Rows that are held out of a fit, and groups of rows of which each is predicted from the others.
+
+use crate::measured::{Condition, Measured, Row};
+use crate::study::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
+use gearloss_framework::document::{Diagnostic, did_you_mean};
+use gearloss_numerics::inference::{Fold, folds, labelled_folds, random_folds};
+use gearloss_numerics::sampling::Generator;
+
+use super::Identification;
+
+/// What cells of a column say of rows that are held out, and of the others; small letters.
+const HELD: [&str; 4] = ["1", "true", "yes", "x"];
+const FITTED: [&str; 4] = ["", "0", "false", "no"];
+/// Groups by the texts of a column at most.
+const GROUPS: usize = 20;
+/// Groups where no count is stated.
+const COUNT: usize = 5;
+
+/// Rows of a measurement that are fitted, and rows that are held out, each as a measurement of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoldOut {
+    /// Rows that are fitted.
+    pub fitted: Measured,
+    /// Rows that are predicted afterwards.
+    pub held_out: Measured,
+    /// How they were chosen, in words.
+    pub words: String,
+    /// Rows that are fitted because they lack what the condition asks for.
+    pub undecided: usize,
+}
+
+impl HoldOut {
+    /// Chooses the rows.
+    ///
+    /// # Errors
+    /// What is wrong with the choice, with its path below the analysis: no or several ways, a condition that does not fit the data,
+    /// cells of a column that say neither yes nor no, nothing held out, nothing left.
+    pub fn choose(entry: &HoldOutEntry, measured: &Measured) -> Result<Self, Diagnostic> {
+        let rows = entry.rows();
+        let place = |key: &str| match entry {
+            HoldOutEntry::Where(_) => "hold_out".to_owned(),
+            HoldOutEntry::Rows(_) => format!("hold_out.{key}"),
+        };
+        let ways = [
+            rows.column.is_some(),
+            rows.condition.is_some(),
+            rows.every.is_some(),
+            rows.random.is_some(),
+        ];
+        let count = ways.iter().filter(|way| **way).count();
+        if count != 1 {
+            let message = if count == 0 {
+                "nothing says which rows are held out"
+            } else {
+                "the rows that are held out are chosen in several ways"
+            };
+            return Err(Diagnostic::error("hold_out", message)
+                .mend("write one of `column`, `where`, `every` and `random`, such as `hold_out: torque > 1000 Nm`"));
+        }
+        if rows.seed.is_some() && rows.random.is_none() {
+            return Err(Diagnostic::error(place("seed"), "nothing is drawn at random here")
+                .mend("leave `seed` out, or write `random`"));
+        }
+        let (chosen, words) = choice(&rows, measured, &place)?;
+        let of_kind = |held: bool| Measured {
+            rows: measured
+                .rows
+                .iter()
+                .zip(&chosen)
+                .filter(|(_, own)| **own == Some(held) || (!held && own.is_none()))
+                .map(|(row, _)| row.clone())
+                .collect(),
+            ..measured.clone()
+        };
+        let found = Self {
+            fitted: of_kind(false),
+            held_out: of_kind(true),
+            words,
+            undecided: chosen.iter().filter(|own| own.is_none()).count(),
+        };
+        let all = measured.rows.len();
+        if found.held_out.rows.is_empty() {
+            return Err(
+                Diagnostic::error("hold_out", format!("none of {all} rows is held out ({})", found.words))
+                    .mend("hold out rows that the data have, or leave `hold_out` out"),
+            );
+        }
+        if found.fitted.rows.is_empty() {
+            return Err(Diagnostic::error(
+                "hold_out",
+                format!("all {all} rows are held out: nothing is left to be fitted"),
+            )
+            .mend("hold out fewer rows"));
+        }
+        Ok(found)
+    }
+
+    /// Refuses what leaves fewer rows than are needed for the parameters, `parameters` less `priors`.
+    ///
+    /// # Errors
+    /// If there are fewer.
+    pub fn leaves_enough(&self, parameters: usize, priors: usize) -> Result<(), Diagnostic> {
+        let left = self.fitted.rows.len();
+        if left + priors >= parameters {
+            return Ok(());
+        }
+        let message = format!("{left} rows are left to be fitted, for {parameters} parameters");
+        Err(Diagnostic::error("hold_out", message).mend("hold out fewer rows, or identify fewer parameters"))
+    }
+}
+
+/// Whether each row is held out, absent where it lacks what decides; and the choice in words.
+fn choice(
+    rows: &HoldOutRows,
+    measured: &Measured,
+    place: &dyn Fn(&str) -> String,
+) -> Result<(Vec<Option<bool>>, String), Diagnostic> {
+    let count = measured.rows.len();
+    if let Some(column) = &rows.column {
+        let at = column_place(measured, column).map_err(|found| Diagnostic {
+            path: place("column"),
+            ..found
+        })?;
+        let held = |row: &Row| {
+            let cell = row.cells.get(at).map_or_else(String::new, |cell| cell.to_lowercase());
+            if HELD.contains(&cell.as_str()) {
+                return Ok(Some(true));
+            }
+            if FITTED.contains(&cell.as_str()) {
+                return Ok(Some(false));
+            }
+            let message = format!(
+                "line {}: `{cell}` in column `{column}` says neither yes nor no",
+                row.line
+            );
+            Err(Diagnostic::error(place("column"), message)
+                .mend("write 1, true or yes in rows that are held out, 0, false, no or nothing in the others"))
+        };
+        let held = measured.rows.iter().map(held).collect::<Result<_, _>>()?;
+        return Ok((held, format!("column `{column}`")));
+    }
+    if let Some(text) = &rows.condition {
+        let wrong = |found: crate::measured::ConditionFault| {
+            Diagnostic::error(place("where"), format!("`{text}`, {}", found.message)).mend(found.help)
+        };
+        let condition = Condition::parse(text).map_err(wrong)?;
+        condition.check(measured).map_err(wrong)?;
+        let held = measured.rows.iter().map(|row| condition.holds(measured, row)).collect();
+        return Ok((held, condition.text().to_owned()));
+    }
+    if let Some(every) = rows.every {
+        let every = every.max(1) as usize;
+        let held = (1..=count).map(|number| Some(number % every == 0)).collect();
+        return Ok((held, format!("one row in {every}")));
+    }
+    let share = rows.random.unwrap_or(0.0);
+    let seed = rows.seed.unwrap_or(1);
+    let mut order: Vec<usize> = (0..count).collect();
+    Generator::new(u64::from(seed)).shuffle(&mut order);
+    let most = (share * count as f64).round() as usize;
+    let mut held = vec![Some(false); count];
+    for row in order.into_iter().take(most) {
+        held[row] = Some(true);
+    }
+    Ok((
+        held,
+        format!("{} % of the rows at random, seed {seed}", tidy_percent(share)),
+    ))
+}
+
+fn tidy_percent(share: f64) -> String {
+    let text = format!("{:.1}", 100.0 * share);
+    text.trim_end_matches(".0").to_owned()
+}
+
+/// The place of a column, or its nearest name.
+fn column_place(measured: &Measured, name: &str) -> Result<usize, Diagnostic> {
+    measured.column(name).ok_or_else(|| {
+        let headers: Vec<&str> = measured.columns.iter().map(|c| c.header.as_str()).collect();
+        let mend = match did_you_mean(name, headers.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the columns are {}", headers.join(", ")),
+        };
+        Diagnostic::error("", format!("the file has no column `{name}`")).mend(mend)
+    })
+}
+
+/// By what rows are grouped, in words that follow `without its own`.
+pub fn group_words(entry: &FoldsEntry) -> String {
+    match entry {
+        FoldsEntry::Torques(_) => "band of torque".to_owned(),
+        FoldsEntry::By(by) => match by.by.as_str() {
+            "sign" => "direction of power".to_owned(),
+            "random" => "random group".to_owned(),
+            "torque" | "speed" => format!("band of {}", by.by),
+            "oil_temperature" => "band of oil temperature".to_owned(),
+            column => format!("group of `{column}`"),
+        },
+    }
+}
+
+impl Identification<'_> {
+    /// Groups of observations of which each is to be predicted from the others.
+    ///
+    /// # Errors
+    /// If there are too few groups, or the data do not hold what they are made by, with the path below the analysis.
+    pub fn groups(&self, entry: &FoldsEntry) -> Result<Vec<Fold>, Diagnostic> {
+        let measured = self.measured();
+        let rows: Vec<&Row> = self.observations.iter().map(|o| &measured.rows[o.row]).collect();
+        let too_few = |path: &str, message: String| {
+            Diagnostic::error(path, message).mend("group by what differs between rows, or write `folds: 0` for none")
+        };
+        let values = |quantity: &str| {
+            rows.iter()
+                .map(|row| measured.value(row, quantity))
+                .collect::<Option<Vec<f64>>>()
+        };
+        let by = match entry {
+            FoldsEntry::Torques(count) => {
+                let torques = values("torque").unwrap_or_default();
+                return folds(&torques, *count as usize).map_err(|message| too_few("folds", message));
+            }
+            FoldsEntry::By(by) => by,
+        };
+        let most = by.count.map_or(COUNT, |count| count as usize);
+        let few = |message: String| too_few("folds.by", message);
+        if by.seed.is_some() && by.by != "random" {
+            return Err(Diagnostic::error("folds.seed", "nothing is drawn at random here")
+                .mend("leave `seed` out, or write `by: random`"));
+        }
+        let found = match by.by.as_str() {
+            "random" => {
+                let own: Vec<usize> = self.observations.iter().map(|o| o.row).collect();
+                return random_folds(&own, most, u64::from(by.seed.unwrap_or(1))).map_err(few);
+            }
+            "sign" => {
+                let sign = |row: &&Row| {
+                    let value = |quantity: &str| measured.value(row, quantity).unwrap_or(0.0);
+                    if value("torque") * value("speed") < 0.0 {
+                        "power out"
+                    } else {
+                        "power in"
+                    }
+                    .to_owned()
+                };
+                rows.iter().map(sign).collect()
+            }
+            quantity if measured.holds(quantity) => {
+                let Some(values) = values(quantity) else {
+                    return Err(Diagnostic::error("folds.by", format!("some rows have no `{quantity}`"))
+                        .mend("group by another quantity, or leave these rows out"));
+                };
+                return folds(&values, most).map_err(few);
+            }
+            name => texts(measured, &rows, name)?,
+        };
+        Self::labelled(by, found, most)
+    }
+
+    /// Groups of texts: bands where all are numbers, else a group for each.
+    fn labelled(by: &FoldsBy, texts: Vec<String>, most: usize) -> Result<Vec<Fold>, Diagnostic> {
+        let few = |message: String| {
+            Diagnostic::error("folds.by", message)
+                .mend("group by what differs between rows, or write `folds: 0` for none")
+        };
+        let numbers: Option<Vec<f64>> = texts
+            .iter()
+            .map(|text| text.parse().ok().filter(|x: &f64| x.is_finite()))
+            .collect();
+        if let Some(numbers) = numbers {
+            return folds(&numbers, most).map_err(few);
+        }
+        if by.count.is_some() {
+            return Err(Diagnostic::error(
+                "folds.count",
+                format!("the groups of `{}` are given by its values", by.by),
+            )
+            .mend("leave `count` out"));
+        }
+        let name = |text: String| match (by.by.as_str(), text.as_str()) {
+            ("sign", _) => text,
+            (column, "") => format!("{column} blank"),
+            (column, _) => format!("{column} {text}"),
+        };
+        let labels: Vec<String> = texts.into_iter().map(name).collect();
+        let found = labelled_folds(&labels).map_err(few)?;
+        if found.len() > GROUPS {
+            let message = format!("`{}` makes {} groups, and each is a fit", by.by, found.len());
+            return Err(
+                Diagnostic::error("folds.by", message).mend(format!("group by a column with {GROUPS} values at most"))
+            );
+        }
+        Ok(found)
+    }
+}
+
+/// Texts of a column, or of gear states and names.
+fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, Diagnostic> {
+    let known = |text: &dyn Fn(&Row) -> Option<String>| -> Option<Vec<String>> {
+        measured.rows.iter().any(|row| text(row).is_some()).then(|| {
+            let own = rows.iter().map(|row| text(row).unwrap_or_default());
+            own.collect()
+        })
+    };
+    let found = match name {
+        "gear" => known(&|row| row.gear.clone()),
+        "name" => known(&|row| row.name.clone()),
+        _ => None,
+    };
+    if let Some(found) = found {
+        return Ok(found);
+    }
+    let at = column_place(measured, name).map_err(|found| {
+        let words = "torque, speed, oil_temperature, sign, random";
+        if words.split(", ").any(|word| word == name) {
+            return Diagnostic::error("folds.by", format!("the data hold no `{name}`")).mend(format!(
+                "name its column under `columns: {{ {name}: ... }}`, or group by another quantity"
+            ));
+        }
+        let mend = match did_you_mean(name, words.split(", ")) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!(
+                "write one of {words}, or a column of the file: {}",
+                found.mend.unwrap_or_default()
+            ),
+        };
+        Diagnostic::error("folds.by", found.message).mend(mend)
+    })?;
+    Ok(rows
+        .iter()
+        .map(|row| row.cells.get(at).cloned().unwrap_or_default())
+        .collect())
+}

@@ -1,0 +1,496 @@
+//! Parameters that are identified: what they move, from where, and how far.
+
+use serde_json::{Value, json};
+
+use crate::measured::Rig;
+use crate::study::{IdentifiedEntry, PriorEntry, ScaleEntry};
+use crate::varied::{Varied, words};
+use gearloss_framework::document::{Diagnostic, Dimension, Unit, parse_quantity};
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::{Resolved, lookup};
+use gearloss_numerics::inference;
+use gearloss_numerics::least_squares::{self, Prior};
+
+/// A quantity of the rig.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RigQuantity {
+    /// What the torque meter at `in` shows too much.
+    OffsetIn,
+    /// What the torque meter at `out` shows too much.
+    OffsetOut,
+    /// Drag torque of the rig's bearings at `in`.
+    SupportIn,
+    /// Drag torque of the rig's bearings at `out`.
+    SupportOut,
+}
+
+const RIG: [(&str, RigQuantity); 4] = [
+    ("rig.torque_offset_in", RigQuantity::OffsetIn),
+    ("rig.torque_offset_out", RigQuantity::OffsetOut),
+    ("rig.support_in.torque", RigQuantity::SupportIn),
+    ("rig.support_out.torque", RigQuantity::SupportOut),
+];
+
+impl RigQuantity {
+    /// Its place in a rig. \[Nm\]
+    fn place(self, rig: &mut Rig) -> &mut f64 {
+        match self {
+            Self::OffsetIn => &mut rig.offset[0],
+            Self::OffsetOut => &mut rig.offset[1],
+            Self::SupportIn => &mut rig.support[0].torque,
+            Self::SupportOut => &mut rig.support[1].torque,
+        }
+    }
+
+    /// Whether it belongs to `out`.
+    pub fn is_out(self) -> bool {
+        matches!(self, Self::OffsetOut | Self::SupportOut)
+    }
+}
+
+/// What a parameter moves.
+#[derive(Debug, Clone)]
+pub enum Target {
+    /// Quantities of the gearbox.
+    Path(Varied),
+    /// Load factors over the torque of a port: this one belongs to one of the torques.
+    Over {
+        /// The factors.
+        varied: Varied,
+        /// Port whose torque counts.
+        port: String,
+        /// All torques. \[Nm\]
+        torques: Vec<f64>,
+        /// Number of the torque.
+        place: usize,
+    },
+    /// A quantity of the rig. \[Nm\]
+    Rig(RigQuantity),
+}
+
+/// A parameter that is identified; numbers are in the unit of its path.
+#[derive(Debug, Clone)]
+pub struct Identified {
+    /// Name.
+    pub name: String,
+    /// The path as written.
+    pub path: String,
+    /// What it moves.
+    pub target: Target,
+    /// Unit of its numbers.
+    pub unit: &'static Unit,
+    /// Value of the gearbox or the rig, before anything is fitted; absent where none is stated.
+    pub stated: Option<f64>,
+    /// Where the search begins.
+    pub start: f64,
+    /// Least and greatest value.
+    pub bounds: [f64; 2],
+    /// How it is counted.
+    pub scale: ScaleEntry,
+    /// What is known of it beside the points.
+    pub prior: Option<Prior>,
+    /// Size by which its interval is judged, where its value may be zero so that it tells none: `usual_size` for a path; for an
+    /// offset of a torque meter the median of the measured loss torques there, to which it adds.
+    pub size: Option<f64>,
+}
+
+/// Length by which an interval about a length is judged that may be zero, such as an offset of the oil level: an assumption, about the
+/// depth of teeth and dips of a car's gears. \[m\]
+const LENGTH: f64 = 0.01;
+/// The same of a temperature: an assumption, within which oils change their viscosity by a third. \[K\]
+const TEMPERATURE: f64 = 10.0;
+
+/// Size by which an interval is judged, in the unit of a path whose values may have either sign; absent where the value itself tells it.
+fn usual_size(unit: &Unit, range: [f64; 2]) -> Option<f64> {
+    let signed = range[0] < 0.0 && range[1] > 0.0;
+    match unit.dimension {
+        Dimension::Temperature | Dimension::TemperatureDifference => Some(TEMPERATURE / unit.factor),
+        Dimension::Length if signed => Some(LENGTH / unit.factor),
+        Dimension::None if signed => Some(1.0),
+        _ => None,
+    }
+}
+
+/// A path of the study below the analysis, with what is wrong there.
+fn fault(place: &str, message: impl Into<String>, mend: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(place, message).mend(mend)
+}
+
+impl Identified {
+    /// The parameters of an entry: one, or one for each torque of `over`. Paths of findings begin with `parameters`.
+    ///
+    /// # Errors
+    /// What is wrong with path, bounds, start or prior.
+    pub fn of(
+        name: &str,
+        entry: &IdentifiedEntry,
+        rig: &Rig,
+        (language, resolved): (&Language, &Resolved),
+    ) -> Result<Vec<Self>, Diagnostic> {
+        let place = |key: &str| format!("parameters.{name}.{key}");
+        let (target, unit, stated, range): (_, &'static Unit, _, _) = if entry.path.starts_with("rig.") {
+            let known = RIG.iter().find(|(path, _)| *path == entry.path);
+            let Some((_, quantity)) = known else {
+                let names = RIG.map(|(path, _)| path).join(", ");
+                return Err(fault(
+                    &place("path"),
+                    format!("`{}` is no quantity of a rig that can be identified", entry.path),
+                    format!("these can: {names}"),
+                ));
+            };
+            let unit = Unit::of_symbol("Nm").unwrap_or(Unit::ONE);
+            let least = match quantity {
+                RigQuantity::OffsetIn | RigQuantity::OffsetOut => f64::NEG_INFINITY,
+                RigQuantity::SupportIn | RigQuantity::SupportOut => 0.0,
+            };
+            let stated = *quantity.place(&mut rig.clone());
+            (Target::Rig(*quantity), unit, Some(stated), [least, f64::INFINITY])
+        } else {
+            let varied = Varied::new(language, resolved, &entry.path, entry.tie).map_err(|error| Diagnostic {
+                message: format!("`{}`: {}", entry.path, error.message),
+                path: place("path"),
+                ..error
+            })?;
+            let (unit, stated, range) = (varied.unit, varied.start(), varied.range);
+            (Target::Path(varied), unit, stated, range)
+        };
+        let quantity = |key: &str, value: &Value| {
+            read(&target, unit, value)
+                .map_err(|reason| fault(&place(key), reason, "write a quantity of the path, such as `0.3 um`"))
+        };
+        let end = |key: &str, value: Option<&Value>, schema: f64| -> Result<f64, Diagnostic> {
+            match value {
+                Some(value) => quantity(key, value),
+                None if schema.is_finite() => Ok(schema),
+                None => Err(fault(
+                    &place("path"),
+                    format!(
+                        "no {} of `{}` is known",
+                        if key == "from" { "least value" } else { "greatest value" },
+                        entry.path
+                    ),
+                    format!("add `{key}: ...`"),
+                )),
+            }
+        };
+        let bounds = [
+            end("from", entry.from.as_ref(), range[0])?,
+            end("to", entry.to.as_ref(), range[1])?,
+        ];
+        let said = |x: f64| words(unit, x);
+        if bounds[0] > bounds[1] {
+            return Err(fault(
+                &place("to"),
+                format!("the bounds cross: from {} to {}", said(bounds[0]), said(bounds[1])),
+                "exchange `from` and `to`",
+            ));
+        }
+        if bounds[0] < range[0] || bounds[1] > range[1] {
+            return Err(fault(
+                &place(if bounds[0] < range[0] { "from" } else { "to" }),
+                format!(
+                    "{} to {} leaves what the path allows, {} to {}",
+                    said(bounds[0]),
+                    said(bounds[1]),
+                    said(range[0]),
+                    said(range[1])
+                ),
+                "narrow the bounds",
+            ));
+        }
+        if entry.scale == ScaleEntry::Log && bounds[0] <= 0.0 {
+            return Err(fault(
+                &place("scale"),
+                format!("a logarithm needs a least value above zero, not {}", said(bounds[0])),
+                "write `from:` with a value above zero, or `scale: linear`",
+            ));
+        }
+        // A curve of factors may be stated already.
+        let curve = entry
+            .over
+            .as_ref()
+            .and_then(|over| curve_at(resolved, &target, &over.torques));
+        let stated = stated.or_else(|| curve.as_ref().and_then(|list| list.first().copied()));
+        let start = match &entry.start {
+            Some(value) => {
+                let start = quantity("start", value)?;
+                if start < bounds[0] || start > bounds[1] {
+                    return Err(fault(
+                        &place("start"),
+                        format!(
+                            "{} is outside of {} to {}",
+                            said(start),
+                            said(bounds[0]),
+                            said(bounds[1])
+                        ),
+                        "begin between the bounds",
+                    ));
+                }
+                start
+            }
+            None => stated.ok_or_else(|| {
+                fault(
+                    &place("path"),
+                    "the gearbox states no value to begin with",
+                    "add `start: ...`",
+                )
+            })?,
+        };
+        let prior = entry
+            .prior
+            .as_ref()
+            .map(|prior| prior_of(prior, &target, unit, entry.scale, start));
+        let prior = prior.transpose().map_err(|(key, reason)| {
+            fault(
+                &place(&format!("prior.{key}")),
+                reason,
+                "write a quantity of the path above zero; for `scale: log` a number, relative to the mean",
+            )
+        })?;
+        if let Some(prior) = prior.filter(|p| p.mean < bounds[0] || p.mean > bounds[1]) {
+            return Err(fault(
+                &place("prior"),
+                format!(
+                    "its mean, {}, is outside of {} to {}",
+                    said(prior.mean),
+                    said(bounds[0]),
+                    said(bounds[1])
+                ),
+                "widen the bounds, or correct the mean",
+            ));
+        }
+        let one = Self {
+            name: name.to_owned(),
+            path: entry.path.clone(),
+            target,
+            unit,
+            stated,
+            start,
+            bounds,
+            scale: entry.scale,
+            prior,
+            size: usual_size(unit, range),
+        };
+        let Some(over) = &entry.over else {
+            return Ok(vec![one]);
+        };
+        let Target::Path(varied) = &one.target else {
+            return Err(fault(
+                &place("over"),
+                "a quantity of the rig is one number",
+                "leave `over` out",
+            ));
+        };
+        if ![".radial_factor", ".axial_factor"]
+            .iter()
+            .any(|end| entry.path.ends_with(end))
+        {
+            return Err(fault(
+                &place("over"),
+                format!("`{}` is no load factor", entry.path),
+                "leave `over` out, or name `bearings.*.radial_factor` or `axial_factor`",
+            ));
+        }
+        if over.torques.windows(2).any(|w| w[0] >= w[1]) {
+            return Err(fault(
+                &place("over.torques"),
+                "the torques do not rise",
+                "sort them, and name each once",
+            ));
+        }
+        let own = |place: usize| curve.as_ref().and_then(|list| list.get(place).copied());
+        let at = |(place, torque): (usize, &f64)| Self {
+            name: format!("{name} at {torque} Nm"),
+            stated: own(place).or(one.stated),
+            start: own(place).filter(|_| entry.start.is_none()).unwrap_or(one.start),
+            target: Target::Over {
+                varied: varied.clone(),
+                port: over.port.clone(),
+                torques: over.torques.clone(),
+                place,
+            },
+            ..one.clone()
+        };
+        Ok(over.torques.iter().enumerate().map(at).collect())
+    }
+
+    /// Paths that it writes; none for a quantity of the rig.
+    pub fn paths(&self) -> &[String] {
+        match &self.target {
+            Target::Path(varied) | Target::Over { varied, .. } => &varied.paths,
+            Target::Rig(_) => &[],
+        }
+    }
+
+    /// The published value, where it moves coefficients of formulas; one for a factor.
+    pub fn published(&self) -> Option<f64> {
+        match &self.target {
+            Target::Path(varied) => varied.published(),
+            Target::Over { .. } | Target::Rig(_) => None,
+        }
+    }
+
+    /// What a value changes of the source, in words; absent where it changes no coefficient of a formula.
+    pub fn changed_from_source(&self, value: f64) -> Option<String> {
+        match &self.target {
+            Target::Path(varied) => varied.changed_from_source(value),
+            Target::Over { .. } | Target::Rig(_) => None,
+        }
+    }
+
+    /// A value with its unit.
+    pub fn words(&self, value: f64) -> String {
+        words(self.unit, value)
+    }
+
+    /// For the solver.
+    pub(super) fn fitted(&self) -> least_squares::Parameter {
+        let mut parameter =
+            least_squares::Parameter::new(self.name.clone(), self.start).within(self.bounds[0], self.bounds[1]);
+        if self.scale == ScaleEntry::Log {
+            parameter = parameter.log();
+        }
+        parameter.prior = self.prior;
+        parameter
+    }
+
+    /// For statements about a fit.
+    ///
+    /// # Errors
+    /// If a value has no place on the scale or between the bounds.
+    pub(super) fn stated(&self, theta: f64) -> Result<inference::Parameter, String> {
+        let scale = match self.scale {
+            ScaleEntry::Linear => inference::Scale::Linear,
+            ScaleEntry::Log => inference::Scale::Log,
+        };
+        Ok(inference::Parameter::new(&self.name, scale, theta, self.bounds)?.sized(self.size))
+    }
+
+    /// Overrides that write values of all parameters into the gearbox.
+    pub fn overrides(parameters: &[Self], theta: &[f64]) -> Vec<(String, Value)> {
+        let mut overrides = Vec::new();
+        for (i, (parameter, value)) in parameters.iter().zip(theta).enumerate() {
+            match &parameter.target {
+                Target::Path(varied) => overrides.extend(varied.overrides(*value)),
+                // All factors of a curve are written together, with the first.
+                Target::Over {
+                    varied,
+                    port,
+                    torques,
+                    place: 0,
+                } => {
+                    let factors = &theta[i..i + torques.len()];
+                    let curve = json!({ "port": port, "torques": torques, "factors": factors });
+                    overrides.extend(varied.paths.iter().map(|path| (path.clone(), curve.clone())));
+                }
+                Target::Over { .. } | Target::Rig(_) => {}
+            }
+        }
+        overrides
+    }
+
+    /// A rig with the values of all parameters that belong to it.
+    pub fn rig(parameters: &[Self], theta: &[f64], stated: &Rig) -> Rig {
+        let mut rig = *stated;
+        for (parameter, value) in parameters.iter().zip(theta) {
+            if let Target::Rig(quantity) = &parameter.target {
+                *quantity.place(&mut rig) = *value;
+            }
+        }
+        rig
+    }
+
+    /// Faults of parameters that write the same value twice. Paths of findings begin with `parameters`.
+    pub(super) fn twice(parameters: &[Self]) -> Option<Diagnostic> {
+        for (i, one) in parameters.iter().enumerate() {
+            for other in &parameters[..i] {
+                let same_curve = matches!((&one.target, &other.target), (Target::Over { .. }, Target::Over { .. }))
+                    && one.path == other.path
+                    && one.base_name() == other.base_name();
+                let same_rig = matches!((&one.target, &other.target), (Target::Rig(a), Target::Rig(b)) if a == b);
+                let common = one.paths().iter().find(|path| other.paths().contains(path));
+                if same_rig || (common.is_some() && !same_curve) {
+                    let what = common.map_or(one.path.as_str(), String::as_str);
+                    return Some(fault(
+                        &format!("parameters.{}.path", one.base_name()),
+                        format!("`{}` moves `{what}` too", other.base_name()),
+                        "name every value once",
+                    ));
+                }
+            }
+        }
+        None
+    }
+
+    /// The name of the entry, without the torque of a factor.
+    pub fn base_name(&self) -> &str {
+        match self.target {
+            Target::Over { .. } => self.name.split(" at ").next().unwrap_or(&self.name),
+            _ => &self.name,
+        }
+    }
+}
+
+/// Factors at some torques of the curve that the first path states; absent where it states none.
+fn curve_at(resolved: &Resolved, target: &Target, torques: &[f64]) -> Option<Vec<f64>> {
+    let Target::Path(varied) = target else { return None };
+    let stated = lookup(&resolved.value, varied.paths.first()?)?;
+    let numbers = |key: &str| -> Option<Vec<f64>> { stated[key].as_array()?.iter().map(Value::as_f64).collect() };
+    let (at, factors) = (numbers("torques")?, numbers("factors")?);
+    let factor = |torque: &f64| {
+        let place = at.iter().position(|t| t >= torque);
+        match place {
+            None => factors.last().copied(),
+            Some(0) => factors.first().copied(),
+            Some(k) => {
+                let share = (torque - at[k - 1]) / (at[k] - at[k - 1]);
+                Some(factors.get(k - 1)? + share * (factors.get(k)? - factors.get(k - 1)?))
+            }
+        }
+    };
+    torques.iter().map(factor).collect()
+}
+
+/// A quantity as written: a number in the unit of the path, or a text with a unit.
+fn read(target: &Target, unit: &'static Unit, value: &Value) -> Result<f64, String> {
+    match target {
+        Target::Path(varied) | Target::Over { varied, .. } => varied.quantity(value, false),
+        Target::Rig(_) => {
+            let number = match value {
+                Value::Number(x) => x.as_f64().unwrap_or(f64::NAN),
+                Value::String(text) => unit.from_si(parse_quantity(text, unit).map_err(|fault| fault.message)?),
+                _ => f64::NAN,
+            };
+            number
+                .is_finite()
+                .then_some(number)
+                .ok_or_else(|| format!("{value} is no torque"))
+        }
+    }
+}
+
+fn prior_of(
+    entry: &PriorEntry,
+    target: &Target,
+    unit: &'static Unit,
+    scale: ScaleEntry,
+    start: f64,
+) -> Result<Prior, (&'static str, String)> {
+    let mean = entry.mean.as_ref().map_or(Ok(start), |mean| read(target, unit, mean));
+    let mean = mean.map_err(|reason| ("mean", reason))?;
+    let deviation = match (scale, target, &entry.deviation) {
+        (ScaleEntry::Log, _, value) => value
+            .as_f64()
+            .ok_or_else(|| format!("{value} is no number, relative to the mean")),
+        (ScaleEntry::Linear, Target::Path(varied) | Target::Over { varied, .. }, value) => varied.quantity(value, true),
+        (ScaleEntry::Linear, Target::Rig(_), value) => read(target, unit, value),
+    };
+    let deviation = deviation.map_err(|reason| ("deviation", reason))?;
+    if deviation <= 0.0 {
+        return Err(("deviation", format!("{deviation} is not above zero")));
+    }
+    if scale == ScaleEntry::Log && mean <= 0.0 {
+        return Err(("mean", format!("{mean} has no logarithm")));
+    }
+    Ok(Prior { mean, deviation })
+}

@@ -1,0 +1,522 @@
+//! The least-squares problem of an identification: measured points, and what a gearbox with given parameters does there.
+
+use crate::analysis::{OnRig, PointResult, Rows, SolvedRows};
+use crate::measured::{Measured, PortSpeeds, Rig, Seen};
+use crate::study::{IdentifiedEntry, Quantity};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::Choice;
+use gearloss_numerics::inference::Accuracy;
+use gearloss_numerics::least_squares::Problem;
+
+use super::{Identified, RigQuantity, Target};
+
+/// One measured number that is fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation {
+    /// Number of the row.
+    pub row: usize,
+    /// What was measured.
+    pub quantity: Quantity,
+    /// Standard deviation of the measurement, its weight counted in: efficiencies as shares, temperatures in K. Without any
+    /// accuracy the unit in which residuals are counted: an efficiency point, 1 W, 1 Nm or 1 K.
+    pub deviation: f64,
+}
+
+impl Observation {
+    /// Whether another of the fitted quantities counts a point whose efficiency says nothing.
+    pub(super) fn is_counted_by(&self, asked: Quantity, residuals: &[Quantity]) -> bool {
+        let other = |q: &Quantity| matches!(q, Quantity::Loss | Quantity::LossTorque);
+        self.quantity != asked && residuals.iter().any(other)
+    }
+}
+
+/// A measured number beside the calculated one; efficiencies as shares.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// Measured, without what the rig adds.
+    pub measured: f64,
+    /// Calculated.
+    pub model: f64,
+}
+
+/// What a gearbox with given parameters does at all rows.
+pub struct Calculated {
+    /// The solved rows.
+    pub solved: SolvedRows,
+    /// The rig with its parameters.
+    pub rig: Rig,
+}
+
+impl Calculated {
+    /// The point of a row.
+    pub fn point(&self, row: usize) -> &PointResult {
+        &self.solved.rows[row].2
+    }
+}
+
+/// Measured points, a gearbox under one choice of models, and parameters.
+pub struct Identification<'a> {
+    pub(super) language: &'a Language,
+    pub(super) gearbox: &'a Gearbox,
+    pub(super) choice: Choice,
+    pub(super) rows: Rows<'a>,
+    pub(super) parameters: Vec<Identified>,
+    pub(super) speeds: Vec<PortSpeeds>,
+    pub(super) observations: Vec<Observation>,
+    pub(super) accuracy: Accuracy,
+    pub(super) notes: Vec<String>,
+}
+
+impl<'a> Identification<'a> {
+    /// Joins rows, a gearbox and parameters. Paths of findings that belong to the study begin with `parameters` or `data`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the parameters, or that resolving and building find; points without a calculated value;
+    /// quantities that nothing measures, or of which only some have an accuracy.
+    pub fn new<'e>(
+        language: &'a Language,
+        gearbox: &'a Gearbox,
+        choice: Choice,
+        rows: Rows<'a>,
+        entries: impl IntoIterator<Item = (&'e str, &'e IdentifiedEntry)>,
+        residuals: &[Quantity],
+    ) -> Result<Self, Faults> {
+        let built = rows.build(language, gearbox, &choice)?;
+        let mut found = Vec::new();
+        let mut parameters = Vec::new();
+        for (name, entry) in entries {
+            match Identified::of(name, entry, &rows.measured.rig, (language, &built[0].0)) {
+                Ok(list) => parameters.extend(list),
+                Err(error) => found.push(error),
+            }
+        }
+        found.extend(Identified::twice(&parameters));
+        if parameters.is_empty() && found.is_empty() {
+            found.push(Diagnostic::error("parameters", "there is nothing to identify").mend("name a parameter"));
+        }
+        for parameter in &parameters {
+            if let Target::Over { port, .. } = &parameter.target
+                && let Err(error) = built[0].1.port(port)
+            {
+                let path = format!("parameters.{}.over.port", parameter.base_name());
+                found.push(Diagnostic { path, ..error });
+                break;
+            }
+        }
+        if !found.is_empty() {
+            return Err(Faults::Study(found));
+        }
+        let mut identification = Self {
+            language,
+            gearbox,
+            choice,
+            rows,
+            parameters,
+            speeds: Vec::new(),
+            observations: Vec::new(),
+            accuracy: Accuracy::Given,
+            notes: Vec::new(),
+        };
+        let solved = identification.rows.solve(built, None, &|_| true);
+        let solved = solved.map_err(|list| Faults::Gearbox(gearbox.findings(list)))?;
+        // Without anyone to break it off there is a result.
+        if let Some(solved) = solved {
+            let at_out = identification.rows.measured.rig.at_out() || identification.parameters.iter().any(is_out);
+            let speeds = identification.rows.speeds(&solved, at_out);
+            identification.speeds = speeds.map_err(|error| {
+                Faults::Study(vec![Diagnostic {
+                    path: "data".to_owned(),
+                    ..error
+                }])
+            })?;
+        }
+        identification.observe(residuals).map_err(Faults::Study)?;
+        Ok(identification)
+    }
+
+    /// The same with other rows, of which all observations are given: simulated ones, or points that may be measured.
+    ///
+    /// # Errors
+    /// If the gearbox does not take the rows.
+    pub fn with_rows<'b>(
+        &'b self,
+        measured: &'b Measured,
+        observations: Vec<Observation>,
+    ) -> Result<Identification<'b>, String> {
+        let rows = Rows {
+            measured,
+            ..self.rows.clone()
+        };
+        let built = rows
+            .build(self.language, self.gearbox, &self.choice)
+            .map_err(|findings| findings.first())?;
+        let solved = rows.solve(built, None, &|_| true);
+        let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
+        let speeds = solved.map_or(Ok(Vec::new()), |solved| rows.speeds(&solved, false));
+        Ok(Identification {
+            language: self.language,
+            gearbox: self.gearbox,
+            choice: self.choice.clone(),
+            parameters: self.parameters.clone(),
+            speeds: speeds.map_err(|d| d.message)?,
+            observations,
+            accuracy: self.accuracy,
+            notes: Vec::new(),
+            rows,
+        })
+    }
+
+    /// The parameters, in the order of the coordinates.
+    pub fn parameters(&self) -> &[Identified] {
+        &self.parameters
+    }
+
+    /// What is fitted, in the order of the residuals.
+    pub fn observations(&self) -> &[Observation] {
+        &self.observations
+    }
+
+    /// The measured rows.
+    pub fn measured(&self) -> &Measured {
+        self.rows.measured
+    }
+
+    /// Whether the accuracies are given.
+    pub fn accuracy(&self) -> Accuracy {
+        self.accuracy
+    }
+
+    /// What a user should know of the points.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Values at which the search begins, each in the unit of its path.
+    pub fn start(&self) -> Vec<f64> {
+        self.parameters
+            .iter()
+            .map(|p| p.start.clamp(p.bounds[0], p.bounds[1]))
+            .collect()
+    }
+
+    /// What the gearbox does with given parameters, each in the unit of its path.
+    ///
+    /// # Errors
+    /// If it cannot be built with them.
+    pub fn calculate(&self, theta: &[f64]) -> Result<Calculated, String> {
+        let mut choice = self.choice.clone();
+        choice.overrides.extend(Identified::overrides(&self.parameters, theta));
+        let built = self
+            .rows
+            .build(self.language, self.gearbox, &choice)
+            .map_err(|findings| findings.first())?;
+        let rig = Identified::rig(&self.parameters, theta, &self.rows.measured.rig);
+        let on = OnRig {
+            rig,
+            speeds: &self.speeds,
+        };
+        let on = Some(on).filter(|on| !on.rig.is_silent());
+        let solved = self.rows.solve(built, on, &|_| true);
+        let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
+        let solved = solved.ok_or_else(|| "broken off".to_owned())?;
+        Ok(Calculated { solved, rig })
+    }
+
+    /// An observation beside what was calculated.
+    ///
+    /// # Errors
+    /// Which row has no value, and why.
+    pub fn pair(&self, observation: &Observation, calculated: &Calculated) -> Result<Pair, String> {
+        let row = &self.rows.measured.rows[observation.row];
+        let point = calculated.point(observation.row);
+        let seen = Seen::on(&calculated.rig, self.rows.measured, row, point);
+        let what = observation.quantity.words(crate::study::Difference::Points).0;
+        let none = |which: &str| {
+            let reason = match (&point.undefined, point.balance) {
+                (Some((_, undefined)), _) => format!(": {undefined}"),
+                (None, Some(_)) if point.oil.is_none() => ": no balance of heat was found".to_owned(),
+                _ => String::new(),
+            };
+            format!("{}: no {which} {what}{reason}", self.rows.measured.origin(row))
+        };
+        let measured = seen.quantity(observation.quantity).ok_or_else(|| none("measured"))?;
+        let model = observation.quantity.of(point).filter(|x| x.is_finite());
+        let model = model.ok_or_else(|| none("calculated"))?;
+        Ok(Pair { measured, model })
+    }
+
+    /// All observations beside what was calculated.
+    ///
+    /// # Errors
+    /// Which row has no value, and why.
+    pub fn pairs(&self, calculated: &Calculated) -> Result<Vec<Pair>, String> {
+        self.observations.iter().map(|o| self.pair(o, calculated)).collect()
+    }
+
+    /// Residuals: calculated less measured over the standard deviation.
+    ///
+    /// # Errors
+    /// If the gearbox cannot be built, or a row has no value.
+    pub fn residuals(&self, theta: &[f64]) -> Result<Vec<f64>, String> {
+        let calculated = self.calculate(theta)?;
+        let residual = |o: &Observation| {
+            let pair = self.pair(o, &calculated)?;
+            Ok((pair.model - pair.measured) / o.deviation)
+        };
+        self.observations.iter().map(residual).collect()
+    }
+
+    /// As a problem for [`gearloss_numerics::least_squares`].
+    pub fn problem(&self) -> Problem<'_> {
+        let parameters = self.parameters.iter().map(Identified::fitted).collect();
+        Problem::new(|theta: &[f64]| self.residuals(theta), parameters)
+    }
+
+    /// Judges offsets of torque meters by the loss torques to which they add.
+    fn size_offsets(&mut self, start: &Calculated) {
+        for port in [0, 1] {
+            let torque = |(i, row): (usize, &crate::measured::Row)| {
+                let seen = Seen::on(&start.rig, self.rows.measured, row, start.point(i));
+                let there = match (port, start.point(i).output_speed) {
+                    (0, _) => 1.0,
+                    (_, Some(speed)) => start.point(i).reference_speed / speed,
+                    (_, None) => return None,
+                };
+                let torque = (seen.quantity(Quantity::LossTorque)? * there).abs();
+                torque.is_finite().then_some(torque)
+            };
+            let mut torques: Vec<f64> = self.rows.measured.rows.iter().enumerate().filter_map(torque).collect();
+            torques.sort_by(f64::total_cmp);
+            let median = torques.get(torques.len() / 2).copied();
+            for parameter in &mut self.parameters {
+                let own = match parameter.target {
+                    Target::Rig(RigQuantity::OffsetIn) => port == 0,
+                    Target::Rig(RigQuantity::OffsetOut) => port == 1,
+                    _ => false,
+                };
+                if own {
+                    parameter.size = median;
+                }
+            }
+        }
+    }
+
+    /// Refuses quantities that follow from the same measured numbers.
+    fn counted_once(&self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
+        let wrong = |message: String, mend: &str| Err(vec![Diagnostic::error("residuals", message).mend(mend)]);
+        let powers: Vec<Quantity> = residuals
+            .iter()
+            .copied()
+            .filter(|q| *q != Quantity::Temperature)
+            .collect();
+        for (i, quantity) in residuals.iter().enumerate() {
+            let what = quantity.words(crate::study::Difference::Points).0;
+            if residuals[..i].contains(quantity) {
+                return wrong(format!("the {what} stands here twice"), "name every quantity once");
+            }
+            let column = match quantity {
+                Quantity::Efficiency => "efficiency",
+                Quantity::Loss => "loss",
+                Quantity::LossTorque => "loss_torque",
+                Quantity::Temperature => continue,
+            };
+            if powers.len() > 1 && !self.rows.measured.holds(column) {
+                let message =
+                    format!("the {what} has no column of its own: it follows from the same numbers as the others");
+                return wrong(
+                    message,
+                    "name one of efficiency, loss and loss torque, or give each its column",
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// What a row gives to be fitted by a quantity, with the accuracy that is stated of it; absent where it gives nothing. An
+    /// efficiency at hardly any torque counts by its loss torque.
+    pub(super) fn observable(
+        &self,
+        row: usize,
+        quantity: Quantity,
+        calculated: &Calculated,
+    ) -> Option<(Observation, Option<f64>)> {
+        let measured = self.rows.measured;
+        let own = &measured.rows[row];
+        let seen = Seen::on(&calculated.rig, measured, own, calculated.point(row));
+        let weight = measured.value(own, "weight").unwrap_or(1.0);
+        let drowns = quantity == Quantity::Efficiency && seen.is_drowned();
+        let quantity = if drowns { Quantity::LossTorque } else { quantity };
+        if seen.quantity(quantity).is_none() || weight <= 0.0 {
+            return None;
+        }
+        let unit = if quantity == Quantity::Efficiency { 0.01 } else { 1.0 };
+        let accuracy = seen.accuracy(quantity);
+        let observation = Observation {
+            row,
+            quantity,
+            deviation: accuracy.unwrap_or(unit) / weight.sqrt(),
+        };
+        Some((observation, accuracy))
+    }
+
+    /// Chooses what is fitted, with its standard deviations at the start.
+    fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
+        let data = |message: String, mend: &str| vec![Diagnostic::error("data", message).mend(mend)];
+        self.counted_once(residuals)?;
+        let start = self.calculate(&self.start());
+        let start = start.map_err(|reason| data(reason, "begin with other values"))?;
+        let measured = self.rows.measured;
+        let mut found: Vec<(Observation, Option<f64>)> = Vec::new();
+        for quantity in residuals {
+            let before = found.len();
+            let mut drowned = 0;
+            for (i, row) in measured.rows.iter().enumerate() {
+                let Some((observation, accuracy)) = self.observable(i, *quantity, &start) else {
+                    continue;
+                };
+                drowned += usize::from(observation.quantity != *quantity);
+                if observation.is_counted_by(*quantity, residuals) {
+                    continue;
+                }
+                if accuracy == Some(0.0) {
+                    let message = format!("{}: an accuracy of zero", measured.origin(row));
+                    return Err(data(
+                        message,
+                        "state how accurate the instruments are, or leave all accuracies out",
+                    ));
+                }
+                found.push((observation, accuracy));
+            }
+            let what = quantity.words(crate::study::Difference::Points).0;
+            if measured
+                .rows
+                .iter()
+                .all(|row| measured.value(row, "weight") == Some(0.0))
+            {
+                return Err(data(
+                    "all points have no weight".to_owned(),
+                    "give some of them a weight",
+                ));
+            }
+            if found.len() == before {
+                let mend = "name a column of it, or columns of torque and speed at both ports";
+                return Err(data(format!("nothing gives a measured {what}"), mend));
+            }
+            if *quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {
+                return Err(vec![
+                    Diagnostic::error("residuals", "the temperature of the oil is given, not calculated")
+                        .mend("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
+                ]);
+            }
+            let below = |(o, _): &&(Observation, Option<f64>)| {
+                let row = &measured.rows[o.row];
+                let loss = Seen::on(&start.rig, measured, row, start.point(o.row)).loss;
+                loss.is_some_and(|loss| loss < 0.0)
+            };
+            let below = found[before..].iter().filter(below).count();
+            if below > 0 && *quantity != Quantity::Temperature {
+                self.notes.push(format!("{below} measured losses are below zero"));
+            }
+            if drowned > 0 {
+                self.notes.push(format!(
+                    "{drowned} points with less torque than three times its accuracy count by their loss torque"
+                ));
+            }
+        }
+        // What has no value at the start is told by its line, before the search and before its accuracy.
+        if let Some(reason) = found.iter().find_map(|(o, _)| self.pair(o, &start).err()) {
+            return Err(data(
+                format!("{reason}, at the start of the search"),
+                "begin with other values, or give the line no weight",
+            ));
+        }
+        let with = found.iter().filter(|(_, accuracy)| accuracy.is_some()).count();
+        if with > 0 && with < found.len() {
+            let bare = found.iter().find(|(_, accuracy)| accuracy.is_none());
+            let line = bare.map_or_else(String::new, |(o, _)| measured.origin(&measured.rows[o.row]));
+            let message = format!(
+                "{line} has no accuracy, as {} of {} measured numbers; {with} have one",
+                found.len() - with,
+                found.len()
+            );
+            return Err(data(message, "state the accuracies of all, or of none"));
+        }
+        if with == 0 && residuals.len() > 1 {
+            let message = "several quantities count together only by their accuracies, and none is stated".to_owned();
+            return Err(data(
+                message,
+                "state the instruments under `rig`, or columns such as `loss_accuracy`",
+            ));
+        }
+        self.size_offsets(&start);
+        self.accuracy = if with > 0 { Accuracy::Given } else { Accuracy::Estimated };
+        self.observations = found.into_iter().map(|(observation, _)| observation).collect();
+        let free = self.parameters.iter().filter(|p| p.bounds[0] < p.bounds[1]);
+        let prior = free.clone().find(|p| p.prior.is_some());
+        let priors = free.clone().filter(|p| p.prior.is_some()).count();
+        let free = free.count();
+        if let Some(parameter) = prior.filter(|_| with == 0) {
+            let place = format!("parameters.{}.prior", parameter.base_name());
+            let message = "a prior and the points count together only by their accuracies, and none is stated";
+            let mend = "state the instruments under `rig`, or columns such as `loss_accuracy`, or leave the prior out";
+            return Err(vec![Diagnostic::error(place, message).mend(mend)]);
+        }
+        if with == 0 && self.observations.len() <= free {
+            return Err(data(
+                format!(
+                    "{} measured numbers without accuracies for {free} parameters",
+                    self.observations.len()
+                ),
+                "identify fewer parameters, or state the accuracies",
+            ));
+        }
+        if self.observations.len() + priors < free {
+            return Err(data(
+                format!(
+                    "{} measured numbers and {priors} priors for {free} parameters",
+                    self.observations.len()
+                ),
+                "identify fewer parameters, or give some of them a `prior`",
+            ));
+        }
+        Ok(())
+    }
+}
+
+fn is_out(parameter: &Identified) -> bool {
+    matches!(&parameter.target, Target::Rig(quantity) if RigQuantity::is_out(*quantity))
+}
+
+/// What is wrong with an identification as it is stated.
+pub enum Faults {
+    /// Faults of the study, with paths below the analysis.
+    Study(Vec<Diagnostic>),
+    /// Faults of the gearbox.
+    Gearbox(Findings),
+}
+
+impl std::fmt::Display for Faults {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Gearbox(findings) => f.write_str(&findings.render()),
+            Self::Study(list) => list.iter().try_for_each(|found| writeln!(f, "{found}")),
+        }
+    }
+}
+
+/// As shown, because a `main` that returns an error prints it so.
+impl std::fmt::Debug for Faults {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        std::fmt::Display::fmt(self, f)
+    }
+}
+
+impl std::error::Error for Faults {}
+
+impl From<Findings> for Faults {
+    fn from(findings: Findings) -> Self {
+        Self::Gearbox(findings)
+    }
+}

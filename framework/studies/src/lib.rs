@@ -1,0 +1,8 @@
+//! Studies of gearloss: their documents, measured data, duties, identification and analyses.
+
+pub mod analysis;
+pub mod duty;
+pub mod identify;
+pub mod measured;
+pub mod study;
+pub mod varied;

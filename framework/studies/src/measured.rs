@@ -1,0 +1,542 @@
+//! Measured data as rigs write it: separators, decimal commas, encodings, unit rows, faulty rows.
+//!
+//! What a file looks like is recognised and told, or stated; a unit that stands nowhere is an error, not a guess.
+
+mod accuracies;
+mod columns;
+mod condition;
+mod files;
+mod read;
+mod rig;
+mod seen;
+mod steady;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::analysis::PointResult;
+use gearloss_framework::description::Ordered;
+
+use columns::KNOWN;
+
+pub use accuracies::{
+    Accuracies, AccuraciesEntry, EfficiencyAccuracyEntry, LossAccuracyEntry, LossTorqueAccuracyEntry,
+    TemperatureAccuracyEntry,
+};
+pub use columns::{ChangedColumnEntry, ColumnEntry};
+pub use condition::{Condition, ConditionFault};
+pub use files::{FileEntry, MeasuredFile, MeasuredFiles, OwnFileEntry};
+pub use gearloss_document::data::{Decimal, Encoding, FaultPlace, MeasuredFault, Separator};
+pub(crate) use gearloss_document::data::{cells as text, fault};
+pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportLossEntry, TorqueMeterEntry};
+pub use seen::{Seen, counted};
+pub use steady::{SteadyEntry, SteadyLimitsEntry, Stretch};
+
+/// Files of measured points, and how to read them.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct MeasuredEntry {
+    /// CSV file beside the study, or a list of files with the same quantities.
+    pub file: MeasuredFiles,
+    /// What a reader of the report has to know of these data: where they come from, or that they are synthetic.
+    pub about: Option<String>,
+    /// Column of each quantity, where it is not named as the quantity: `torque: T_in`, or with a factor and a sign
+    /// `torque: { column: T_in, scale: 0.001, sign: -1 }`. Quantities: `torque` and `speed` at the
+    /// ports of the conditions, `torque_out`, `speed_out`, `efficiency`, `loss`, `loss_torque`, `oil_temperature`,
+    /// `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as `efficiency_accuracy`. Torque and speed may
+    /// both be given at the other port alone, by `torque_out` and `speed_out`.
+    #[serde(default)]
+    pub columns: Ordered<ColumnEntry>,
+    /// Unit of each quantity, where neither the header nor a row of units states it: `efficiency: "%"`.
+    #[serde(default)]
+    pub units: Ordered<String>,
+    /// What separates cells; absent, it is recognised.
+    pub separator: Option<Separator>,
+    /// Decimal sign; absent, it is recognised.
+    pub decimal: Option<Decimal>,
+    /// Encoding; absent, UTF-8, and Latin-1 where that fails.
+    pub encoding: Option<Encoding>,
+    /// What happens to a row with blanks or text where a number is due.
+    #[serde(default)]
+    pub faulty_rows: FaultyRows,
+    /// Condition on the rows that count: `torque > 10 Nm and speed < 3000 rpm`. Quantities, bound columns and headers; `==`, `!=`,
+    /// `<`, `<=`, `>`, `>=`, `and`, `or`, `not`, parentheses. Of a time series it chooses among the steady stretches.
+    pub rows: Option<String>,
+    /// Steady stretches of a time series: each becomes one point.
+    pub steady: Option<SteadyEntry>,
+    /// What accuracies in columns, of quantities and of the instruments mean.
+    #[serde(default)]
+    pub stated_as: StatedAs,
+    /// Coverage factor of expanded accuracies. [-]
+    #[serde(default = "two")]
+    #[schemars(range(min = 1.0, max = 10.0))]
+    pub coverage_factor: f64,
+    /// Accuracy of measured quantities in percent of the reading and of the full scale. A column such as `loss_accuracy` takes
+    /// precedence.
+    #[serde(default)]
+    pub accuracies: AccuraciesEntry,
+    /// The rig: what its meters and bearings add, and how accurate it is where no column says it.
+    #[serde(default)]
+    pub rig: RigEntry,
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+/// What happens to a row with blanks or text where a number is due.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FaultyRows {
+    /// The file is refused.
+    #[default]
+    Refuse,
+    /// The row is left out, and told.
+    Skip,
+    /// A blank leaves out its quantity and no more; torque, speed and bound columns need a number all the same, and text is
+    /// refused.
+    Keep,
+}
+
+/// One measured point; SI, temperatures in degC.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Row {
+    /// Number of its file among [`Measured::files`].
+    pub file: usize,
+    /// Line in the file; the first one where several were averaged.
+    pub line: u64,
+    /// Name, where the file has names.
+    pub name: Option<String>,
+    /// Gear state, where the file has them.
+    pub gear: Option<String>,
+    /// Values by the places of [`Measured::quantities`]; a gap where the cell is blank.
+    pub values: Vec<Option<f64>>,
+    /// Bound values as written, with their units.
+    pub bound: Vec<String>,
+    /// All cells of the row by the places of [`Measured::columns`], numbers with a decimal point; means where several rows were
+    /// averaged.
+    pub cells: Vec<String>,
+    /// What was averaged, where the point is a steady stretch of a time series.
+    pub stretch: Option<Stretch>,
+}
+
+/// A column of a file as its header states it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct FileColumn {
+    /// Name in the header.
+    pub header: String,
+    /// Name under which it is bound, where it is.
+    pub bound: Option<String>,
+    /// Symbol of its unit, where header, row of units or `units` state one.
+    pub unit: Option<String>,
+    /// The quantity that it is read as, where it is read as one.
+    pub quantity: Option<&'static str>,
+}
+
+/// What was read.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Measured {
+    /// Names of the files in messages.
+    pub files: Vec<String>,
+    /// Names of the numeric quantities that the file holds.
+    pub quantities: Vec<&'static str>,
+    /// All columns of the file, of the first one where there are several.
+    pub columns: Vec<FileColumn>,
+    /// The points.
+    pub rows: Vec<Row>,
+    /// How the file was understood, and which rows were left out, in sentences.
+    pub notes: Vec<String>,
+    /// What stated accuracies are divided by to give standard deviations.
+    pub divisor: f64,
+    /// What the rig adds to what its meters show.
+    pub rig: Rig,
+    /// Instruments, where both torque meters are stated.
+    pub instruments: Option<Instruments>,
+    /// Accuracies of quantities, where no column states them.
+    pub accuracies: Accuracies,
+    /// Standard deviation of the oil's temperature, where no column says it. \[K\]
+    pub oil_temperature: Option<f64>,
+    /// True where `torque` was read from `torque_out`: the torque at the other port than that of the conditions, positive where
+    /// power leaves a driven transmission there.
+    pub torque_at_other_port: bool,
+    /// True where `speed` was read from `speed_out`: the speed at the other port than that of the conditions, positive where the
+    /// port of the conditions turns forward.
+    pub speed_at_other_port: bool,
+}
+
+impl Measured {
+    /// A quantity of a row; absent where the file or the row does not hold it.
+    pub fn value(&self, row: &Row, quantity: &str) -> Option<f64> {
+        row.values.get(self.place(quantity)?).copied().flatten()
+    }
+
+    /// Place of a column by the name under which it is bound, or by its header.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        let bound = self.columns.iter().position(|c| c.bound.as_deref() == Some(name));
+        bound.or_else(|| self.columns.iter().position(|c| c.header == name))
+    }
+
+    /// True where the file holds a quantity.
+    pub fn holds(&self, quantity: &str) -> bool {
+        self.quantities.contains(&quantity)
+    }
+
+    /// The torque of a row as it is applied to the transmission at the port where it was measured. A meter at the other port
+    /// counts positive where power leaves a driven transmission: there the torque that is applied has the other sign, or the
+    /// same one where the transmission turns the sense of rotation. \[Nm\]
+    pub fn applied_torque(&self, torque: f64, point: &PointResult) -> f64 {
+        if self.torque_at_other_port {
+            -torque * sense(point.reference_speed * point.output_speed.unwrap_or(1.0))
+        } else {
+            torque
+        }
+    }
+
+    fn place(&self, quantity: &str) -> Option<usize> {
+        self.quantities.iter().position(|q| *q == quantity)
+    }
+
+    /// Where a row stands, for messages: its line, with the file where there are several.
+    pub fn origin(&self, row: &Row) -> String {
+        match self.file(row) {
+            Some(file) => format!("{file}, line {}", row.line),
+            None => format!("line {}", row.line),
+        }
+    }
+
+    /// The line of a row for tables: with the file before a colon where there are several.
+    pub fn line(&self, row: &Row) -> String {
+        match self.file(row) {
+            Some(file) => format!("{file}:{}", row.line),
+            None => row.line.to_string(),
+        }
+    }
+
+    /// Name of the file of a row, where there are several.
+    pub fn file(&self, row: &Row) -> Option<&str> {
+        let file = self.files.get(row.file).filter(|_| self.files.len() > 1);
+        file.map(String::as_str)
+    }
+
+    /// Accuracy of a quantity in a row as it is stated, from its column or from `accuracies` at a reading.
+    pub fn stated_accuracy(&self, row: &Row, quantity: &str, reading: Option<f64>) -> Option<f64> {
+        self.value(row, &format!("{quantity}_accuracy"))
+            .or_else(|| self.accuracies.stated(quantity, reading?))
+    }
+
+    /// Standard error of the mean of a quantity, where the row is an average over a steady stretch.
+    pub fn standard_error(&self, row: &Row, quantity: &str) -> Option<f64> {
+        let stretch = row.stretch.as_ref()?;
+        stretch.standard_errors.get(self.place(quantity)?).copied().flatten()
+    }
+}
+
+/// 1, or -1 below zero.
+pub(crate) fn sense(x: f64) -> f64 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    #![allow(clippy::unwrap_used)]
+    use serde_json::json;
+
+    use super::*;
+
+    pub(crate) fn entry(columns: &[(&str, &str)], units: &[(&str, &str)]) -> MeasuredEntry {
+        let map = |pairs: &[(&str, &str)]| -> serde_json::Map<String, serde_json::Value> {
+            pairs.iter().map(|(a, b)| ((*a).to_owned(), (*b).into())).collect()
+        };
+        let entry = json!({ "file": "rig.csv", "columns": map(columns), "units": map(units), "stated_as": "standard" });
+        serde_json::from_value(entry).unwrap()
+    }
+
+    fn close(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-12 * b.abs().max(1.0)
+    }
+
+    #[test]
+    fn a_german_rig_file_is_recognised_and_told() {
+        // BOM, semicolons, decimal commas, a row of units.
+        let text = "\u{feff}M_an;n_an;eta;T_Öl\nNm;1/min;%;°C\n10,5;3000;97,25;80,1\n-4;1000;90;60\n";
+        let rig = entry(
+            &[
+                ("torque", "M_an"),
+                ("speed", "n_an"),
+                ("efficiency", "eta"),
+                ("oil_temperature", "T_Öl"),
+            ],
+            &[],
+        );
+        for bytes in [text.as_bytes().to_vec(), latin1(&text.replace('\u{feff}', ""))] {
+            let read = rig.read(&bytes, &[]).unwrap();
+            let first = &read.rows[0];
+            let at = |quantity: &str| read.value(first, quantity).unwrap();
+            assert!(close(at("torque"), 10.5) && close(at("speed"), 100.0 * std::f64::consts::PI));
+            assert!(close(at("efficiency"), 0.9725) && close(at("oil_temperature"), 80.1));
+            assert_eq!((read.rows.len(), read.rows[1].line), (2, 4));
+            let notes = read.notes.join(" ");
+            assert!(
+                notes.contains("`;`") && notes.contains("decimal comma") && notes.contains("units in line 2"),
+                "{notes}"
+            );
+        }
+    }
+
+    fn latin1(text: &str) -> Vec<u8> {
+        text.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect()
+    }
+
+    #[test]
+    fn an_english_file_with_units_in_the_header_needs_no_word() {
+        let read = entry(&[], &[])
+            .read(b"torque [Nm],speed (rpm),loss / kW\n10,3000,0.25\n", &[])
+            .unwrap();
+        assert!(close(read.value(&read.rows[0], "loss").unwrap(), 250.0));
+        assert!(!read.holds("efficiency"));
+    }
+
+    #[test]
+    fn nothing_is_guessed() {
+        let refused = |entry: &MeasuredEntry, text: &str| {
+            let faults = entry.read(text.as_bytes(), &[]).unwrap_err();
+            let told = faults.iter().map(|fault| format!("{}: {}", fault.message, fault.mend));
+            told.collect::<Vec<_>>().join("\n")
+        };
+        let plain = entry(&[], &[]);
+        assert!(refused(&plain, "torque,speed [rpm]\n1,2\n").contains("column `torque` has no unit"));
+        assert!(refused(&plain, "torque [Nm],speed [rpm],efficiency\n1,2,0.9\n").contains("percent"));
+        assert!(refused(&plain, "torque [rpm],speed [rpm]\n1,2\n").contains("`rpm` is no unit of torque"));
+        assert!(refused(&plain, "torque [Nm],n [rpm]\n1,2\n").contains("no column holds the speed"));
+        assert!(
+            refused(&entry(&[("speed", "n")], &[]), "torque [Nm],m [rpm]\n1,2\n").contains("no column is called `n`")
+        );
+        assert!(
+            refused(&entry(&[("spede", "n")], &[]), "torque [Nm],n [rpm]\n1,2\n")
+                .contains("`spede` is no measured quantity")
+        );
+        assert!(refused(&plain, "torque [Nm],speed [rpm]\n").contains("no point"));
+        assert!(refused(&plain, "").contains("empty"));
+        // A comma that may separate cells or decimals.
+        assert!(refused(&plain, "torque [Nm];speed [rpm]\n1.234;2,5\n1,5;2\n").contains("decimal"));
+        assert!(
+            entry(&[], &[("efficiency", "%")])
+                .read(b"torque [Nm],speed [rpm],efficiency\n1,2,90\n", &[])
+                .is_ok()
+        );
+    }
+
+    #[test]
+    fn faulty_rows_are_refused_or_left_out_and_told() {
+        let text = b"torque [Nm],speed [rpm],loss [W]\n1,2,3\n1,2,\n1,x,3\n";
+        let mut rig = entry(&[], &[]);
+        let refused = rig.read(text, &[]).unwrap_err().remove(0);
+        assert!(refused.message.contains("line 3, column 3 `loss`: empty") && refused.mend.contains("skip"));
+        rig.faulty_rows = FaultyRows::Skip;
+        let read = rig.read(text, &[]).unwrap();
+        assert_eq!(read.rows.len(), 1);
+        assert!(
+            read.notes
+                .iter()
+                .any(|n| n.contains("2 rows left out") && n.contains("line 4, column 2 `speed`: `x`"))
+        );
+    }
+
+    #[test]
+    fn bound_columns_keep_their_unit() {
+        let read = entry(&[], &[])
+            .read(b"torque [Nm];speed [rpm];volume [ml]\n1;2;60,5\n", &["volume"])
+            .unwrap();
+        assert_eq!(read.rows[0].bound, ["60.5 ml"]);
+        let fault = entry(&[], &[])
+            .read(b"torque [Nm];speed [rpm]\n1;2\n", &["volume"])
+            .unwrap_err()
+            .remove(0);
+        assert!(fault.message.contains("`volume`, which is bound"));
+        assert_eq!(fault.place, FaultPlace::Bind("volume".to_owned()));
+    }
+
+    fn changed(entry: serde_json::Value) -> MeasuredEntry {
+        serde_json::from_value(entry).unwrap()
+    }
+
+    #[test]
+    fn columns_are_scaled_and_turned_before_their_unit() {
+        let rig = changed(json!({
+            "file": "rig.csv",
+            "columns": { "torque": { "column": "T_wheel", "scale": 0.5, "sign": -1.0 } },
+        }));
+        let read = rig.read(b"T_wheel [kNm],speed [rpm]\n-0.2,3000\n", &[]).unwrap();
+        assert!(close(read.value(&read.rows[0], "torque").unwrap(), 100.0));
+        assert!(
+            read.notes
+                .contains(&"column `T_wheel` counts times 0.5, with the other sign as torque".to_owned()),
+            "{:?}",
+            read.notes
+        );
+        for (scale, sign, told) in [(0.0, 1.0, "a scale of zero"), (1.0, 0.5, "a sign of 0.5")] {
+            let rig = changed(json!({
+                "file": "rig.csv",
+                "columns": { "torque": { "column": "T", "scale": scale, "sign": sign } },
+            }));
+            let fault = rig.read(b"T [Nm],speed [rpm]\n1,2\n", &[]).unwrap_err().remove(0);
+            assert!(fault.message.contains(told), "{}", fault.message);
+            assert_eq!(fault.place, FaultPlace::Entry("columns.torque".to_owned()));
+        }
+    }
+
+    #[test]
+    fn temperatures_may_be_in_kelvins() {
+        for (unit, cell) in [
+            ("K", "353.15"),
+            ("°C", "80"),
+            ("C", "80"),
+            ("degC", "80"),
+            ("degF", "176"),
+        ] {
+            let text = format!("torque [Nm],speed [rpm],oil_temperature [{unit}]\n1,2,{cell}\n");
+            let read = entry(&[], &[]).read(text.as_bytes(), &[]).unwrap();
+            let oil = read.value(&read.rows[0], "oil_temperature").unwrap();
+            assert!((oil - 80.0).abs() < 1e-9, "{unit} {oil}");
+        }
+        let text = "torque [Nm],speed [rpm],oil_temperature [K]\n1,2,-5\n";
+        let fault = entry(&[], &[]).read(text.as_bytes(), &[]).unwrap_err().remove(0);
+        assert!(fault.message.contains("below absolute zero"), "{}", fault.message);
+    }
+
+    #[test]
+    fn everything_that_is_wrong_is_told_at_once() {
+        let mut rig = entry(&[("loss", "P_loss"), ("efficency", "eta")], &[]);
+        rig.columns.0.push(("efficiency".to_owned(), "eta".into()));
+        let faults = rig
+            .read(b"torque,speed [rpm],P_los [W],eta\n1,2,3,0.9\n1,x,3,0.9\n", &[])
+            .unwrap_err();
+        let places: Vec<&FaultPlace> = faults.iter().map(|fault| &fault.place).collect();
+        let keys = [
+            "columns.efficency",
+            "units.torque",
+            "units.efficiency",
+            "columns.loss",
+            "",
+        ];
+        assert_eq!(
+            places,
+            keys.map(|key| FaultPlace::Entry(key.to_owned()))
+                .iter()
+                .collect::<Vec<_>>(),
+            "{faults:?}"
+        );
+        assert!(faults[0].mend.starts_with("write `efficiency`"), "{}", faults[0].mend);
+        assert_eq!(faults[3].mend, "write `P_los`");
+        assert!(
+            faults[4]
+                .message
+                .contains("line 3, column 2 `speed`: `x` is not a number")
+        );
+    }
+
+    #[test]
+    fn several_files_are_read_one_after_the_other() {
+        let rig = changed(json!({
+            "file": ["a.csv", { "file": "b.csv", "name": "second", "columns": { "torque": "T" }, "units": { "torque": "Nm" } }],
+            "faulty_rows": "skip",
+        }));
+        let contents: [&[u8]; 2] = [
+            b"torque [Nm],speed [rpm],p [bar]\n1,10,5\n2,20,6\n",
+            b"speed [rpm],T,p [bar]\n30,3,7\nx,4,8\n",
+        ];
+        let read = rig.read_files(&contents, &[], &[]).unwrap();
+        let torques: Vec<f64> = read.rows.iter().map(|row| read.value(row, "torque").unwrap()).collect();
+        assert_eq!(torques, [1.0, 2.0, 3.0]);
+        assert_eq!(read.origin(&read.rows[2]), "second, line 2");
+        // The column of the torque has another header here.
+        assert_eq!(read.rows[2].cells, ["", "30", "7"].map(str::to_owned));
+        assert!(
+            read.notes[0].starts_with("second: 1 rows left out: line 3"),
+            "{:?}",
+            read.notes
+        );
+        let other: [&[u8]; 2] = [contents[0], b"speed [rpm],T,loss [W]\n30,3,7\n"];
+        let fault = rig.read_files(&other, &[], &[]).unwrap_err().remove(0);
+        assert_eq!(fault.message, "second: unlike a.csv it holds `loss` beside");
+        let twice = changed(json!({ "file": ["a.csv", "a.csv"] }));
+        let fault = twice
+            .read_files(&[contents[0], contents[0]], &[], &[])
+            .unwrap_err()
+            .remove(0);
+        assert!(fault.message.contains("listed twice"), "{}", fault.message);
+    }
+
+    #[test]
+    fn torque_and_speed_may_stand_at_the_other_port_alone() {
+        let read = entry(&[], &[])
+            .read(b"torque_out [Nm],speed_out [rpm],loss [W]\n100,300,50\n", &[])
+            .unwrap();
+        assert!(read.torque_at_other_port && read.speed_at_other_port);
+        assert!(close(read.value(&read.rows[0], "torque").unwrap(), 100.0));
+        let read = entry(&[], &[])
+            .read(b"torque [Nm],speed_out [rpm],torque_out [Nm]\n10,300,99\n", &[])
+            .unwrap();
+        assert!(!read.torque_at_other_port && read.speed_at_other_port);
+        let renamed = entry(&[("torque_out", "torque"), ("speed_out", "speed")], &[]);
+        let read = renamed
+            .read(b"torque [Nm],speed [rpm],loss [W]\n100,300,50\n", &[])
+            .unwrap();
+        assert!(read.torque_at_other_port && read.speed_at_other_port);
+    }
+
+    #[test]
+    fn rows_are_filtered_and_counted() {
+        let text = b"torque [Nm],speed [rpm],loss [W]\n5,1000,1\n20,1000,2\n20,5000,3\n";
+        let rig = changed(json!({ "file": "rig.csv", "rows": "torque > 10 Nm and speed < 3000 rpm" }));
+        let read = rig.read(text, &[]).unwrap();
+        assert_eq!(read.rows.iter().map(|row| row.line).collect::<Vec<_>>(), [3]);
+        assert!(
+            read.notes.iter().any(|note| note.contains("2 of 3 rows are left out")),
+            "{:?}",
+            read.notes
+        );
+        for (rows, told) in [
+            ("torque > 10", "no unit"),
+            ("torqe > 1 Nm", "torqe"),
+            ("torque > 100 Nm", "no row meets"),
+        ] {
+            let rig = changed(json!({ "file": "rig.csv", "rows": rows }));
+            let fault = rig.read(text, &[]).unwrap_err().remove(0);
+            assert!(fault.message.contains(told), "{}", fault.message);
+            assert_eq!(fault.place, FaultPlace::Entry("rows".to_owned()));
+        }
+    }
+
+    #[test]
+    fn a_time_series_becomes_one_point_for_each_steady_stretch() {
+        let rig = changed(json!({
+            "file": "rig.csv",
+            "units": { "time": "s" },
+            "steady": { "time": "t", "window": 10.0, "drift": { "torque": 0.5 } },
+            "accuracies": { "loss": { "absolute": 3.0 } },
+            "stated_as": "standard",
+        }));
+        let mut text = "t,torque [Nm],speed [rpm],loss [W]\n".to_owned();
+        for k in 0..300 {
+            let torque = if k < 150 { 10.0 } else { 20.0 };
+            let loss = 100.0 + f64::from(k % 2);
+            text.push_str(&format!("{},{torque},1000,{loss}\n", 0.1 * f64::from(k)));
+        }
+        let read = rig.read(text.as_bytes(), &[]).unwrap();
+        let losses: Vec<f64> = read.rows.iter().map(|row| read.value(row, "loss").unwrap()).collect();
+        assert!(
+            losses.len() == 2 && losses.iter().all(|loss| (loss - 100.5).abs() < 0.02),
+            "{losses:?}"
+        );
+        assert!(read.standard_error(&read.rows[0], "loss").unwrap() < 0.1);
+        assert!(
+            read.notes.iter().any(|note| note.starts_with("2 steady stretches")),
+            "{:?}",
+            read.notes
+        );
+        let mut loose = rig.clone();
+        loose.steady.as_mut().unwrap().drift = SteadyLimitsEntry::default();
+        let fault = loose.read(text.as_bytes(), &[]).unwrap_err().remove(0);
+        assert_eq!(fault.place, FaultPlace::Entry("steady.drift".to_owned()));
+    }
+}

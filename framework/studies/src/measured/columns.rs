@@ -1,0 +1,383 @@
+//! Which column of a file holds which quantity, in which unit, and how its numbers are changed.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::files::MeasuredFile;
+use super::{FaultPlace, MeasuredEntry, MeasuredFault, text};
+use gearloss_document::data::scale;
+use gearloss_framework::document::{Unit, did_you_mean};
+
+/// The column of a quantity.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ColumnEntry {
+    /// Its header.
+    Header(String),
+    /// Its header, and how its numbers are changed.
+    Changed(ChangedColumnEntry),
+}
+
+/// A column whose numbers are changed before their unit applies.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ChangedColumnEntry {
+    /// Header of the column.
+    pub column: String,
+    /// Factor on the numbers of the column; not zero. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = -1e12, max = 1e12))]
+    pub scale: f64,
+    /// Sign of the numbers of the column: -1 for a rig that counts the other way, otherwise 1. [-]
+    #[serde(default = "one")]
+    #[schemars(range(min = -1.0, max = 1.0))]
+    pub sign: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl From<&str> for ColumnEntry {
+    fn from(header: &str) -> Self {
+        Self::Header(header.to_owned())
+    }
+}
+
+impl ColumnEntry {
+    fn header(&self) -> &str {
+        match self {
+            Self::Header(header) => header,
+            Self::Changed(changed) => &changed.column,
+        }
+    }
+
+    /// Scale and sign.
+    fn change(&self) -> [f64; 2] {
+        match self {
+            Self::Header(_) => [1.0, 1.0],
+            Self::Changed(changed) => [changed.scale, changed.sign],
+        }
+    }
+}
+
+/// A quantity that a file may hold.
+pub(super) struct Known {
+    pub name: &'static str,
+    /// Documented unit; empty for texts, a dash for shares.
+    pub unit: &'static str,
+}
+
+const fn known(name: &'static str, unit: &'static str) -> Known {
+    Known { name, unit }
+}
+
+/// All quantities; SI after reading, shares as numbers of one.
+pub(super) const KNOWN: [Known; 17] = [
+    known("torque", "Nm"),
+    known("speed", "rpm"),
+    known("torque_out", "Nm"),
+    known("speed_out", "rpm"),
+    known("efficiency", "-"),
+    known("loss", "W"),
+    known("loss_torque", "Nm"),
+    known("oil_temperature", "degC"),
+    known("weight", "-"),
+    known("efficiency_accuracy", "-"),
+    known("loss_accuracy", "W"),
+    known("loss_torque_accuracy", "Nm"),
+    known("oil_temperature_accuracy", "K"),
+    known("surface_temperature", "degC"),
+    known("surface_temperature_accuracy", "K"),
+    known("gear", ""),
+    known("name", ""),
+];
+
+/// A column that holds a quantity.
+pub(super) struct Column {
+    pub name: &'static str,
+    pub place: usize,
+    pub header: String,
+    /// Factor on the number as written: scale and sign.
+    pub change: f64,
+    /// Factor and offset to SI; absent for texts.
+    pub unit: Option<(f64, f64)>,
+}
+
+/// A column that changes the gearbox.
+pub(super) struct BoundColumn {
+    /// Name under which it is bound.
+    pub name: String,
+    pub column: Column,
+    /// Symbol of its unit; empty for a plain number.
+    pub unit: String,
+}
+
+/// The columns of a file that are used.
+#[derive(Default)]
+pub(super) struct Columns {
+    pub quantities: Vec<Column>,
+    pub bound: Vec<BoundColumn>,
+    /// Time, where steady stretches are asked for.
+    pub time: Option<Column>,
+    /// How columns are changed, in sentences.
+    pub notes: Vec<String>,
+}
+
+/// Looks for columns and collects everything that is wrong with them.
+pub(super) struct Finder<'a> {
+    pub entry: &'a MeasuredEntry,
+    pub file: MeasuredFile<'a>,
+    pub table: &'a text::Table,
+    pub faults: Vec<MeasuredFault>,
+}
+
+impl<'a> Finder<'a> {
+    /// The columns that hold quantities, those that are bound, and the time.
+    pub(super) fn columns(&mut self, bind: &[&str]) -> Columns {
+        let mut columns = Columns::default();
+        for known in &KNOWN {
+            let Some((place, header)) = self.place(known.name) else {
+                continue;
+            };
+            let change = self.change(known, &header, &mut columns.notes);
+            let unit = if known.unit.is_empty() {
+                None
+            } else {
+                match self.unit((known.name, known.unit), place, &header) {
+                    Some(unit) => Some(unit),
+                    None => continue,
+                }
+            };
+            columns.quantities.push(Column {
+                name: known.name,
+                place,
+                header,
+                change,
+                unit,
+            });
+        }
+        for due in ["torque", "speed"] {
+            self.due(due);
+        }
+        for name in bind {
+            columns.bound.extend(self.bound(name, &mut columns.notes));
+        }
+        if let Some(steady) = &self.entry.steady {
+            columns.time = self.time(&steady.time);
+        }
+        columns
+    }
+
+    fn fault(&mut self, place: FaultPlace, message: &str, help: impl Into<String>) {
+        let message = format!("{}: line {}: {message}", self.file.name, self.table.header_line);
+        self.faults.push(MeasuredFault {
+            place,
+            message,
+            mend: help.into(),
+        });
+    }
+
+    fn headers(&self) -> String {
+        self.table.names.join(", ")
+    }
+
+    /// Headers of columns that are not stated for any quantity.
+    fn free_headers(&self) -> impl Iterator<Item = &'a str> {
+        let own = self.file.own.into_iter().flat_map(|own| own.columns.iter());
+        let stated = own.chain(self.entry.columns.iter()).map(|(_, column)| column.header());
+        let stated: Vec<&str> = stated.collect();
+        let names = self.table.names.iter().map(String::as_str);
+        names.filter(move |name| !stated.contains(name))
+    }
+
+    fn written(&self, quantity: &str) -> Option<&'a ColumnEntry> {
+        let own = self.file.own.and_then(|own| own.columns.get(quantity));
+        own.or_else(|| self.entry.columns.get(quantity))
+    }
+
+    /// The key that states something of a quantity: that of the file, or that of the measurement.
+    fn key(&self, section: &str, quantity: &str) -> FaultPlace {
+        let stated_by_file = self.file.own.is_some_and(|own| match section {
+            "columns" => own.columns.get(quantity).is_some(),
+            _ => own.units.get(quantity).is_some(),
+        });
+        let files = self.entry.file.list();
+        let number = files.iter().position(|file| file.file == self.file.file);
+        FaultPlace::Entry(match number.filter(|_| stated_by_file) {
+            Some(number) => format!("file.{number}.{section}.{quantity}"),
+            None => format!("{section}.{quantity}"),
+        })
+    }
+
+    /// Place and header of the column of a quantity: the one that is stated, or the one of the same name.
+    fn place(&mut self, quantity: &str) -> Option<(usize, String)> {
+        let written = self.written(quantity).map(ColumnEntry::header);
+        // A column that is stated for another quantity does not count by its own name.
+        let taken = written.is_none()
+            && (KNOWN.iter().filter_map(|known| self.written(known.name))).any(|column| column.header() == quantity);
+        if taken {
+            return None;
+        }
+        let header = written.unwrap_or(quantity);
+        match (self.table.names.iter().position(|name| name == header), written) {
+            (Some(place), _) => Some((place, header.to_owned())),
+            (None, None) => None,
+            (None, Some(_)) => {
+                let message = format!("no column is called `{header}`; there are: {}", self.headers());
+                let help = match did_you_mean(header, self.free_headers()) {
+                    Some(close) => format!("write `{close}`"),
+                    None => "name one of them under `columns`".to_owned(),
+                };
+                self.fault(self.key("columns", quantity), &message, help);
+                None
+            }
+        }
+    }
+
+    /// Refuses a file that gives neither a quantity nor its value at the other port.
+    fn due(&mut self, due: &str) {
+        let out = format!("{due}_out");
+        // A column that is stated and missing is reported already.
+        let stated = |quantity: &str| self.written(quantity).is_some();
+        let held = |quantity: &str| self.table.names.iter().any(|name| name == quantity);
+        if stated(due) || stated(&out) || held(due) || held(&out) {
+            return;
+        }
+        let message = format!("no column holds the {due}; there are: {}", self.headers());
+        let place = FaultPlace::Entry("columns".to_owned());
+        self.fault(place, &message, format!("name one under `columns: {{ {due}: ... }}`"));
+    }
+
+    /// Scale and sign of a column as one factor.
+    fn change(&mut self, known: &Known, header: &str, notes: &mut Vec<String>) -> f64 {
+        let Some(entry) = self.written(known.name) else {
+            return 1.0;
+        };
+        let [scale, sign] = entry.change();
+        let wrong = if scale == 0.0 {
+            Some(("a scale of zero".to_owned(), "write a factor such as 0.001"))
+        } else if sign.abs() != 1.0 {
+            Some((format!("a sign of {sign}"), "write 1 or -1"))
+        } else if scale * sign != 1.0 && known.unit.is_empty() {
+            Some((
+                format!("the {} is a text, which has no scale and no sign", known.name),
+                "leave them out",
+            ))
+        } else {
+            None
+        };
+        if let Some((message, help)) = wrong {
+            self.fault(self.key("columns", known.name), &message, help);
+            return 1.0;
+        }
+        notes.extend(changed(header, known.name, scale, sign));
+        scale * sign
+    }
+
+    /// Factor and offset of a column to SI.
+    fn unit(&mut self, (name, due): (&str, &str), place: usize, header: &str) -> Option<(f64, f64)> {
+        let stated = self.stated_unit(name, place);
+        match scale((name, due), stated.as_deref(), header) {
+            Ok(unit) => Some(unit),
+            Err(fault) => {
+                self.fault(self.key("units", name), &fault.message, fault.mend);
+                None
+            }
+        }
+    }
+
+    fn stated_unit(&self, quantity: &str, place: usize) -> Option<String> {
+        let own = self.file.own.and_then(|own| own.units.get(quantity));
+        let own = own.or_else(|| self.entry.units.get(quantity));
+        own.or(self.table.units[place].as_ref()).cloned()
+    }
+
+    fn bound(&mut self, name: &str, notes: &mut Vec<String>) -> Option<BoundColumn> {
+        let at_bind = || FaultPlace::Bind(name.to_owned());
+        let Some((place, header)) = self.place(name) else {
+            // A column that is stated and missing is reported already.
+            if self.written(name).is_none() {
+                let headers = self.headers();
+                let message = format!("no column is called `{name}`, which is bound; there are: {headers}");
+                let help = match did_you_mean(name, self.table.names.iter().map(String::as_str)) {
+                    Some(close) => format!("bind `{close}`, or name it under `columns: {{ {name}: {close} }}`"),
+                    None => "name a column of the file, or take it out of `bind`".to_owned(),
+                };
+                self.fault(at_bind(), &message, help);
+            }
+            return None;
+        };
+        let change = match self.written(name).map(ColumnEntry::change) {
+            Some([scale, sign]) if scale == 0.0 || sign.abs() != 1.0 => {
+                self.fault(
+                    self.key("columns", name),
+                    "a scale of zero, or a sign that is neither 1 nor -1",
+                    "correct them",
+                );
+                return None;
+            }
+            Some([scale, sign]) => {
+                notes.extend(changed(&header, name, scale, sign));
+                scale * sign
+            }
+            None => 1.0,
+        };
+        let unit = self.stated_unit(name, place).unwrap_or_default();
+        if !unit.is_empty() && Unit::of_symbol(&unit).is_none() {
+            let message = format!("`{unit}` of column `{name}` is no unit");
+            self.fault(
+                at_bind(),
+                &message,
+                unit_help(&unit, Unit::all_symbols(), "write a unit such as [ml]"),
+            );
+            return None;
+        }
+        let column = Column {
+            name: "bound",
+            place,
+            header,
+            change,
+            unit: Some((1.0, 0.0)),
+        };
+        Some(BoundColumn {
+            name: name.to_owned(),
+            column,
+            unit,
+        })
+    }
+
+    fn time(&mut self, header: &str) -> Option<Column> {
+        let place = self.table.names.iter().position(|name| name == header);
+        let Some(place) = place else {
+            let message = format!("no column is called `{header}`; there are: {}", self.headers());
+            let help = match did_you_mean(header, self.table.names.iter().map(String::as_str)) {
+                Some(close) => format!("write `time: {close}`"),
+                None => "name the column of the time, `time: ...`".to_owned(),
+            };
+            self.fault(FaultPlace::Entry("steady.time".to_owned()), &message, help);
+            return None;
+        };
+        let unit = self.unit(("time", "s"), place, header)?;
+        Some(Column {
+            name: "time",
+            place,
+            header: header.to_owned(),
+            change: 1.0,
+            unit: Some(unit),
+        })
+    }
+}
+
+fn changed(header: &str, quantity: &str, scale: f64, sign: f64) -> Option<String> {
+    let scaled = (scale != 1.0).then(|| format!("times {scale}"));
+    let turned = (sign < 0.0).then(|| "with the other sign".to_owned());
+    let words: Vec<String> = scaled.into_iter().chain(turned).collect();
+    (!words.is_empty()).then(|| format!("column `{header}` counts {} as {quantity}", words.join(", ")))
+}
+
+fn unit_help(written: &str, symbols: impl Iterator<Item = &'static str>, otherwise: &str) -> String {
+    match did_you_mean(written, symbols) {
+        Some(close) => format!("write `{close}`"),
+        None => otherwise.to_owned(),
+    }
+}

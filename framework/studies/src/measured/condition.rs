@@ -1,0 +1,728 @@
+//! Conditions on measured rows as users write them: `torque > 1000 Nm and not (speed <= 500 rpm)`.
+//!
+//! Words: the quantities of a measurement, names that are bound, and headers of columns; `==`, `!=`, `<`, `<=`, `>`, `>=`; `and`,
+//! `or`, `not`, parentheses. `not` binds tightest, `or` weakest.
+
+use super::{KNOWN, Measured, Row};
+use gearloss_framework::document::{Unit, did_you_mean, number_length};
+
+/// Characters of a condition at most.
+const LONGEST: usize = 2000;
+/// Parentheses and `not` inside of each other at most.
+const DEEPEST: usize = 50;
+/// Relative difference up to which two numbers are equal: that of a unit's conversion, far below any meter.
+const EQUAL: f64 = 1e-9;
+
+/// A condition on measured rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condition {
+    text: String,
+    rule: Rule,
+}
+
+/// What is wrong with a condition.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ConditionFault {
+    /// What is wrong, with the column.
+    pub message: String,
+    /// How to fix it.
+    pub help: String,
+    /// Column of the text at which it is wrong, from one.
+    pub column: usize,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Rule {
+    All(Vec<Rule>),
+    Any(Vec<Rule>),
+    Not(Box<Rule>),
+    Compare(Comparison),
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Comparison {
+    /// Quantity, bound name or header.
+    subject: String,
+    operator: Operator,
+    value: Literal,
+    /// Columns of the text at which the subject and the value begin.
+    columns: [usize; 2],
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Operator {
+    Equal,
+    Unequal,
+    Below,
+    AtMost,
+    Above,
+    AtLeast,
+}
+
+impl Operator {
+    /// The longer sign before the shorter one that it begins with.
+    const ALL: [(&'static str, Self); 6] = [
+        ("==", Self::Equal),
+        ("!=", Self::Unequal),
+        ("<=", Self::AtMost),
+        (">=", Self::AtLeast),
+        ("<", Self::Below),
+        (">", Self::Above),
+    ];
+
+    fn compares_sizes(self) -> bool {
+        !matches!(self, Self::Equal | Self::Unequal)
+    }
+
+    fn holds(self, value: f64, limit: f64) -> bool {
+        let equal = (value - limit).abs() <= EQUAL * value.abs().max(limit.abs());
+        match self {
+            Self::Equal => equal,
+            Self::Unequal => !equal,
+            Self::Below => value < limit && !equal,
+            Self::AtMost => value < limit || equal,
+            Self::Above => value > limit && !equal,
+            Self::AtLeast => value > limit || equal,
+        }
+    }
+}
+
+/// The right-hand side as it was written.
+#[derive(Debug, Clone, PartialEq)]
+struct Literal {
+    text: String,
+    /// Number and symbol of its unit; absent for words.
+    number: Option<(f64, Option<String>)>,
+}
+
+impl Literal {
+    /// The value for a quantity of a unit, `%` for shares; SI.
+    fn value_for(&self, subject: &str, unit: &str, column: usize) -> Result<f64, ConditionFault> {
+        let text = &self.text;
+        let wrong = |message: String, help: String| fault(column, message, help);
+        let Some((number, symbol)) = &self.number else {
+            return Err(wrong(
+                format!("`{text}` is not a number, which {subject} is compared with"),
+                format!("write a number, such as `1{}`", spaced(unit)),
+            ));
+        };
+        match symbol.as_deref() {
+            None if unit == "%" => Err(wrong(
+                format!("`{text}` does not say whether it is in percent"),
+                format!("write `{text} %`, or `{text} -` for a share of one"),
+            )),
+            Some("%") if unit == "%" => Ok(0.01 * number),
+            None | Some("-") if is_plain(unit) => Ok(*number),
+            Some("-") if unit == "%" => Ok(*number),
+            None => Err(wrong(
+                format!("`{text}` has no unit"),
+                format!("write the unit: `{text} {unit}`"),
+            )),
+            Some(symbol) => {
+                let due = Unit::of_symbol(unit);
+                let found = Unit::of_symbol(symbol).filter(|found| Some(found.dimension) == due.map(|d| d.dimension));
+                found.map(|found| found.to_si(*number)).ok_or_else(|| {
+                    wrong(
+                        format!("`{symbol}` is not a unit of {subject}"),
+                        match due {
+                            Some(due) => format!(
+                                "units of {subject}: {}",
+                                Unit::symbols(due.dimension).collect::<Vec<_>>().join(", ")
+                            ),
+                            None => "write the number alone".to_owned(),
+                        },
+                    )
+                })
+            }
+        }
+    }
+}
+
+fn is_plain(unit: &str) -> bool {
+    matches!(unit, "" | "-")
+}
+
+fn spaced(unit: &str) -> String {
+    if is_plain(unit) {
+        String::new()
+    } else {
+        format!(" {unit}")
+    }
+}
+
+fn fault(column: usize, message: impl Into<String>, help: impl Into<String>) -> ConditionFault {
+    ConditionFault {
+        message: format!("column {column}: {}", message.into()),
+        help: help.into(),
+        column,
+    }
+}
+
+/// Unit in which a quantity that every file may hold is documented, `%` for efficiencies; empty for texts.
+fn known_unit(subject: &str) -> Option<&'static str> {
+    let known = KNOWN.iter().find(|known| known.name == subject)?;
+    let is_share = known.unit == "-" && subject.starts_with("efficiency");
+    Some(if is_share { "%" } else { known.unit })
+}
+
+impl Condition {
+    /// Reads a condition. Names that are no measured quantity may be columns of a file, which [`Condition::check`] looks up.
+    ///
+    /// # Errors
+    /// What is wrong with it, with the column: a sign that is missing, a quantity without unit or with a wrong one.
+    pub fn parse(text: &str) -> Result<Self, ConditionFault> {
+        if text.chars().count() > LONGEST {
+            return Err(fault(
+                LONGEST,
+                format!("more than {LONGEST} characters"),
+                "write a column into the file, and name it",
+            ));
+        }
+        let mut reader = Reader { text, at: 0 };
+        let rule = reader.any(0)?;
+        reader.skip_spaces();
+        if reader.at < text.len() {
+            let rest = reader.rest().chars().next().unwrap_or_default();
+            let help = if rest == ')' {
+                "remove the parenthesis, or open one before"
+            } else {
+                "join comparisons by `and` or `or`"
+            };
+            return Err(reader.fault(
+                format!("nothing is due here, but `{}` follows", reader.word_here()),
+                help,
+            ));
+        }
+        Ok(Self {
+            text: text.trim().to_owned(),
+            rule,
+        })
+    }
+
+    /// The condition as it was written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Refuses names that neither are measured quantities nor stand in the file, and values that do not fit a column.
+    ///
+    /// # Errors
+    /// The first such name or value, with the column of the text.
+    pub fn check(&self, measured: &Measured) -> Result<(), ConditionFault> {
+        self.rule.check(measured)
+    }
+
+    /// Whether a row meets the condition; absent where the row has no such value and the rest does not decide.
+    pub fn holds(&self, measured: &Measured, row: &Row) -> Option<bool> {
+        self.rule.holds(measured, row)
+    }
+}
+
+impl Rule {
+    fn check(&self, measured: &Measured) -> Result<(), ConditionFault> {
+        match self {
+            Self::All(rules) | Self::Any(rules) => rules.iter().try_for_each(|rule| rule.check(measured)),
+            Self::Not(rule) => rule.check(measured),
+            Self::Compare(comparison) => comparison.check(measured),
+        }
+    }
+
+    fn holds(&self, measured: &Measured, row: &Row) -> Option<bool> {
+        // One rule that decides is enough, whatever another row of blanks would say.
+        let joined = |rules: &[Rule], decides: bool| {
+            let mut all_known = true;
+            for rule in rules {
+                match rule.holds(measured, row) {
+                    Some(held) if held == decides => return Some(decides),
+                    Some(_) => {}
+                    None => all_known = false,
+                }
+            }
+            all_known.then_some(!decides)
+        };
+        match self {
+            Self::All(rules) => joined(rules, false),
+            Self::Any(rules) => joined(rules, true),
+            Self::Not(rule) => rule.holds(measured, row).map(|held| !held),
+            Self::Compare(comparison) => comparison.holds(measured, row),
+        }
+    }
+}
+
+impl Comparison {
+    /// What can be said without a file.
+    fn check_known(&self) -> Result<(), ConditionFault> {
+        match known_unit(&self.subject) {
+            Some("") if self.operator.compares_sizes() => Err(fault(
+                self.columns[0],
+                format!("{} is a text, which is neither greater nor less", self.subject),
+                "compare it by `==` or `!=`",
+            )),
+            Some("") | None => Ok(()),
+            Some(unit) => self.value.value_for(&self.subject, unit, self.columns[1]).map(|_| ()),
+        }
+    }
+
+    fn check(&self, measured: &Measured) -> Result<(), ConditionFault> {
+        let [subject, value] = self.columns;
+        if let Some(unit) = known_unit(&self.subject) {
+            let there = if unit.is_empty() {
+                measured.rows.iter().any(|row| text_of(row, &self.subject).is_some())
+            } else {
+                measured.holds(&self.subject)
+            };
+            return if there {
+                Ok(())
+            } else {
+                Err(fault(
+                    subject,
+                    format!("the data hold no `{}`", self.subject),
+                    format!(
+                        "name its column under `columns: {{ {}: ... }}`, or leave it out",
+                        self.subject
+                    ),
+                ))
+            };
+        }
+        let Some(place) = measured.column(&self.subject) else {
+            let headers = measured.columns.iter().map(|c| c.header.as_str());
+            let names = KNOWN.iter().map(|k| k.name).chain(headers.clone());
+            let bound = measured.columns.iter().filter_map(|c| c.bound.as_deref());
+            let help = match did_you_mean(&self.subject, names.chain(bound)) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the columns are {}", headers.collect::<Vec<_>>().join(", ")),
+            };
+            return Err(fault(
+                subject,
+                format!("`{}` is no measured quantity and no column of the file", self.subject),
+                help,
+            ));
+        };
+        // As a header it would be without the sign, the scale and the unit that the quantity has.
+        if let Some(quantity) = measured.columns[place].quantity {
+            return Err(fault(
+                subject,
+                format!("the column `{}` is read as `{quantity}`", self.subject),
+                format!("write `{quantity}`"),
+            ));
+        }
+        let unit = measured.columns[place].unit.as_deref().unwrap_or("");
+        match &self.value.number {
+            Some((_, symbol)) if symbol.is_some() || !unit.is_empty() || self.operator.compares_sizes() => {
+                self.value.value_for(&self.subject, unit, value).map(|_| ())
+            }
+            None if self.operator.compares_sizes() => self.value.value_for(&self.subject, unit, value).map(|_| ()),
+            _ => Ok(()),
+        }
+    }
+
+    fn holds(&self, measured: &Measured, row: &Row) -> Option<bool> {
+        let texts = |text: &str| match self.operator {
+            Operator::Equal => Some(text == self.value.text),
+            Operator::Unequal => Some(text != self.value.text),
+            _ => None,
+        };
+        let numbers = |value: f64, unit: &str| {
+            let limit = self.value.value_for(&self.subject, unit, self.columns[1]).ok()?;
+            Some(self.operator.holds(value, limit))
+        };
+        match known_unit(&self.subject) {
+            Some("") => texts(text_of(row, &self.subject)?),
+            Some(unit) => numbers(measured.value(row, &self.subject)?, unit),
+            None => {
+                let place = measured.column(&self.subject)?;
+                let cell = row.cells.get(place).filter(|cell| !cell.is_empty())?;
+                let unit = measured.columns[place].unit.as_deref().unwrap_or("");
+                let number = cell.parse::<f64>().ok().filter(|x| x.is_finite());
+                match (number, &self.value.number) {
+                    (Some(number), Some(_)) => {
+                        // The value of a literal is in SI, and so is that of a cell.
+                        let number = match Unit::of_symbol(unit) {
+                            Some(unit) => unit.to_si(number),
+                            None if unit == "%" => 0.01 * number,
+                            None => number,
+                        };
+                        numbers(number, unit)
+                    }
+                    _ => texts(cell),
+                }
+            }
+        }
+    }
+}
+
+fn text_of<'r>(row: &'r Row, subject: &str) -> Option<&'r str> {
+    if subject == "gear" {
+        row.gear.as_deref()
+    } else {
+        row.name.as_deref()
+    }
+}
+
+/// Reads a text from its front.
+struct Reader<'t> {
+    text: &'t str,
+    /// Bytes read.
+    at: usize,
+}
+
+impl Reader<'_> {
+    fn rest(&self) -> &str {
+        &self.text[self.at..]
+    }
+
+    fn column(&self) -> usize {
+        self.text[..self.at].chars().count() + 1
+    }
+
+    fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> ConditionFault {
+        fault(self.column(), message, help)
+    }
+
+    fn skip_spaces(&mut self) {
+        let rest = self.rest();
+        self.at += rest.len() - rest.trim_start().len();
+    }
+
+    /// What stands here, for messages.
+    fn word_here(&self) -> String {
+        self.rest()
+            .split_whitespace()
+            .next()
+            .unwrap_or_default()
+            .chars()
+            .take(20)
+            .collect()
+    }
+
+    /// Takes a word such as `and` where it stands alone.
+    fn take_word(&mut self, word: &str) -> bool {
+        self.skip_spaces();
+        let Some(behind) = self.rest().strip_prefix(word) else {
+            return false;
+        };
+        let ends = behind
+            .chars()
+            .next()
+            .is_none_or(|c| c.is_whitespace() || c == '(' || c == ')');
+        self.at += if ends { word.len() } else { 0 };
+        ends
+    }
+
+    fn take_sign(&mut self, sign: &str) -> bool {
+        self.skip_spaces();
+        let found = self.rest().starts_with(sign);
+        self.at += if found { sign.len() } else { 0 };
+        found
+    }
+
+    fn any(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
+        let mut rules = vec![self.all(depth)?];
+        while self.take_word("or") {
+            rules.push(self.all(depth)?);
+        }
+        Ok(if rules.len() == 1 {
+            rules.remove(0)
+        } else {
+            Rule::Any(rules)
+        })
+    }
+
+    fn all(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
+        let mut rules = vec![self.single(depth)?];
+        while self.take_word("and") {
+            rules.push(self.single(depth)?);
+        }
+        Ok(if rules.len() == 1 {
+            rules.remove(0)
+        } else {
+            Rule::All(rules)
+        })
+    }
+
+    fn single(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
+        if depth > DEEPEST {
+            return Err(self.fault(
+                format!("more than {DEEPEST} parentheses inside of each other"),
+                "write a column into the file, and name it",
+            ));
+        }
+        if self.take_word("not") {
+            return Ok(Rule::Not(Box::new(self.single(depth + 1)?)));
+        }
+        if self.take_sign("(") {
+            let rule = self.any(depth + 1)?;
+            return if self.take_sign(")") {
+                Ok(rule)
+            } else {
+                Err(self.fault("a parenthesis is not closed", "write `)`"))
+            };
+        }
+        self.comparison().map(Rule::Compare)
+    }
+
+    fn comparison(&mut self) -> Result<Comparison, ConditionFault> {
+        self.skip_spaces();
+        let begin = self.column();
+        if number_length(self.rest()) > 0 {
+            return Err(self.fault(
+                "a comparison begins with a number",
+                "begin with the quantity: `speed > 500 rpm and speed < 3000 rpm`",
+            ));
+        }
+        let subject = self.quoted()?.unwrap_or_else(|| self.name());
+        if subject.is_empty() {
+            let message = if self.rest().is_empty() {
+                "the condition ends where a comparison is due".to_owned()
+            } else {
+                format!("`{}` where a quantity is due", self.word_here())
+            };
+            return Err(self.fault(
+                message,
+                "write a comparison such as `torque > 1000 Nm` or `gear == first`",
+            ));
+        }
+        self.skip_spaces();
+        let operator = Operator::ALL.iter().find(|(sign, _)| self.rest().starts_with(sign));
+        let Some((sign, operator)) = operator else {
+            let message = format!("no comparison follows `{subject}`");
+            let help = if self.rest().starts_with('=') {
+                "write `==`"
+            } else {
+                "write one of ==, !=, <, <=, >, >= and a value"
+            };
+            return Err(self.fault(message, help));
+        };
+        self.at += sign.len();
+        self.skip_spaces();
+        let value_at = self.column();
+        let value = self.literal(&subject)?;
+        let comparison = Comparison {
+            subject,
+            operator: *operator,
+            value,
+            columns: [begin, value_at],
+        };
+        comparison.check_known()?;
+        Ok(comparison)
+    }
+
+    /// A name in quotes, where one stands here.
+    fn quoted(&mut self) -> Result<Option<String>, ConditionFault> {
+        let Some(quote) = self.rest().chars().next().filter(|c| matches!(c, '"' | '\'')) else {
+            return Ok(None);
+        };
+        let inner = &self.rest()[1..];
+        let Some(end) = inner.find(quote) else {
+            return Err(self.fault("quotes are not closed", format!("write `{quote}` behind the name")));
+        };
+        let name = inner[..end].to_owned();
+        self.at += end + 2;
+        Ok(Some(name))
+    }
+
+    /// A name up to a space, a parenthesis or a comparison.
+    fn name(&mut self) -> String {
+        let ends = |c: char| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>' | '=' | '!');
+        let rest = self.rest();
+        let name = rest[..rest.find(ends).unwrap_or(rest.len())].to_owned();
+        self.at += name.len();
+        name
+    }
+
+    fn literal(&mut self, subject: &str) -> Result<Literal, ConditionFault> {
+        let word = |text: String| Literal { text, number: None };
+        if let Some(text) = self.quoted()? {
+            return Ok(word(text));
+        }
+        let length = number_length(self.rest());
+        let behind = self.rest()[length..].chars().next();
+        // `2nd` is a word, `60degC` a quantity.
+        let is_text = known_unit(subject) == Some("");
+        if length == 0 || (is_text && behind.is_some_and(char::is_alphanumeric)) {
+            let text = self.name();
+            return if text.is_empty() {
+                Err(self.fault("a value is missing", "write a value, such as `1000 Nm` or `first`"))
+            } else {
+                Ok(word(text))
+            };
+        }
+        if behind == Some(',') {
+            return Err(self.fault(
+                "a comma in a number",
+                "write a decimal point, and nothing between thousands",
+            ));
+        }
+        let text = self.rest()[..length].to_owned();
+        let number = text.parse::<f64>().ok().filter(|x| x.is_finite());
+        let Some(number) = number else {
+            return Err(self.fault(format!("`{text}` is too great"), "write another number"));
+        };
+        self.at += length;
+        let unit = self.unit()?;
+        Ok(Literal {
+            text,
+            number: Some((number, unit)),
+        })
+    }
+
+    /// The longest unit that stands here; absent where the number stands alone.
+    fn unit(&mut self) -> Result<Option<String>, ConditionFault> {
+        self.skip_spaces();
+        let rest = self.rest();
+        let ends = rest.char_indices().map(|(at, c)| (at, c.is_whitespace() || c == ')'));
+        let mut ends: Vec<usize> = ends.filter_map(|(at, is_end)| is_end.then_some(at)).collect();
+        ends.push(rest.len());
+        let is_unit = |end: &&usize| matches!(&rest[..**end], "%") || Unit::of_symbol(&rest[..**end]).is_some();
+        if let Some(end) = ends.iter().rev().find(is_unit) {
+            let symbol = rest[..*end].to_owned();
+            self.at += end;
+            return Ok(Some(symbol));
+        }
+        let word = &rest[..ends[0]];
+        if matches!(word, "" | "and" | "or") {
+            return Ok(None);
+        }
+        Err(self.fault(
+            format!("`{word}` is no unit"),
+            "write a unit such as Nm, rpm, W, degC or %, or join comparisons by `and` or `or`",
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::measured::tests::entry;
+
+    const FILE: &str = "torque [Nm],speed [rpm],efficiency [%],oil_temperature [degC],gear,name,V_oil [ml],use_for_test,T Öl\n\
+        1000,3000,95,60,first,idle,800,yes,1\n\
+        -20,500,90,,second,run,900,no,2\n\
+        1500,1000.5,97,80,first,,1000,1,x\n";
+
+    fn measured() -> Measured {
+        let mut entry = entry(&[("volume", "V_oil")], &[]);
+        entry.faulty_rows = crate::measured::FaultyRows::Keep;
+        entry.read(FILE.as_bytes(), &["volume"]).unwrap()
+    }
+
+    fn rows(text: &str) -> Vec<Option<bool>> {
+        let measured = measured();
+        let condition = Condition::parse(text).unwrap_or_else(|f| panic!("{text}: {f:?}"));
+        condition.check(&measured).unwrap_or_else(|f| panic!("{text}: {f:?}"));
+        measured
+            .rows
+            .iter()
+            .map(|row| condition.holds(&measured, row))
+            .collect()
+    }
+
+    #[test]
+    fn quantities_are_compared_with_their_units() {
+        let (yes, no) = (Some(true), Some(false));
+        for (text, expected) in [
+            ("torque > 1000 Nm", [no, no, yes]),
+            ("torque >= 1 kNm", [yes, no, yes]),
+            ("torque>=1kNm", [yes, no, yes]),
+            ("torque < 0 Nm", [no, yes, no]),
+            ("torque < -5e0 N m", [no, yes, no]),
+            ("speed == 50 1/min or speed == 3000 rpm", [yes, no, no]),
+            ("speed != 3000 1/min", [no, yes, yes]),
+            ("efficiency > 92 %", [yes, no, yes]),
+            ("efficiency > 0.92 -", [yes, no, yes]),
+            ("oil_temperature > 60 degC", [no, None, yes]),
+            ("oil_temperature <= 140 degF", [yes, None, no]),
+            ("not oil_temperature > 60 degC", [yes, None, no]),
+        ] {
+            assert_eq!(rows(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn texts_and_columns_of_the_file_are_compared() {
+        let (yes, no) = (Some(true), Some(false));
+        for (text, expected) in [
+            ("gear == first", [yes, no, yes]),
+            ("name != idle", [no, yes, None]),
+            ("name == 'idle'", [yes, no, None]),
+            ("volume > 0.85 l", [no, yes, yes]),
+            ("V_oil == 800 ml", [yes, no, no]),
+            ("use_for_test == yes", [yes, no, no]),
+            ("use_for_test == 1", [no, no, yes]),
+            ("\"T Öl\" > 1", [no, yes, None]),
+            ("\"T Öl\" == x", [no, no, yes]),
+        ] {
+            assert_eq!(rows(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn and_binds_tighter_than_or_and_blanks_decide_nothing() {
+        let (yes, no) = (Some(true), Some(false));
+        for (text, expected) in [
+            ("torque < 0 Nm or gear == first and speed > 2000 rpm", [yes, yes, no]),
+            ("(torque < 0 Nm or gear == first) and speed > 2000 rpm", [yes, no, no]),
+            ("not (gear == first and speed > 2000 rpm)", [no, yes, yes]),
+            ("not not(gear == first)", [yes, no, yes]),
+            // What is known decides where it can.
+            ("gear == second or oil_temperature > 70 degC", [no, yes, yes]),
+            ("gear == second and oil_temperature > 70 degC", [no, None, no]),
+        ] {
+            assert_eq!(rows(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn faults_name_the_column_and_the_way_out() {
+        for (text, column, message, help) in [
+            ("torque > 1000", 10, "has no unit", "`1000 Nm`"),
+            ("torque > 1000 rpm", 10, "`rpm` is not a unit of torque", "kNm"),
+            ("torque > 1000 Mm", 15, "`Mm` is no unit", "Nm"),
+            ("torque > 1000 Nm speed < 2 rpm", 18, "`speed` follows", "`and`"),
+            ("torque > 1,5 Nm", 10, "a comma", "point"),
+            ("torque = 5 Nm", 8, "no comparison", "`==`"),
+            ("torque > first", 10, "not a number", "`1 Nm`"),
+            ("torque >", 9, "a value is missing", "1000 Nm"),
+            ("torque > 1e999 Nm", 10, "too great", "another"),
+            ("5 Nm < torque", 1, "begins with a number", "speed > 500 rpm and"),
+            ("efficiency > 95", 14, "percent", "`95 %`"),
+            ("gear > first", 1, "neither greater", "`==`"),
+            ("(torque > 1 Nm", 15, "not closed", "`)`"),
+            ("torque > 1 Nm)", 14, "`)` follows", "parenthesis"),
+            ("torque > 1 Nm and", 18, "ends where", "comparison"),
+            ("", 1, "ends where", "torque > 1000 Nm"),
+            ("'T > 5", 1, "quotes", "behind"),
+        ] {
+            let found = Condition::parse(text).unwrap_err();
+            assert!(
+                found.message.contains(message) && found.help.contains(help),
+                "{text}: {found:?}"
+            );
+            assert_eq!(found.column, column, "{text}: {found:?}");
+        }
+        assert!(Condition::parse(&"(".repeat(1000)).is_err());
+        assert!(Condition::parse(&"not ".repeat(100)).is_err());
+        assert!(Condition::parse(&"x".repeat(3000)).is_err());
+    }
+
+    #[test]
+    fn names_that_no_file_holds_find_their_neighbour() {
+        for (text, column, message, help) in [
+            ("torqe > 1 Nm", 1, "`torqe` is no measured quantity", "`torque`"),
+            ("gear == first and use_for_tset == 1", 19, "no column", "`use_for_test`"),
+            ("loss > 5 W", 1, "the data hold no `loss`", "columns: { loss: ... }"),
+            ("V_oil > 5", 9, "has no unit", "`5 ml`"),
+            ("V_oil > 5 Nm", 9, "`Nm` is not a unit of V_oil", "ml"),
+            ("use_for_test > 5 Nm", 16, "`Nm` is not a unit", "alone"),
+            ("xyzxyz == 1", 1, "no column", "the columns are torque"),
+        ] {
+            let found = Condition::parse(text).unwrap().check(&measured()).unwrap_err();
+            assert!(
+                found.message.contains(message) && found.help.contains(help),
+                "{text}: {found:?}"
+            );
+            assert_eq!(found.column, column, "{text}: {found:?}");
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The files of one set of measured points: one, or several that are read one after the other.
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::columns::ColumnEntry;
+use gearloss_framework::description::Ordered;
+
+/// One file of measured points, or several.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MeasuredFiles {
+    /// CSV file beside the study.
+    One(String),
+    /// Several files with the same quantities, read one after the other.
+    Several(#[schemars(length(min = 1))] Vec<FileEntry>),
+}
+
+/// One of several files.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum FileEntry {
+    /// CSV file beside the study.
+    Name(String),
+    /// A file whose columns, units or name differ from those of the others.
+    Own(Box<OwnFileEntry>),
+}
+
+/// A file whose columns, units or name differ from those of the others.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct OwnFileEntry {
+    /// CSV file beside the study.
+    pub file: String,
+    /// Name of the file in messages and tables; absent, the file name.
+    pub name: Option<String>,
+    /// Columns of this file; they replace those of the measurement, quantity by quantity.
+    #[serde(default)]
+    pub columns: Ordered<ColumnEntry>,
+    /// Units of this file; they replace those of the measurement, quantity by quantity.
+    #[serde(default)]
+    pub units: Ordered<String>,
+}
+
+/// A file of a measurement as it is to be read.
+#[derive(Debug, Clone, Copy)]
+pub struct MeasuredFile<'a> {
+    /// File name, relative to the study.
+    pub file: &'a str,
+    /// Name in messages.
+    pub name: &'a str,
+    /// What is stated for this file alone.
+    pub(super) own: Option<&'a OwnFileEntry>,
+}
+
+impl MeasuredFiles {
+    /// The files in the order in which they are read.
+    pub fn list(&self) -> Vec<MeasuredFile<'_>> {
+        match self {
+            Self::One(file) => vec![MeasuredFile {
+                file,
+                name: file,
+                own: None,
+            }],
+            Self::Several(list) => list.iter().map(FileEntry::file).collect(),
+        }
+    }
+}
+
+impl FileEntry {
+    fn file(&self) -> MeasuredFile<'_> {
+        match self {
+            Self::Name(file) => MeasuredFile {
+                file,
+                name: file,
+                own: None,
+            },
+            Self::Own(own) => MeasuredFile {
+                file: &own.file,
+                name: own.name.as_ref().unwrap_or(&own.file),
+                own: Some(own),
+            },
+        }
+    }
+}
+
+impl fmt::Display for MeasuredFiles {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<&str> = self.list().iter().map(|file| file.name).collect();
+        f.write_str(&names.join(", "))
+    }
+}
+
+impl Serialize for MeasuredFiles {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}

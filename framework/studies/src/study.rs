@@ -1,0 +1,418 @@
+//! Studies: gearboxes, conditions, grids and analyses as data.
+
+mod axes;
+mod breakdown;
+mod compare;
+mod component;
+mod cycle;
+mod data;
+mod files;
+mod identify;
+mod map;
+mod names;
+mod operating_points;
+mod parameters;
+mod range;
+mod rms_surface;
+mod sensitivity;
+mod sweep;
+mod temperature;
+mod then;
+mod tournament;
+mod uncertainty;
+mod write;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
+pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
+pub use compare::{CompareEntry, Difference, Quantity};
+pub use component::{ComponentCompareEntry, ContactPathEntry};
+pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
+pub use data::Data;
+pub use files::Study;
+pub use identify::{
+    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry,
+    PosteriorEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
+};
+pub use map::MapEntry;
+pub use names::is_device;
+pub use operating_points::OperatingPointsEntry;
+pub use range::RangeEntry;
+pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
+pub use sensitivity::{Method, SensitivityEntry};
+pub use sweep::{SecondEntry, SweepEntry};
+pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
+pub use tournament::{CandidatesEntry, FactorsEntry, LossErrorsEntry, TournamentEntry};
+pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
+pub use write::{Export, Write};
+
+use crate::duty::{CycleEntry, VehicleEntry};
+use crate::measured::MeasuredEntry;
+use gearloss_framework::description::Ordered;
+use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::language::STUDY;
+use gearloss_framework::registry::{DocumentKind, inventory};
+use gearloss_framework::transmission::Transmission;
+
+/// A study.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[schemars(title = "study")]
+pub struct StudyEntry {
+    /// Kind and format version of the document.
+    pub gearloss: StudyFormat,
+    /// Title for reports.
+    pub title: Option<String>,
+    /// The question that the study answers; it stands first in the report.
+    pub question: Option<String>,
+    /// Operating point at which the report shows forces, the balance of powers, and what losses rest on; absent, the greatest
+    /// torque and speed of the first grid.
+    pub report_at: Option<ReportAt>,
+    /// Gearbox files by name, relative to the study.
+    pub gearboxes: Ordered<String>,
+    /// What every analysis starts from.
+    #[serde(default)]
+    pub conditions: Conditions,
+    /// Measured points by name, for all analyses that use them.
+    #[serde(default)]
+    pub measurements: Ordered<MeasuredEntry>,
+    /// Parameters by name, for all analyses that take them over: `parameters: [viscosity, roughness]`.
+    #[serde(default)]
+    pub parameters: Ordered<IdentifiedEntry>,
+    /// Duties by name: shipped driving cycles, recorded series, load spectra.
+    #[serde(default)]
+    pub cycles: Ordered<CycleEntry>,
+    /// Vehicles by name, for duties that tell a speed alone.
+    #[serde(default)]
+    pub vehicles: Ordered<VehicleEntry>,
+    /// Grids of operating points by name.
+    #[serde(default)]
+    pub grids: Ordered<Grid>,
+    /// Analyses by name; the names become folders and file names.
+    pub analyses: Ordered<Analysis>,
+}
+
+inventory::submit! { DocumentKind { name: STUDY, schema: StudyEntry::json_schema } }
+
+/// Kind and format version of a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum StudyFormat {
+    /// The first format.
+    #[serde(rename = "study/1")]
+    One,
+}
+
+/// The operating point of a report.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ReportAt {
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Torque. [Nm]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub torque: f64,
+    /// Speed. [rpm]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub speed: f64,
+}
+
+/// What every analysis starts from.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct Conditions {
+    /// Port at which the torque is given, as applied to the transmission.
+    #[serde(default = "input")]
+    pub torque_at: String,
+    /// Port at which the speed is given.
+    #[serde(default = "input")]
+    pub speed_at: String,
+    /// Ports of the gearbox that turn at one speed and count as one port, `wheels`: both wheels of a driven axle on a straight road.
+    /// Absent, those of the gearbox.
+    #[schemars(length(min = 2))]
+    pub wheels: Option<Vec<String>>,
+    /// Temperature of the oil; absent, that of the gearbox: the one stated there, or that of the balance at each point. [degC]
+    #[schemars(range(min = -60.0, max = 250.0))]
+    pub oil_temperature: Option<f64>,
+    /// Whether losses change the torques of what comes after them.
+    #[serde(default)]
+    pub power_flow: PowerFlow,
+    /// Overrides: resolved path to value.
+    #[serde(default)]
+    pub set: Ordered<Value>,
+}
+
+impl Default for Conditions {
+    fn default() -> Self {
+        Self {
+            torque_at: input(),
+            speed_at: input(),
+            wheels: None,
+            oil_temperature: None,
+            power_flow: PowerFlow::Real,
+            set: Ordered::default(),
+        }
+    }
+}
+
+fn input() -> String {
+    "input".to_owned()
+}
+
+/// A grid of operating points: every torque at every speed.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct Grid {
+    /// Gear state, or several; absent, the first.
+    #[serde(default)]
+    pub gear: Gears,
+    /// Torques: one, a list, or from, to and step; or shares of the rating of the gearbox.
+    pub torque: TorqueAxis,
+    /// Speeds: one, a list, or from, to and step; or shares of the rating of the gearbox.
+    pub speed: SpeedAxis,
+    /// Largest torque over speed; points beyond it are left out.
+    pub envelope: Option<Envelope>,
+    /// Values that change from point to point beside torque and speed: resolved path to values, such as
+    /// `housing.oil.volume: [60 ml, 90 ml]`. Every combination is solved.
+    #[serde(default)]
+    pub bind: Ordered<Value>,
+}
+
+/// One gear state or several.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Gears {
+    /// One.
+    One(String),
+    /// Several, one after the other.
+    List(#[schemars(length(min = 1))] Vec<String>),
+}
+
+impl Default for Gears {
+    fn default() -> Self {
+        Self::List(Vec::new())
+    }
+}
+
+impl Gears {
+    /// The names as written; none for the first of the gearbox.
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::List(names) => names,
+        }
+    }
+
+    /// The names for a gearbox: its first gear state where none is written.
+    pub fn of(&self, transmission: &Transmission) -> Vec<String> {
+        match (self.names(), transmission.states()) {
+            ([], [first, ..]) => vec![first.name.clone()],
+            (names, _) => names.to_vec(),
+        }
+    }
+}
+
+impl Grid {
+    /// Every combination of the bound values, as overrides; one without any where nothing is bound.
+    ///
+    /// # Errors
+    /// The path of which no values are listed.
+    pub fn combinations(&self) -> Result<Vec<Vec<(String, Value)>>, String> {
+        let mut all: Vec<Vec<(String, Value)>> = vec![Vec::new()];
+        for (path, values) in self.bind.iter() {
+            let values = values
+                .as_array()
+                .filter(|list| !list.is_empty())
+                .ok_or_else(|| path.to_owned())?;
+            all = all
+                .iter()
+                .flat_map(|before| {
+                    values.iter().map(|value| {
+                        let mut more = before.clone();
+                        more.push((path.to_owned(), value.clone()));
+                        more
+                    })
+                })
+                .collect();
+        }
+        Ok(all)
+    }
+}
+
+/// An analysis.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum Analysis {
+    /// Losses and efficiency over a grid.
+    Map(MapEntry),
+    /// Difference between sets of models over a grid.
+    Compare(CompareEntry),
+    /// Where losses arise, over speed or torque.
+    Breakdown(BreakdownEntry),
+    /// Losses without load: in every gear state, neutral included, also towed.
+    SpinLoss(SpinLossEntry),
+    /// Where losses arise, over the temperature of the oil.
+    TemperatureSweep(TemperatureSweepEntry),
+    /// Several models of one component over speed.
+    ComponentCompare(ComponentCompareEntry),
+    /// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
+    ContactPath(ContactPathEntry),
+    /// Losses of a list of operating points from a file, as stacked bars, with room for what was measured.
+    OperatingPoints(OperatingPointsEntry),
+    /// The torque, or the speed, at which the balance reaches a given temperature.
+    ThermalLimit(ThermalLimitEntry),
+    /// How the temperature of one point is found: losses and heat over temperature, and every step.
+    Balance(BalanceEntry),
+    /// Losses and efficiency over the values of one path, or of two.
+    Sweep(SweepEntry),
+    /// Every combination of models, ranked by a measurement.
+    Tournament(TournamentEntry),
+    /// Bands of efficiency, loss and temperature from uncertain inputs.
+    Uncertainty(UncertaintyEntry),
+    /// Uncertain parameters, found from measured points.
+    Identify(IdentifyEntry),
+    /// What the losses depend on: slopes, screening, shares of the variance.
+    Sensitivity(SensitivityEntry),
+    /// How well models meet a measurement over two quantities of the gearbox.
+    RmsSurface(RmsSurfaceEntry),
+    /// Losses, energies and temperatures of duties, such as driving cycles.
+    Cycle(CycleAnalysisEntry),
+    /// Mean losses of duties over one property of an oil, and where they are least.
+    FluidSweep(FluidSweepEntry),
+}
+
+/// The names that an analysis uses.
+#[derive(Debug, Clone)]
+pub struct Uses<'a> {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<&'a String>,
+    /// Grid.
+    pub grid: Option<&'a String>,
+    /// Key that names it.
+    pub grid_key: &'static str,
+    /// Sets of models.
+    pub sets: Vec<&'a String>,
+    /// Gear states, beside those of the grid.
+    pub gears: Vec<&'a String>,
+    /// Data, each with the key that names it.
+    pub data: Vec<(&'static str, &'a Data)>,
+    /// Columns of the data that change the gearbox.
+    pub bind: Option<&'a Ordered<String>>,
+    /// Duties.
+    pub cycles: &'a [String],
+    /// Vehicle.
+    pub vehicle: Option<&'a String>,
+}
+
+impl<'a> Uses<'a> {
+    fn new(gearbox: Option<&'a String>, sets: impl IntoIterator<Item = &'a String>) -> Self {
+        Self {
+            gearbox,
+            grid: None,
+            grid_key: "grid",
+            sets: sets.into_iter().collect(),
+            gears: Vec::new(),
+            data: Vec::new(),
+            bind: None,
+            cycles: &[],
+            vehicle: None,
+        }
+    }
+
+    fn driving(drive: &'a DriveEntry) -> Self {
+        Self {
+            cycles: &drive.cycles,
+            vehicle: drive.vehicle.as_ref(),
+            ..Self::new(drive.gearbox.as_ref(), &drive.model_sets).at(&drive.gear)
+        }
+    }
+
+    fn with(self, key: &'static str, data: Option<&'a Data>) -> Self {
+        let mut uses = self;
+        uses.data.extend(data.map(|data| (key, data)));
+        uses
+    }
+
+    fn bind(self, bind: &'a Ordered<String>) -> Self {
+        Self {
+            bind: Some(bind),
+            ..self
+        }
+    }
+
+    /// Columns of the data at a key that change the gearbox; measured points beside the points of a map bind none.
+    pub fn bound_of(&self, key: &str) -> Vec<&'a str> {
+        let bind = self.bind.filter(|_| key != "measured");
+        bind.map_or_else(Vec::new, |bind| bind.ids().collect())
+    }
+
+    fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
+        let gears = gears.into_iter().collect();
+        Self { gears, ..self }
+    }
+}
+
+impl Analysis {
+    /// The names that it uses, to be looked up before anything is solved.
+    pub fn uses(&self) -> Uses<'_> {
+        match self {
+            Self::Map(e) => Uses {
+                grid: e.grid.as_ref(),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                    .at(&e.gear)
+                    .bind(&e.bind)
+                    .with("points", e.points.as_ref())
+                    .with("measured", e.measured.as_ref())
+            },
+            Self::Compare(e) => Uses {
+                grid: e.grid.as_ref(),
+                ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against))
+                    .at(&e.gear)
+                    .bind(&e.bind)
+                    .with("data", e.data.as_ref())
+            },
+            Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                .at(&e.gear)
+                .with("measured", e.measured.as_ref()),
+            Self::SpinLoss(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gears),
+            Self::TemperatureSweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::ComponentCompare(e) => Uses::new(e.gearbox.as_ref(), &e.model_set)
+                .at(&e.gear)
+                .with("measured", e.measured.as_ref()),
+            Self::ContactPath(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                .at(&e.gear)
+                .bind(&e.bind)
+                .with("data", Some(&e.data)),
+            Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::Sweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
+            Self::Tournament(e) => Uses {
+                grid: e.grid.as_ref(),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_set)
+                    .at(&e.gear)
+                    .with("data", e.data.as_ref())
+            },
+            Self::Identify(e) => Uses {
+                grid: e.next.as_ref().map(|next| &next.grid),
+                grid_key: "next.grid",
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+                    .at(&e.gear)
+                    .bind(&e.bind)
+                    .with("data", Some(&e.data))
+            },
+            Self::Uncertainty(e) => Uses {
+                grid: Some(&e.grid),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+            },
+            Self::RmsSurface(e) => Uses::new(e.gearbox.as_ref(), &e.against)
+                .at(&e.gear)
+                .bind(&e.bind)
+                .with("data", Some(&e.data)),
+            Self::Cycle(e) => Uses::driving(&e.drive),
+            Self::FluidSweep(e) => Uses::driving(&e.drive),
+            Self::Sensitivity(e) => Uses {
+                grid: Some(&e.grid),
+                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
+            },
+        }
+    }
+}

@@ -1,0 +1,609 @@
+//! A study with its gearboxes.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value};
+
+use super::names::devices;
+use super::parameters::{TakenOver, replace_names, written_at};
+use super::then::PromisedSets;
+use super::{Analysis, Data, Grid, StudyEntry, Uses};
+use crate::analysis::{Field, OilTemperature, Points, Rows};
+use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
+use gearloss_framework::attach::dangling;
+use gearloss_framework::description::Ordered;
+use gearloss_framework::document::{Code, Diagnostic, Places, Sources, read_yaml};
+use gearloss_framework::files::{LONGEST_DATA, LONGEST_TEXT, read_bytes, read_text};
+use gearloss_framework::gearbox::{DocumentKind, Findings, Gearbox, other_kind};
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved, called_own, expand_set, meets, sets_of};
+use gearloss_framework::transmission::{Case, Transmission, WHEELS};
+
+/// A study as read, with its gearboxes.
+pub struct Study {
+    /// What is written.
+    pub entry: StudyEntry,
+    /// Its sets of models.
+    pub sets: Map<String, Value>,
+    /// Its gearboxes by name.
+    pub gearboxes: Vec<(String, Gearbox)>,
+    /// Its text.
+    pub text: String,
+    /// Where the files that it names lie.
+    pub folder: PathBuf,
+    places: Places,
+    sources: Sources,
+    promised: PromisedSets,
+    taken_over: TakenOver,
+}
+
+impl Study {
+    /// Reads a study and its gearboxes.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
+        let text = read_text(file, LONGEST_TEXT).map_err(|e| {
+            let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
+            Findings::from(vec![error.mend("check the name of the file").code(Code::Unreadable)])
+        })?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        Self::of_text(language, text, &file.display().to_string(), folder)
+    }
+
+    /// Reads a study from a text, with its gearboxes; `folder` is where the files that it names lie.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn of_text(
+        language: &Language,
+        text: String,
+        name: &str,
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Findings> {
+        let folder = folder.into();
+        let mut sources = Sources::default();
+        let source = sources.add(name, text.as_str());
+        let read = read_yaml(source, &text);
+        if !read.findings.is_empty() {
+            return Err(Findings {
+                list: read.findings,
+                sources,
+            });
+        }
+        if let Some(error) = other_kind(&read.node, DocumentKind::Study, name) {
+            return Err(Findings {
+                list: vec![error],
+                sources,
+            });
+        }
+        let mut walked = language.walk_study(&read.node);
+        if !walked.findings.is_empty() {
+            return Err(Findings {
+                list: walked.findings,
+                sources,
+            });
+        }
+        let taken_over = match replace_names(&mut walked.value) {
+            Ok(taken_over) => taken_over,
+            Err(list) => {
+                let list = list.into_iter().map(|d| walked.places.place(d).code(Code::Study));
+                return Err(Findings {
+                    list: list.collect(),
+                    sources,
+                });
+            }
+        };
+        let bug = |e: serde_json::Error| Findings::from(vec![Diagnostic::error("", e.to_string())]);
+        let mut sets = walked
+            .value
+            .get("model_sets")
+            .and_then(Value::as_object)
+            .cloned()
+            .unwrap_or_default();
+        let entry: StudyEntry = serde_json::from_value(walked.value).map_err(bug)?;
+        let mut unusable = devices(&entry);
+        let promised = PromisedSets::new(&entry, &mut sets).unwrap_or_else(|found| {
+            unusable.extend(found);
+            PromisedSets::default()
+        });
+        if !unusable.is_empty() {
+            return Err(Findings {
+                list: unusable.into_iter().map(|d| walked.places.place(d)).collect(),
+                sources,
+            });
+        }
+        let mut gearboxes = Vec::new();
+        for (name, gearbox) in entry.gearboxes.iter() {
+            gearboxes.push((name.to_owned(), Gearbox::read(language, &folder.join(gearbox))?));
+        }
+        Ok(Self {
+            entry,
+            sets,
+            gearboxes,
+            text,
+            folder,
+            places: walked.places,
+            sources,
+            promised,
+            taken_over,
+        })
+    }
+
+    /// Findings about the study itself, with their places.
+    pub fn findings(&self, list: Vec<Diagnostic>) -> Findings {
+        let placed = |found: Diagnostic| {
+            let path = written_at(&self.taken_over, &found.path);
+            let found = match path {
+                Some(path) => Diagnostic { path, ..found },
+                None => found,
+            };
+            self.places.place(found).code(Code::Study)
+        };
+        Findings {
+            list: list.into_iter().map(placed).collect(),
+            sources: self.sources.clone(),
+        }
+    }
+
+    /// A gearbox by name; the first where none is named.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn gearbox(&self, path: &str, name: Option<&String>) -> Result<&(String, Gearbox), Findings> {
+        let names: Vec<&str> = self.gearboxes.iter().map(|(n, _)| n.as_str()).collect();
+        match name {
+            None => self.gearboxes.first().ok_or_else(|| {
+                self.findings(vec![
+                    Diagnostic::error("gearboxes", "no gearbox is named")
+                        .mend("add `gearboxes: { ours: gearbox.yaml }`"),
+                ])
+            }),
+            Some(name) => self
+                .gearboxes
+                .iter()
+                .find(|(n, _)| n == name)
+                .ok_or_else(|| self.findings(vec![dangling(&format!("{path}.gearbox"), "gearbox", name, &names)])),
+        }
+    }
+
+    /// A set that an analysis names: `SET` of the given gearbox, or `PRODUCT/SET`; the set `own` stands for the own models of
+    /// the gearbox.
+    ///
+    /// # Errors
+    /// If there is no such product.
+    pub fn reference<'a>(
+        &'a self,
+        path: &str,
+        name: &'a str,
+        gearbox: &'a Gearbox,
+    ) -> Result<(&'a Gearbox, Option<&'a str>), Findings> {
+        let Some((product, set)) = name.split_once('/') else {
+            return Ok((gearbox, Some(name).filter(|set| *set != OWN_MODELS)));
+        };
+        let (_, gearbox) = self.gearbox(path, Some(&product.to_owned()))?;
+        Ok((gearbox, Some(set).filter(|set| *set != OWN_MODELS)))
+    }
+
+    /// The choice of a set, with the overrides of the conditions.
+    pub fn choice(&self, set: Option<&str>) -> Choice {
+        let conditions = &self.entry.conditions;
+        let wheels = conditions
+            .wheels
+            .iter()
+            .map(|ports| (WHEELS.to_owned(), ports.clone().into()));
+        let changes = conditions
+            .set
+            .iter()
+            .map(|(path, value)| (path.to_owned(), value.clone()));
+        let mut sets = self.sets.clone();
+        self.promised.fill(&mut sets);
+        Choice {
+            set: set.filter(|set| *set != OWN_MODELS).map(str::to_owned),
+            sets,
+            overrides: wheels.chain(changes).collect(),
+        }
+    }
+
+    /// The transmission of a gearbox under a choice. `changes` are paths that an analysis changes beside the conditions, each with its
+    /// place in the study: what is wrong with a change is told there.
+    ///
+    /// # Errors
+    /// Everything that resolving and building find.
+    pub fn built(
+        &self,
+        language: &Language,
+        gearbox: &Gearbox,
+        choice: &Choice,
+        changes: &[(String, String)],
+    ) -> Result<(Resolved, Transmission), Findings> {
+        let build = || {
+            let resolved = gearbox.resolve(language, choice)?;
+            let transmission = gearbox.build(language, &resolved)?;
+            Ok((resolved, transmission))
+        };
+        build().map_err(|findings: Findings| {
+            let own = |finding: &Diagnostic| {
+                let changed = changes.iter().find(|(path, _)| meets(path, &finding.path));
+                let set = self.entry.conditions.set.ids().find(|path| meets(path, &finding.path));
+                let wheels = finding.path == WHEELS || finding.path.starts_with("wheels.");
+                let in_own_set = self
+                    .sets
+                    .keys()
+                    .any(|name| finding.path == format!("model_sets.{name}.set"));
+                if in_own_set {
+                    return Some(Diagnostic {
+                        spans: Vec::new(),
+                        ..finding.clone()
+                    });
+                }
+                match (changed, set) {
+                    (Some((path, place)), _) => Some(finding.clone().moved(place, path)),
+                    (None, Some(path)) => Some(finding.clone().moved("conditions.set", path)),
+                    (None, None) if wheels && self.entry.conditions.wheels.is_some() => Some(Diagnostic {
+                        path: format!("conditions.{}", finding.path),
+                        spans: Vec::new(),
+                        ..finding.clone()
+                    }),
+                    _ => None,
+                }
+            };
+            let own: Option<Vec<Diagnostic>> = findings.list.iter().map(own).collect();
+            own.map_or(findings, |list| self.findings(list))
+        })
+    }
+
+    /// Gives the set that `then` of an analysis names its values, resolved path to value, for all that choose it from now on.
+    pub fn keep_found(&self, set: &str, values: impl IntoIterator<Item = (String, Value)>) {
+        self.promised.keep(set, values.into_iter().collect());
+    }
+
+    /// The first set of an analysis whose values another analysis has still to find, with that analysis.
+    pub fn pending(&self, analysis: &Analysis) -> Option<(String, String)> {
+        let sets = analysis.uses().sets;
+        let name = |set: &&String| set.rsplit('/').next().unwrap_or(set).to_owned();
+        let set = sets.iter().map(name).find(|set| self.promised.is_pending(set))?;
+        let by = self.promised.promised_by(&set)?;
+        Some((set, by))
+    }
+
+    /// Points under the conditions.
+    pub fn points(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
+        let conditions = &self.entry.conditions;
+        Points {
+            gear: gear.to_owned(),
+            torque_at: vec![conditions.torque_at.clone()],
+            speed_at: vec![conditions.speed_at.clone()],
+            field,
+            oil: OilTemperature::of(transmission, conditions.oil_temperature),
+            flow: conditions.power_flow,
+            terms: false,
+        }
+    }
+
+    /// The case of points under the conditions.
+    ///
+    /// # Errors
+    /// If the gear state, the ports or their number do not fit: at the conditions where these name a port, or at `place`.
+    pub fn case(
+        &self,
+        place: &str,
+        gearbox: &Gearbox,
+        transmission: &Transmission,
+        points: &Points,
+    ) -> Result<Case, Findings> {
+        let of_gearbox = |error: Diagnostic| gearbox.findings(vec![error]);
+        let state = transmission.state(&points.gear).map_err(of_gearbox)?;
+        let conditions = &self.entry.conditions;
+        let names: Vec<&str> = transmission.ports().iter().map(|port| port.name.as_str()).collect();
+        let unknown = [
+            ("torque_at", &conditions.torque_at, &points.torque_at),
+            ("speed_at", &conditions.speed_at, &points.speed_at),
+        ]
+        .into_iter()
+        .filter(|(_, own, used)| used.contains(own) && !names.contains(&own.as_str()))
+        .map(|(key, own, _)| dangling(&format!("conditions.{key}"), "port", own, &names));
+        let unknown: Vec<Diagnostic> = unknown.collect();
+        if !unknown.is_empty() {
+            return Err(self.findings(unknown));
+        }
+        let [needed, free] = [transmission.torques_needed(state), transmission.states()[state].freedom];
+        if points.torque_at.len() < needed || points.speed_at.len() < free {
+            let at_place = |error: Diagnostic| Diagnostic {
+                path: place.to_owned(),
+                ..error
+            };
+            let fits = transmission.takes_one(state).map_err(at_place);
+            fits.map_err(|error| self.findings(vec![error]))?;
+        }
+        points.case(transmission).map_err(|list| gearbox.findings(list))
+    }
+
+    /// The rows of a file under the conditions; `bind` are the paths of columns that change the gearbox.
+    pub fn rows<'s>(
+        &'s self,
+        measured: &'s Measured,
+        bind: &'s Ordered<String>,
+        gear: Option<&'s str>,
+        terms: bool,
+    ) -> Rows<'s> {
+        let conditions = &self.entry.conditions;
+        Rows {
+            measured,
+            bind: bind.iter().map(|(_, path)| path.as_str()).collect(),
+            gear,
+            torque_at: &conditions.torque_at,
+            speed_at: &conditions.speed_at,
+            oil: conditions.oil_temperature,
+            flow: conditions.power_flow,
+            terms,
+        }
+    }
+
+    /// Checks every name that the analyses use, and builds every gearbox under every set.
+    ///
+    /// # Errors
+    /// Everything that is wrong.
+    pub fn check(&self, language: &Language) -> Result<(), Findings> {
+        let mut found: Vec<Diagnostic> = Vec::new();
+        found.extend(called_own(self.sets.keys()));
+        for (_, gearbox) in &self.gearboxes {
+            gearbox.check_sets(language)?;
+            let at_hand = sets_of(language, &gearbox.value, &self.sets);
+            for error in self.sets.keys().filter_map(|name| expand_set(&at_hand, name).err()) {
+                if found.iter().all(|other| other.path != error.path) {
+                    found.push(error);
+                }
+            }
+        }
+        let grids: Vec<&str> = self.entry.grids.ids().collect();
+        for (name, analysis) in self.entry.analyses.iter() {
+            let path = format!("analyses.{name}");
+            let Uses {
+                gearbox,
+                grid,
+                grid_key,
+                sets,
+                gears,
+                data,
+                bind: _,
+                cycles,
+                vehicle,
+            } = analysis.uses();
+            for (key, name) in data.iter().filter_map(|(key, data)| Some((key, data.name()?))) {
+                if let Err(error) = self.named(&format!("{path}.{key}"), name) {
+                    found.push(error);
+                }
+            }
+            let known: Vec<&str> = self.entry.cycles.ids().collect();
+            for cycle in cycles.iter().filter(|c| !known.contains(&c.as_str())) {
+                found.push(dangling(&format!("{path}.cycles"), "duty", cycle, &known));
+            }
+            let known: Vec<&str> = self.entry.vehicles.ids().collect();
+            if let Some(vehicle) = vehicle.filter(|v| !known.contains(&v.as_str())) {
+                found.push(dangling(&format!("{path}.vehicle"), "vehicle", vehicle, &known));
+            }
+            if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
+                found.push(dangling(&format!("{path}.{grid_key}"), "grid", grid, &grids));
+            }
+            let (_, gearbox) = self.gearbox(&path, gearbox)?;
+            let mut built = Vec::new();
+            for set in &sets {
+                let promised_by = self.promised.promised_by(set.rsplit('/').next().unwrap_or(set));
+                let Some(by) = promised_by else { continue };
+                let order = |analysis: &str| self.entry.analyses.index(analysis);
+                if order(name) <= order(&by) {
+                    let message = format!("the set `{set}` has no values before the analysis `{by}`");
+                    found.push(Diagnostic::error(&path, message).mend(format!("write this analysis below `{by}`")));
+                }
+            }
+            for set in sets {
+                let (gearbox, set) = self.reference(&path, set, gearbox)?;
+                let at_hand = sets_of(language, &gearbox.value, &self.sets);
+                match set.map(|set| expand_set(&at_hand, set)) {
+                    // A set that is wrong in itself is reported where it is.
+                    Some(Err(error)) if error.path != "model_sets" => {}
+                    Some(Err(error)) => found.push(Diagnostic {
+                        path: path.clone(),
+                        ..error
+                    }),
+                    _ => built.push(self.built(language, gearbox, &self.choice(set), &[])?.1),
+                }
+            }
+            if built.is_empty() {
+                built.push(self.built(language, gearbox, &self.choice(None), &[])?.1);
+            }
+            let of_grid = grid.and_then(|name| Some((name, self.entry.grids.get(name)?)));
+            for t in &built {
+                let names: Vec<&str> = t.states().iter().map(|s| s.name.as_str()).collect();
+                let mut unknown = |place: String, gear: &str| {
+                    let error = dangling(&place, "gear state", gear, &names);
+                    if !names.contains(&gear) && !found.iter().any(|e: &Diagnostic| e.path == place) {
+                        found.push(error);
+                    }
+                };
+                for gear in &gears {
+                    unknown(format!("{path}.gear"), gear);
+                }
+                for gear in of_grid.iter().flat_map(|(_, grid)| grid.gear.names()) {
+                    let name = of_grid.map_or("", |(name, _)| name.as_str());
+                    unknown(format!("grids.{name}.gear"), gear);
+                }
+            }
+        }
+        if let Some(gear) = self.entry.report_at.as_ref().and_then(|at| at.gear.as_ref()) {
+            let (_, gearbox) = self.gearbox("report_at", None)?;
+            let (_, t) = self.built(language, gearbox, &self.choice(None), &[])?;
+            if let Err(error) = t.state(gear) {
+                found.push(Diagnostic {
+                    path: "report_at.gear".to_owned(),
+                    ..error
+                });
+            }
+        }
+        if found.is_empty() {
+            Ok(())
+        } else {
+            Err(self.findings(found))
+        }
+    }
+
+    /// The entry of data: that of the measurements of the study, or the analysis' own.
+    ///
+    /// # Errors
+    /// If nothing has the name.
+    pub fn measurement<'a>(&'a self, path: &str, data: &'a Data) -> Result<&'a MeasuredEntry, Findings> {
+        match data {
+            Data::Own(entry) => Ok(entry),
+            Data::Named(name) => self.named(path, name).map_err(|error| self.findings(vec![error])),
+        }
+    }
+
+    /// Reads measured points with the bytes that they stand in, file by file; `path` is the key that names them, `bind` are
+    /// columns that change the gearbox.
+    ///
+    /// # Errors
+    /// If nothing has the name, a file cannot be read, or everything that is wrong in it, with line and column.
+    pub fn measured(
+        &self,
+        path: &str,
+        data: &Data,
+        bind: &[&str],
+    ) -> Result<(Measured, Vec<(String, Vec<u8>)>), Findings> {
+        let entry = self.measurement(path, data)?;
+        let elsewhere = data.name().map_or_else(Vec::new, |name| self.bound_columns(name));
+        let analysis = path.rsplit_once('.').map_or(path, |(analysis, _)| analysis);
+        let found = |list| self.findings(list);
+        let own = own_place(path, data);
+        let contents = self.contents(entry, &own).map_err(found)?;
+        let measured = entry.read_files(&contents, bind, &elsewhere);
+        let measured = measured.map_err(|faults| found(diagnostics(faults, &own, analysis)))?;
+        let files = entry.file.list().into_iter().map(|file| file.file.to_owned());
+        Ok((measured, files.zip(contents).collect()))
+    }
+
+    /// Columns that any analysis binds of a measurement.
+    fn bound_columns(&self, name: &str) -> Vec<&str> {
+        let analyses = self.entry.analyses.iter().map(|(_, analysis)| analysis.uses());
+        let used = analyses.filter(|uses| uses.data.iter().any(|(_, data)| data.name().is_some_and(|n| n == name)));
+        used.filter_map(|uses| uses.bind).flat_map(Ordered::ids).collect()
+    }
+
+    /// The bytes of the files of a measurement.
+    fn contents(&self, entry: &MeasuredEntry, place: &str) -> Result<Vec<Vec<u8>>, Vec<Diagnostic>> {
+        let (mut contents, mut faults) = (Vec::new(), Vec::new());
+        for file in entry.file.list() {
+            match read_bytes(&self.folder.join(file.file), LONGEST_DATA) {
+                Ok(bytes) => contents.push(bytes),
+                Err(e) => {
+                    let error = Diagnostic::error(format!("{place}.file"), format!("{}: cannot read: {e}", file.file));
+                    faults.push(error.mend("file names are relative to the study"));
+                }
+            }
+        }
+        if faults.is_empty() { Ok(contents) } else { Err(faults) }
+    }
+
+    /// Everything that is wrong with the files of points; absent where nothing is. Each fault is found once, at its key of the
+    /// measurement, whatever number of analyses uses it.
+    pub fn data_findings(&self) -> Option<Findings> {
+        let list = self.faults_of_data();
+        (!list.is_empty()).then(|| self.findings(list))
+    }
+
+    fn faults_of_data(&self) -> Vec<Diagnostic> {
+        let mut found: Vec<Diagnostic> = Vec::new();
+        let mut add = |list: Vec<Diagnostic>| {
+            for error in list {
+                let known = |other: &Diagnostic| (&other.path, &other.message) == (&error.path, &error.message);
+                if !found.iter().any(known) {
+                    found.push(error);
+                }
+            }
+        };
+        let analyses = self.entry.analyses.iter();
+        let uses: Vec<(String, Uses<'_>)> = analyses
+            .map(|(name, analysis)| (format!("analyses.{name}"), analysis.uses()))
+            .collect();
+        let mut look = |entry: &MeasuredEntry, own: &str, elsewhere: &[&str], users: &[(&str, Vec<&str>)]| {
+            let contents = match self.contents(entry, own) {
+                Ok(contents) => contents,
+                Err(faults) => return add(faults),
+            };
+            for (analysis, bind) in users {
+                if let Err(faults) = entry.read_files(&contents, bind, elsewhere) {
+                    add(diagnostics(faults, own, analysis));
+                }
+            }
+        };
+        for (name, entry) in self.entry.measurements.iter() {
+            let mut users: Vec<(&str, Vec<&str>)> = Vec::new();
+            for (path, uses) in &uses {
+                let named = |(_, data): &&(&str, &Data)| data.name().is_some_and(|own| own == name);
+                let Some((key, _)) = uses.data.iter().find(named) else {
+                    continue;
+                };
+                let bind = uses.bound_of(key);
+                // Files that are read alike are read once.
+                if bind.is_empty() && users.iter().any(|(_, other)| other.is_empty()) {
+                    continue;
+                }
+                users.push((path, bind));
+            }
+            if users.is_empty() {
+                users.push(("", Vec::new()));
+            }
+            look(
+                entry,
+                &format!("measurements.{name}"),
+                &self.bound_columns(name),
+                &users,
+            );
+        }
+        for (path, uses) in &uses {
+            for (key, data) in &uses.data {
+                if let Data::Own(entry) = data {
+                    look(entry, &format!("{path}.{key}"), &[], &[(path, uses.bound_of(key))]);
+                }
+            }
+        }
+        found
+    }
+
+    fn named(&self, path: &str, name: &str) -> Result<&MeasuredEntry, Diagnostic> {
+        let all = &self.entry.measurements;
+        let names: Vec<&str> = all.ids().collect();
+        all.get(name).ok_or_else(|| dangling(path, "measurement", name, &names))
+    }
+
+    /// The grid of a name.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn grid<'a>(&'a self, path: &str, name: &str) -> Result<&'a Grid, Findings> {
+        let grids: &Ordered<_> = &self.entry.grids;
+        let names: Vec<&str> = grids.ids().collect();
+        grids
+            .get(name)
+            .ok_or_else(|| self.findings(vec![dangling(&format!("{path}.grid"), "grid", name, &names)]))
+    }
+}
+
+/// Where data are described: under `measurements`, or at the key of the analysis.
+fn own_place(path: &str, data: &Data) -> String {
+    data.name()
+        .map_or_else(|| path.to_owned(), |name| format!("measurements.{name}"))
+}
+
+/// Faults of data at their places: the description of the data, or the columns that an analysis binds.
+fn diagnostics(faults: Vec<MeasuredFault>, own: &str, analysis: &str) -> Vec<Diagnostic> {
+    let at_place = |fault: MeasuredFault| {
+        let path = match fault.place {
+            FaultPlace::Entry(key) if key.is_empty() => own.to_owned(),
+            FaultPlace::Entry(key) => format!("{own}.{key}"),
+            FaultPlace::Bind(column) => format!("{analysis}.bind.{column}"),
+        };
+        Diagnostic::error(path, fault.message).mend(fault.mend)
+    };
+    faults.into_iter().map(at_place).collect()
+}

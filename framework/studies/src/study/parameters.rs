@@ -1,0 +1,190 @@
+//! Parameters that a study states once, and analyses that take them over by their names.
+
+use schemars::JsonSchema;
+use serde_json::{Map, Value};
+
+use super::IdentifiedEntry;
+use gearloss_framework::description::Ordered;
+use gearloss_framework::document::{Diagnostic, did_you_mean};
+
+/// Parameters as `identify` writes them.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(
+    dead_code,
+    reason = "its schema alone counts: names are replaced before the study is read into types"
+)]
+pub(super) enum NamesOrParameters {
+    /// Names of parameters that the study states under `parameters`.
+    Names(#[schemars(length(min = 1))] Vec<String>),
+    /// The parameters by name.
+    Own(Ordered<IdentifiedEntry>),
+}
+
+/// One quantity with its range, as other analyses write it.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(
+    dead_code,
+    reason = "its schema alone counts: names are replaced before the study is read into types"
+)]
+pub(super) enum NameOr<T> {
+    /// Name of a parameter that the study states under `parameters`; its range is `from` and `to`.
+    Name(String),
+    /// The quantity and its range.
+    Own(T),
+}
+
+/// What a range takes over of a parameter.
+const OF_RANGE: [&str; 4] = ["path", "tie", "from", "to"];
+
+/// Where parameters were taken over: the path in the analysis, and that under `parameters`, where they are written.
+pub(super) type TakenOver = Vec<(String, String)>;
+
+/// The path under `parameters` where something below an analysis is written, where it was taken over from there.
+pub(super) fn written_at(taken_over: &TakenOver, path: &str) -> Option<String> {
+    taken_over.iter().find_map(|(at, from)| {
+        let rest = path.strip_prefix(at.as_str())?;
+        (rest.is_empty() || rest.starts_with('.')).then(|| format!("{from}{rest}"))
+    })
+}
+
+/// Puts the parameters of a walked study in the place of their names.
+///
+/// # Errors
+/// Every name that the study does not state, and every parameter without both ends where a range is due.
+pub(super) fn replace_names(study: &mut Value) -> Result<TakenOver, Vec<Diagnostic>> {
+    let stated = study.get("parameters").and_then(Value::as_object).cloned();
+    let stated = stated.unwrap_or_default();
+    let (mut found, mut taken_over) = (Vec::new(), Vec::new());
+    let analyses = study.get_mut("analyses").and_then(Value::as_object_mut);
+    for (name, analysis) in analyses.into_iter().flatten() {
+        let kind = analysis.get("type").and_then(Value::as_str).unwrap_or_default();
+        let (key, identifies) = match kind {
+            "identify" => ("parameters", true),
+            "sensitivity" => ("parameters", false),
+            "uncertainty" => ("inputs", false),
+            _ => continue,
+        };
+        let place = format!("analyses.{name}.{key}");
+        let Some(written) = analysis.get_mut(key) else { continue };
+        let Some(list) = written.as_array_mut() else { continue };
+        let mut named = Map::new();
+        for (i, entry) in list.iter_mut().enumerate() {
+            let Some(parameter) = entry.as_str().map(str::to_owned) else {
+                continue;
+            };
+            let entry_place = format!("{place}.{i}");
+            let at = if identifies {
+                format!("{place}.{parameter}")
+            } else {
+                entry_place.clone()
+            };
+            taken_over.push((at, format!("parameters.{parameter}")));
+            let place = entry_place;
+            match stated.get(&parameter) {
+                None => found.push(unknown(&place, &parameter, &stated)),
+                Some(_) if identifies && named.contains_key(&parameter) => found
+                    .push(Diagnostic::error(place, format!("`{parameter}` stands here twice")).mend("name it once")),
+                Some(whole) if identifies => {
+                    named.insert(parameter, whole.clone());
+                }
+                Some(whole) => match range(&parameter, whole) {
+                    Ok(range) => *entry = range,
+                    Err(fault) => found.push(Diagnostic { path: place, ..fault }),
+                },
+            }
+        }
+        if identifies {
+            *written = Value::Object(named);
+        }
+    }
+    if found.is_empty() { Ok(taken_over) } else { Err(found) }
+}
+
+fn unknown(place: &str, name: &str, stated: &Map<String, Value>) -> Diagnostic {
+    let names: Vec<&str> = stated.keys().map(String::as_str).collect();
+    let error = Diagnostic::error(place, format!("the study has no parameter `{name}`"));
+    match did_you_mean(name, names.iter().copied()) {
+        Some(close) => error.mend(format!("write `{close}`")),
+        None if names.is_empty() => error.mend(format!(
+            "state it: `parameters: {{ {name}: {{ path: ..., from: ..., to: ... }} }}`"
+        )),
+        None => error.mend(format!(
+            "name one of {}, or add it under `parameters`",
+            names.join(", ")
+        )),
+    }
+}
+
+/// The range of a parameter.
+fn range(name: &str, whole: &Value) -> Result<Value, Diagnostic> {
+    let stated = |key: &str| whole.get(key).is_some_and(|value| !value.is_null());
+    if stated("over") {
+        let message = format!("`{name}` has one value for each of some torques, and a range is due");
+        return Err(Diagnostic::error("", message).mend("write the quantity with a range of its own"));
+    }
+    if !(stated("from") && stated("to")) {
+        let message = format!("the parameter `{name}` states no range");
+        return Err(Diagnostic::error("", message).mend(format!("give `parameters.{name}` both `from` and `to`")));
+    }
+    let own = OF_RANGE.iter().filter(|key| stated(key));
+    Ok(own.map(|key| ((*key).to_owned(), whole[*key].clone())).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use serde_json::json;
+
+    use super::*;
+
+    fn study(parameters: Value, analysis: Value) -> Value {
+        json!({ "parameters": parameters, "analyses": { "a": analysis } })
+    }
+
+    #[test]
+    fn names_give_way_to_what_they_stand_for() {
+        let whole = json!({ "path": "p", "from": "1 mm", "to": "2 mm", "scale": "log", "start": null });
+        let mut identify = study(
+            json!({ "x": whole }),
+            json!({ "type": "identify", "parameters": ["x"] }),
+        );
+        replace_names(&mut identify).unwrap();
+        assert_eq!(identify["analyses"]["a"]["parameters"]["x"], whole);
+        let own = json!({ "path": "q", "percent": 5.0 });
+        let mut uncertainty = study(
+            json!({ "x": whole }),
+            json!({ "type": "uncertainty", "inputs": ["x", own] }),
+        );
+        let taken_over = replace_names(&mut uncertainty).unwrap();
+        let written = |path: &str| written_at(&taken_over, path);
+        assert_eq!(
+            written("analyses.a.inputs.0.from").as_deref(),
+            Some("parameters.x.from")
+        );
+        assert_eq!(written("analyses.a.inputs.01"), None);
+        let range = json!({ "path": "p", "from": "1 mm", "to": "2 mm" });
+        assert_eq!(uncertainty["analyses"]["a"]["inputs"], json!([range, own]));
+    }
+
+    #[test]
+    fn every_wrong_name_is_found_at_once() {
+        let stated = json!({ "x": { "path": "p", "from": 1 }, "y": { "path": "p", "from": 1, "to": 2, "over": {} } });
+        let mut sensitivity = study(
+            stated.clone(),
+            json!({ "type": "sensitivity", "parameters": ["x", "z", "y"] }),
+        );
+        let found = replace_names(&mut sensitivity).unwrap_err();
+        let words: Vec<String> = found.iter().map(ToString::to_string).collect();
+        assert_eq!(found.len(), 3, "{words:?}");
+        assert!(
+            words[0].contains("states no range") && words[0].starts_with("analyses.a.parameters.0"),
+            "{words:?}"
+        );
+        assert!(words[1].contains("no parameter `z`"), "{words:?}");
+        assert!(words[2].contains("one value for each"), "{words:?}");
+        let mut identify = study(stated, json!({ "type": "identify", "parameters": ["x", "x"] }));
+        assert!(replace_names(&mut identify).unwrap_err()[0].message.contains("twice"));
+    }
+}

@@ -1,0 +1,178 @@
+//! Quantities of a description that a study varies: uncertain, unknown, swept.
+
+use serde_json::Value;
+
+use gearloss_framework::document::{Diagnostic, Dimension, Unit};
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::{Resolved, lookup, matches};
+
+/// How a pattern that meets several quantities moves them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Tie {
+    /// All take one value.
+    #[default]
+    Value,
+    /// Each keeps its own value, times one factor; those without a value stay so.
+    Factor,
+}
+
+/// A number of the resolved description, or several that are tied, with unit and range of the schema.
+#[derive(Debug, Clone)]
+pub struct Varied {
+    /// The pattern as written.
+    pub pattern: String,
+    /// What it meets.
+    pub paths: Vec<String>,
+    /// Unit of values; that of the schema. A factor has none.
+    pub unit: &'static Unit,
+    /// Value of each in the description, in that unit; absent where none is stated.
+    pub base: Vec<Option<f64>>,
+    /// Least and greatest value that the schema allows for all of them.
+    pub range: [f64; 2],
+    /// How several move.
+    pub tie: Tie,
+    /// Published value of each that is a coefficient of a model's formula.
+    pub published: Vec<Option<f64>>,
+}
+
+impl Varied {
+    /// Looks a pattern up in a resolved description.
+    ///
+    /// # Errors
+    /// If it meets nothing, or something that is no number; with `Tie::Factor`, where a value is not stated.
+    pub fn new(language: &Language, resolved: &Resolved, pattern: &str, tie: Tie) -> Result<Self, Diagnostic> {
+        let mut paths = matches(&resolved.value, pattern);
+        if paths.is_empty() {
+            return Err(gearloss_framework::resolve::no_match(&resolved.value, pattern));
+        }
+        // Models differ in their keys: those that have this one count.
+        paths.retain(|path| language.has_place(&resolved.value, path));
+        if paths.is_empty() {
+            let key = pattern.rsplit('.').next().unwrap_or(pattern);
+            return Err(Diagnostic::error(pattern, format!("nothing here has a key `{key}`"))
+                .mend("`gearloss check --resolved` prints every path"));
+        }
+        // Of several, a factor moves those that have a value.
+        let has_value = |path: &String| lookup(&resolved.value, path).is_some_and(|value| !value.is_null());
+        if tie == Tie::Factor && paths.iter().any(has_value) {
+            paths.retain(has_value);
+        }
+        let mut varied = Self {
+            pattern: pattern.to_owned(),
+            paths: Vec::new(),
+            unit: Unit::ONE,
+            base: Vec::new(),
+            range: [f64::NEG_INFINITY, f64::INFINITY],
+            tie,
+            published: Vec::new(),
+        };
+        for path in paths {
+            let Some((unit, least, greatest)) = language.number_at(&resolved.value, &path) else {
+                return Err(Diagnostic::error(pattern, format!("`{path}` is no number"))
+                    .mend("name the path of a quantity; `gearloss check --resolved` prints every path"));
+            };
+            let base = lookup(&resolved.value, &path)
+                .and_then(Value::as_f64)
+                .map(|si| unit.from_si(si));
+            match tie {
+                Tie::Factor if base.is_none() => {
+                    return Err(
+                        Diagnostic::error(pattern, format!("`{path}` has no value to be multiplied"))
+                            .mend("state it in the gearbox, or leave `tie: factor` out"),
+                    );
+                }
+                Tie::Factor => {}
+                Tie::Value => {
+                    varied.unit = unit;
+                    varied.range = [varied.range[0].max(least), varied.range[1].min(greatest)];
+                }
+            }
+            varied
+                .published
+                .push(language.published_coefficient(&resolved.value, &path));
+            varied.paths.push(path);
+            varied.base.push(base);
+        }
+        Ok(varied)
+    }
+
+    /// The value that the description gives: of the first where several differ; one for a factor.
+    pub fn start(&self) -> Option<f64> {
+        match self.tie {
+            Tie::Value => self.base.iter().flatten().next().copied(),
+            Tie::Factor => Some(1.0),
+        }
+    }
+
+    /// The published value, where it moves coefficients of formulas: of the first where several differ, one for a factor.
+    pub fn published(&self) -> Option<f64> {
+        let first = self.published.iter().flatten().next().copied();
+        match self.tie {
+            Tie::Value => first,
+            Tie::Factor => first.map(|_| 1.0),
+        }
+    }
+
+    /// What a value changes of the source, in words; absent where it changes no coefficient of a formula.
+    pub fn changed_from_source(&self, value: f64) -> Option<String> {
+        self.overrides(value)
+            .zip(&self.published)
+            .find_map(|((_, own), published)| {
+                let (own, published) = (own.as_f64()?, (*published)?);
+                (own != published).then(|| format!("{own} instead of {published}, changed from the source"))
+            })
+    }
+
+    /// The overrides that write a value to all of them.
+    pub fn overrides(&self, value: f64) -> impl Iterator<Item = (String, Value)> + '_ {
+        self.paths.iter().zip(&self.base).map(move |(path, base)| {
+            let own = match self.tie {
+                Tie::Value => value,
+                Tie::Factor => value * base.unwrap_or(0.0),
+            };
+            (path.clone(), Value::from(own))
+        })
+    }
+
+    /// A quantity of this kind as written in a study: a number in the unit of the path, or a text with a unit. \[unit of the path\]
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn quantity(&self, written: &Value, difference: bool) -> Result<f64, String> {
+        let unit = if difference && self.unit.dimension == Dimension::Temperature {
+            Unit::of_symbol("K").unwrap_or(self.unit)
+        } else {
+            self.unit
+        };
+        let number = match written {
+            Value::Number(x) => x.as_f64().unwrap_or(f64::NAN),
+            Value::String(text) => {
+                let si = gearloss_framework::document::parse_quantity(text, unit).map_err(|fault| fault.message)?;
+                unit.from_si(si)
+            }
+            _ => f64::NAN,
+        };
+        if number.is_finite() {
+            Ok(number)
+        } else {
+            Err(format!("{written} is no {}", unit.dimension.name()))
+        }
+    }
+
+    /// A value with its unit.
+    pub fn words(&self, value: f64) -> String {
+        words(self.unit, value)
+    }
+}
+
+/// A value with its unit.
+pub(crate) fn words(unit: &Unit, value: f64) -> String {
+    let digits = format!("{value:.6}");
+    let digits = digits.trim_end_matches('0').trim_end_matches('.');
+    if unit.dimension == Dimension::None {
+        digits.to_owned()
+    } else {
+        format!("{digits} {}", unit.symbol)
+    }
+}
