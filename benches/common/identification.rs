@@ -7,7 +7,7 @@ use gearloss_framework::language::Language;
 use gearloss_plugins as _;
 use gearloss_studies::identify::Identification;
 use gearloss_studies::measured::Measured;
-use gearloss_studies::study::{Analysis, IdentifyEntry, Study};
+use gearloss_studies::study::{IdentifyEntry, Study};
 
 /// An analysis that is put beside those of a study: eight parameters that the rig of the two-speed example tells apart under its set `joint`, for that example's study: that set
 /// has no seals, and a factor of its tooth friction would say the same as the roughness. All end between their bounds.
@@ -48,7 +48,12 @@ impl Prepared {
         let text = text.replacen(ANALYSES, &format!("{ANALYSES}{}", ANALYSIS.trim_end()), 1);
         let folder = study.parent().unwrap_or(Path::new(""));
         let study = Study::of_text(&language, text, &study.display().to_string(), folder)?;
-        let Some(Analysis::Identify(entry)) = study.entry.analyses.get(analysis) else {
+        let Some(entry) = study
+            .entry
+            .analyses
+            .get(analysis)
+            .and_then(|analysis| analysis.entry::<IdentifyEntry>())
+        else {
             return Err(format!("`{analysis}` is no analysis `identify` of the study").into());
         };
         let entry = entry.clone();

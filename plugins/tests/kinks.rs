@@ -17,7 +17,7 @@ use gearloss_plugins as _;
 use gearloss_studies::analysis::Rows;
 use gearloss_studies::identify::{Fitted, Identification, ModelKink, Settings};
 use gearloss_studies::measured::Measured;
-use gearloss_studies::study::{Analysis, StudyEntry};
+use gearloss_studies::study::{IdentifyEntry, StudyEntry};
 use serde_json::json;
 
 const RPM: f64 = std::f64::consts::PI / 30.0;
@@ -151,7 +151,11 @@ fn identification<'a>(
     measured: &'a Measured,
     churning: &str,
 ) -> Identification<'a> {
-    let Some(Analysis::Identify(entry)) = study.analyses.get("churned") else {
+    let Some(entry) = study
+        .analyses
+        .get("churned")
+        .and_then(|analysis| analysis.entry::<IdentifyEntry>())
+    else {
         panic!("the study identifies");
     };
     let rows = Rows {

@@ -51,7 +51,7 @@ use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::study::{Analysis, Study};
+use gearloss_studies::study::Study;
 
 use crate::args::{ResultArgs, RunArgs};
 use crate::interrupt;
@@ -301,34 +301,6 @@ pub(super) fn all(
 fn gear_of<'a>(named: Option<&'a str>, transmission: &'a Transmission) -> &'a str {
     let first = transmission.states().first().map_or("", |s| s.name.as_str());
     named.unwrap_or(first)
-}
-
-/// What an analysis is, as a sentence.
-fn about(analysis: &Analysis) -> &'static str {
-    match analysis {
-        Analysis::Map(_) => "Losses and efficiency over a grid.",
-        Analysis::Compare(_) => "Differences between sets of models and products, or between them and a measurement.",
-        Analysis::Breakdown(_) => "Where the losses arise.",
-        Analysis::ComponentCompare(_) => "Several models of one component.",
-        Analysis::ContactPath(_) => {
-            "Speeds, load, pressure, friction, film and loss along the path of contact of one mesh."
-        }
-        Analysis::OperatingPoints(_) => "Losses of a list of operating points.",
-        Analysis::ThermalLimit(_) => "How far a torque or a speed can go before the oil reaches a temperature.",
-        Analysis::Balance(_) => "How the temperature of one point is found.",
-        Analysis::Sweep(_) => "Losses and efficiency over the values of one path.",
-        Analysis::Tournament(_) => {
-            "Every combination of models, ranked by a measurement, or the spread that they leave."
-        }
-        Analysis::Uncertainty(_) => "Bands from uncertain inputs.",
-        Analysis::Identify(_) => "Uncertain parameters, found from measured points, and what the points say of each.",
-        Analysis::Sensitivity(_) => "What the losses depend on.",
-        Analysis::RmsSurface(_) => "How well models meet a measurement over two quantities of the gearbox.",
-        Analysis::Cycle(_) => "Losses, energies and temperatures of duties.",
-        Analysis::FluidSweep(_) => "Mean losses of duties over one property of an oil, and where they are least.",
-        Analysis::SpinLoss(_) => "Losses without load.",
-        Analysis::TemperatureSweep(_) => "Where the losses arise, over the temperature of the oil.",
-    }
 }
 
 /// Says where the conditions take the place of a temperature that a gearbox states.

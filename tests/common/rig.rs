@@ -12,7 +12,7 @@ use gearloss_framework::resolve::Choice;
 use gearloss_studies::analysis::Rows;
 use gearloss_studies::identify::{Faults, Identification};
 use gearloss_studies::measured::{Measured, MeasuredEntry};
-use gearloss_studies::study::{Analysis, StudyEntry};
+use gearloss_studies::study::{IdentifyEntry, StudyEntry};
 use serde_json::{Map, Value, json};
 
 use super::RPM;
@@ -96,7 +96,11 @@ pub fn identification<'a>(
     study: &'a StudyEntry,
     measured: &'a Measured,
 ) -> Identification<'a> {
-    let Some(Analysis::Identify(entry)) = study.analyses.get("identify") else {
+    let Some(entry) = study
+        .analyses
+        .get("identify")
+        .and_then(|analysis| analysis.entry::<IdentifyEntry>())
+    else {
         panic!("the study identifies");
     };
     let rows = Rows {

@@ -1,5 +1,6 @@
 //! Studies of gearloss: their documents, measured data, duties, identification and analyses.
 
+pub mod analyses;
 pub mod analysis;
 pub mod duty;
 pub mod identify;

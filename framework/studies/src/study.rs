@@ -45,10 +45,12 @@ pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sensitivity::{Method, SensitivityEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
+pub use then::Then;
 pub use tournament::{CandidatesEntry, FactorsEntry, LossErrorsEntry, TournamentEntry};
 pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
 pub use write::{Export, Write};
 
+use crate::analyses::AnalysisEntry;
 use crate::duty::{CycleEntry, VehicleEntry};
 use crate::measured::MeasuredEntry;
 use gearloss_framework::description::Ordered;
@@ -91,7 +93,7 @@ pub struct StudyEntry {
     #[serde(default)]
     pub grids: Ordered<Grid>,
     /// Analyses by name; the names become folders and file names.
-    pub analyses: Ordered<Analysis>,
+    pub analyses: Ordered<AnalysisEntry>,
 }
 
 inventory::submit! { DocumentKind { name: STUDY, schema: StudyEntry::json_schema } }
@@ -237,48 +239,6 @@ impl Grid {
     }
 }
 
-/// An analysis.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(tag = "type", rename_all = "snake_case")]
-pub enum Analysis {
-    /// Losses and efficiency over a grid.
-    Map(MapEntry),
-    /// Difference between sets of models over a grid.
-    Compare(CompareEntry),
-    /// Where losses arise, over speed or torque.
-    Breakdown(BreakdownEntry),
-    /// Losses without load: in every gear state, neutral included, also towed.
-    SpinLoss(SpinLossEntry),
-    /// Where losses arise, over the temperature of the oil.
-    TemperatureSweep(TemperatureSweepEntry),
-    /// Several models of one component over speed.
-    ComponentCompare(ComponentCompareEntry),
-    /// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
-    ContactPath(ContactPathEntry),
-    /// Losses of a list of operating points from a file, as stacked bars, with room for what was measured.
-    OperatingPoints(OperatingPointsEntry),
-    /// The torque, or the speed, at which the balance reaches a given temperature.
-    ThermalLimit(ThermalLimitEntry),
-    /// How the temperature of one point is found: losses and heat over temperature, and every step.
-    Balance(BalanceEntry),
-    /// Losses and efficiency over the values of one path, or of two.
-    Sweep(SweepEntry),
-    /// Every combination of models, ranked by a measurement.
-    Tournament(TournamentEntry),
-    /// Bands of efficiency, loss and temperature from uncertain inputs.
-    Uncertainty(UncertaintyEntry),
-    /// Uncertain parameters, found from measured points.
-    Identify(IdentifyEntry),
-    /// What the losses depend on: slopes, screening, shares of the variance.
-    Sensitivity(SensitivityEntry),
-    /// How well models meet a measurement over two quantities of the gearbox.
-    RmsSurface(RmsSurfaceEntry),
-    /// Losses, energies and temperatures of duties, such as driving cycles.
-    Cycle(CycleAnalysisEntry),
-    /// Mean losses of duties over one property of an oil, and where they are least.
-    FluidSweep(FluidSweepEntry),
-}
-
 /// The names that an analysis uses.
 #[derive(Debug, Clone)]
 pub struct Uses<'a> {
@@ -303,7 +263,8 @@ pub struct Uses<'a> {
 }
 
 impl<'a> Uses<'a> {
-    fn new(gearbox: Option<&'a String>, sets: impl IntoIterator<Item = &'a String>) -> Self {
+    /// Those of a gearbox under sets of models.
+    pub fn new(gearbox: Option<&'a String>, sets: impl IntoIterator<Item = &'a String>) -> Self {
         Self {
             gearbox,
             grid: None,
@@ -317,7 +278,7 @@ impl<'a> Uses<'a> {
         }
     }
 
-    fn driving(drive: &'a DriveEntry) -> Self {
+    pub(crate) fn driving(drive: &'a DriveEntry) -> Self {
         Self {
             cycles: &drive.cycles,
             vehicle: drive.vehicle.as_ref(),
@@ -325,13 +286,15 @@ impl<'a> Uses<'a> {
         }
     }
 
-    fn with(self, key: &'static str, data: Option<&'a Data>) -> Self {
+    /// With data at a key.
+    pub fn with(self, key: &'static str, data: Option<&'a Data>) -> Self {
         let mut uses = self;
         uses.data.extend(data.map(|data| (key, data)));
         uses
     }
 
-    fn bind(self, bind: &'a Ordered<String>) -> Self {
+    /// With columns of the data that change the gearbox.
+    pub fn bind(self, bind: &'a Ordered<String>) -> Self {
         Self {
             bind: Some(bind),
             ..self
@@ -344,75 +307,9 @@ impl<'a> Uses<'a> {
         bind.map_or_else(Vec::new, |bind| bind.ids().collect())
     }
 
-    fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
+    /// With gear states.
+    pub fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
         let gears = gears.into_iter().collect();
         Self { gears, ..self }
-    }
-}
-
-impl Analysis {
-    /// The names that it uses, to be looked up before anything is solved.
-    pub fn uses(&self) -> Uses<'_> {
-        match self {
-            Self::Map(e) => Uses {
-                grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
-                    .at(&e.gear)
-                    .bind(&e.bind)
-                    .with("points", e.points.as_ref())
-                    .with("measured", e.measured.as_ref())
-            },
-            Self::Compare(e) => Uses {
-                grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), e.base.iter().chain(&e.against))
-                    .at(&e.gear)
-                    .bind(&e.bind)
-                    .with("data", e.data.as_ref())
-            },
-            Self::Breakdown(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets)
-                .at(&e.gear)
-                .with("measured", e.measured.as_ref()),
-            Self::SpinLoss(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gears),
-            Self::TemperatureSweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
-            Self::ComponentCompare(e) => Uses::new(e.gearbox.as_ref(), &e.model_set)
-                .at(&e.gear)
-                .with("measured", e.measured.as_ref()),
-            Self::ContactPath(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
-            Self::OperatingPoints(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets)
-                .at(&e.gear)
-                .bind(&e.bind)
-                .with("data", Some(&e.data)),
-            Self::ThermalLimit(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
-            Self::Balance(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
-            Self::Sweep(e) => Uses::new(e.gearbox.as_ref(), &e.model_sets).at(&e.gear),
-            Self::Tournament(e) => Uses {
-                grid: e.grid.as_ref(),
-                ..Uses::new(e.gearbox.as_ref(), &e.model_set)
-                    .at(&e.gear)
-                    .with("data", e.data.as_ref())
-            },
-            Self::Identify(e) => Uses {
-                grid: e.next.as_ref().map(|next| &next.grid),
-                grid_key: "next.grid",
-                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
-                    .at(&e.gear)
-                    .bind(&e.bind)
-                    .with("data", Some(&e.data))
-            },
-            Self::Uncertainty(e) => Uses {
-                grid: Some(&e.grid),
-                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
-            },
-            Self::RmsSurface(e) => Uses::new(e.gearbox.as_ref(), &e.against)
-                .at(&e.gear)
-                .bind(&e.bind)
-                .with("data", Some(&e.data)),
-            Self::Cycle(e) => Uses::driving(&e.drive),
-            Self::FluidSweep(e) => Uses::driving(&e.drive),
-            Self::Sensitivity(e) => Uses {
-                grid: Some(&e.grid),
-                ..Uses::new(e.gearbox.as_ref(), &e.model_sets)
-            },
-        }
     }
 }

@@ -9,14 +9,19 @@ use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::{Case, Transmission};
+use gearloss_studies::analyses::AnalysisEntry;
 use gearloss_studies::analysis::{Field, Given, GridResult, Make, Piece, Points, held, merge, notes, solve_pieces};
-use gearloss_studies::study::{Analysis, Grid, Study};
+use gearloss_studies::study::{
+    BalanceEntry, BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry,
+    FluidSweepEntry, Grid, IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry,
+    SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
+};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, about, balance, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map,
+    Parts, balance, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map,
     operating_points, rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
 };
 use crate::interrupt;
@@ -101,8 +106,8 @@ impl<'a> Runner<'a> {
 impl Runner<'_> {
     /// Runs an analysis, with its section in the report. What another one has read is forgotten: the inputs that its results
     /// name are its own, whatever ran before.
-    pub(super) fn attempt(&self, name: &str, analysis: &Analysis, out: &mut Out) -> Result<(), Failure> {
-        self.report.borrow_mut().begin(name, about(analysis));
+    pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
+        self.report.borrow_mut().begin(name, analysis.kind().meaning);
         name.clone_into(&mut self.analysis.borrow_mut());
         self.read.borrow_mut().clear();
         for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
@@ -114,29 +119,42 @@ impl Runner<'_> {
             return Err(self.wrong(&format!("analyses.{name}"), message, &mend));
         }
         out.begin_copy();
-        let done = match analysis {
-            Analysis::Map(entry) => map::run(self, name, entry, out),
-            Analysis::Compare(entry) => compare::run(self, name, entry, out),
-            Analysis::Breakdown(entry) => breakdown::run(self, name, entry, out),
-            Analysis::ComponentCompare(entry) => component_compare::run(self, name, entry, out),
-            Analysis::ContactPath(entry) => contact_path::run(self, name, entry, out),
-            Analysis::OperatingPoints(entry) => operating_points::run(self, name, entry, out),
-            Analysis::ThermalLimit(entry) => thermal_limit::run(self, name, entry, out),
-            Analysis::Balance(entry) => balance::run(self, name, entry, out),
-            Analysis::Sweep(entry) => sweep::run(self, name, entry, out),
-            Analysis::Tournament(entry) => tournament::run(self, name, entry, out),
-            Analysis::Uncertainty(entry) => uncertainty::run(self, name, entry, out),
-            Analysis::Identify(entry) => identify::run(self, name, entry, out),
-            Analysis::Sensitivity(entry) => sensitivity::run(self, name, entry, out),
-            Analysis::RmsSurface(entry) => rms_surface::run(self, name, entry, out),
-            Analysis::Cycle(entry) => cycle::run(self, name, entry, out),
-            Analysis::FluidSweep(entry) => fluid_sweep::run(self, name, entry, out),
-            Analysis::SpinLoss(entry) => breakdown::spin_loss(self, name, entry, out),
-            Analysis::TemperatureSweep(entry) => breakdown::temperature_sweep(self, name, entry, out),
-        };
+        let done = self.legacy(name, analysis, out);
         let printed = out.end_copy();
         self.report.borrow_mut().text(&printed);
         done
+    }
+
+    /// Runs an analysis that computes, prints and writes at once.
+    fn legacy(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
+        macro_rules! one_of {
+            ($($entry:ty => $run:path),* $(,)?) => {
+                $(if let Some(entry) = analysis.entry::<$entry>() {
+                    return $run(self, name, entry, out);
+                })*
+            };
+        }
+        one_of! {
+            MapEntry => map::run,
+            CompareEntry => compare::run,
+            BreakdownEntry => breakdown::run,
+            ComponentCompareEntry => component_compare::run,
+            ContactPathEntry => contact_path::run,
+            OperatingPointsEntry => operating_points::run,
+            ThermalLimitEntry => thermal_limit::run,
+            BalanceEntry => balance::run,
+            SweepEntry => sweep::run,
+            TournamentEntry => tournament::run,
+            UncertaintyEntry => uncertainty::run,
+            IdentifyEntry => identify::run,
+            SensitivityEntry => sensitivity::run,
+            RmsSurfaceEntry => rms_surface::run,
+            CycleAnalysisEntry => cycle::run,
+            FluidSweepEntry => fluid_sweep::run,
+            SpinLossEntry => breakdown::spin_loss,
+            TemperatureSweepEntry => breakdown::temperature_sweep,
+        }
+        Ok(())
     }
 
     /// The gearbox under each set; under its own models where no set is named.

@@ -6,8 +6,9 @@ use std::str::FromStr;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::language::Language;
+use gearloss_studies::analyses::AnalysisEntry;
 use gearloss_studies::analysis::Bits;
-use gearloss_studies::study::{Analysis, Study};
+use gearloss_studies::study::{MapEntry, Study};
 use serde::{Deserialize, Serialize};
 
 use super::Runner;
@@ -60,7 +61,7 @@ pub struct Deal<'a> {
 /// One analysis.
 pub struct Work<'a> {
     pub name: &'a str,
-    pub analysis: &'a Analysis,
+    pub analysis: &'a AnalysisEntry,
     pub kind: Kind<'a>,
 }
 
@@ -94,8 +95,8 @@ impl<'a> Deal<'a> {
         let mut units = 0;
         let mut works = Vec::new();
         for (name, analysis) in runner.study.entry.analyses.iter() {
-            let kind = match analysis {
-                Analysis::Map(entry) if entry.points.is_none() => match planned(runner, name, entry) {
+            let kind = match analysis.entry::<MapEntry>() {
+                Some(entry) if entry.points.is_none() => match planned(runner, name, entry) {
                     Ok(plans) if plans.iter().all(|p| p.points.case(&p.built.transmission).is_ok()) => {
                         let maps = plans.into_iter().map(|plan| {
                             let map = Pieces { plan, first: units };

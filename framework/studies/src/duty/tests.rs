@@ -6,8 +6,8 @@ use schemars::generate::SchemaSettings;
 use serde::Deserialize;
 
 use super::*;
-use gearloss_framework::motor::{MotorEntry, RotorShare};
 use gearloss_framework::document::{Schema, publish, read_yaml, walk};
+use gearloss_framework::motor::{MotorEntry, RotorShare};
 
 #[derive(Debug, Deserialize, JsonSchema)]
 struct Document {

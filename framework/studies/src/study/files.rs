@@ -7,7 +7,8 @@ use serde_json::{Map, Value};
 use super::names::devices;
 use super::parameters::{TakenOver, replace_names, written_at};
 use super::then::PromisedSets;
-use super::{Analysis, Data, Grid, StudyEntry, Uses};
+use super::{Data, Grid, StudyEntry, Uses};
+use crate::analyses::AnalysisEntry;
 use crate::analysis::{Field, OilTemperature, Points, Rows};
 use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
 use gearloss_framework::attach::dangling;
@@ -259,7 +260,7 @@ impl Study {
     }
 
     /// The first set of an analysis whose values another analysis has still to find, with that analysis.
-    pub fn pending(&self, analysis: &Analysis) -> Option<(String, String)> {
+    pub fn pending(&self, analysis: &AnalysisEntry) -> Option<(String, String)> {
         let sets = analysis.uses().sets;
         let name = |set: &&String| set.rsplit('/').next().unwrap_or(set).to_owned();
         let set = sets.iter().map(name).find(|set| self.promised.is_pending(set))?;

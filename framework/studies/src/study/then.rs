@@ -5,8 +5,17 @@ use std::sync::{Mutex, PoisonError};
 
 use serde_json::{Map, Value, json};
 
-use super::{Analysis, StudyEntry};
+use super::StudyEntry;
 use gearloss_framework::document::Diagnostic;
+
+/// What an analysis leaves for those after it: a set of models with the values that it finds.
+#[derive(Debug, Clone, Copy)]
+pub struct Then<'a> {
+    /// Name of the set.
+    pub set: &'a str,
+    /// Sets that the analysis fits; the first is what the new one extends.
+    pub model_sets: &'a [String],
+}
 
 /// A set that `then` of an analysis names.
 struct Promised {
@@ -30,10 +39,9 @@ impl PromisedSets {
         let mut found = Vec::new();
         let mut promised: BTreeMap<String, Promised> = BTreeMap::new();
         for (name, analysis) in entry.analyses.iter() {
-            let Analysis::Identify(identify) = analysis else {
+            let Some(Then { set, model_sets }) = analysis.then() else {
                 continue;
             };
-            let Some(set) = &identify.then else { continue };
             let wrong =
                 |message: String, mend: &str| Diagnostic::error(format!("analyses.{name}.then"), message).mend(mend);
             if let Some(other) = promised.get(set) {
@@ -51,26 +59,23 @@ impl PromisedSets {
                     format!("`{set}` cannot name a set of models"),
                     "write a name without `/`, such as `fitted`",
                 ));
-            } else if identify.model_sets.len() > 1 {
+            } else if model_sets.len() > 1 {
                 found.push(wrong(
                     format!(
                         "{} sets are fitted, and `{set}` can hold the values of one",
-                        identify.model_sets.len()
+                        model_sets.len()
                     ),
                     "fit the set that the later analyses shall use in an analysis of its own",
                 ));
             } else {
-                let base = identify
-                    .model_sets
-                    .first()
-                    .map(|set| set.rsplit('/').next().unwrap_or(set));
+                let base = model_sets.first().map(|set| set.rsplit('/').next().unwrap_or(set));
                 let placeholder = match base.filter(|set| *set != "own") {
                     Some(base) => json!({ "extends": base }),
                     None => json!({}),
                 };
-                sets.insert(set.clone(), placeholder);
+                sets.insert(set.to_owned(), placeholder);
                 let by = name.to_owned();
-                promised.insert(set.clone(), Promised { by, values: None });
+                promised.insert(set.to_owned(), Promised { by, values: None });
             }
         }
         if found.is_empty() {
