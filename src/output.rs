@@ -1,9 +1,10 @@
 //! Printing without panics: a closed pipe ends the program quietly.
 
-use std::fmt::Write as _;
 use std::io::{self, IsTerminal, Write};
 
 use gearloss_framework::gearbox::Findings;
+pub use gearloss_report::text::{TextTable as Table, beyond, figures, fixed, number, significant};
+use gearloss_studies::analyses::Stopped;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +45,16 @@ impl Failure {
 impl From<Findings> for Failure {
     fn from(findings: Findings) -> Self {
         Self::Found(findings)
+    }
+}
+
+/// An analysis that was only checked is no failure; nobody asks this of it.
+impl From<Stopped> for Failure {
+    fn from(stopped: Stopped) -> Self {
+        match stopped {
+            Stopped::Found(findings) => Self::Found(findings),
+            Stopped::Interrupted | Stopped::Checked => Self::Interrupted,
+        }
     }
 }
 
@@ -139,144 +150,5 @@ impl Out {
     /// Prints a line.
     pub fn line(&mut self, text: impl AsRef<str>) -> io::Result<()> {
         self.text(&format!("{}\n", text.as_ref()))
-    }
-}
-
-/// A table of texts: the first column to the left, numbers to the right.
-pub struct Table {
-    rows: Vec<Vec<String>>,
-}
-
-impl Table {
-    /// A table with its head.
-    pub fn new(head: &[&str]) -> Self {
-        Self {
-            rows: vec![head.iter().map(|h| (*h).to_owned()).collect()],
-        }
-    }
-
-    /// Adds a row.
-    pub fn row(&mut self, cells: Vec<String>) {
-        self.rows.push(cells);
-    }
-
-    /// The table as text.
-    pub fn render(&self) -> String {
-        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let width = |i: usize| {
-            self.rows
-                .iter()
-                .filter_map(|r| r.get(i))
-                .map(|c| c.chars().count())
-                .max()
-                .unwrap_or(0)
-        };
-        let widths: Vec<usize> = (0..columns).map(width).collect();
-        // A column of numbers stands to the right.
-        let numeric = |i: usize| {
-            self.rows
-                .iter()
-                .skip(1)
-                .filter_map(|r| r.get(i))
-                .all(|c| c.is_empty() || c == "-" || c.parse::<f64>().is_ok())
-        };
-        let right: Vec<bool> = (0..columns).map(numeric).collect();
-        let mut text = String::new();
-        for (n, row) in self.rows.iter().enumerate() {
-            let mut line = String::new();
-            for (i, cell) in row.iter().enumerate() {
-                let gap = " ".repeat(widths[i] - cell.chars().count());
-                let space = if i == 0 { "" } else { "  " };
-                let _ = if right[i] {
-                    write!(line, "{space}{gap}{cell}")
-                } else {
-                    write!(line, "{space}{cell}{gap}")
-                };
-            }
-            text.push_str(line.trim_end());
-            text.push('\n');
-            if n == 0 {
-                let total: usize = widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1);
-                text.push_str(&"-".repeat(total));
-                text.push('\n');
-            }
-        }
-        text
-    }
-}
-
-/// A number with a sensible number of digits; a dash where there is none.
-pub fn number(value: Option<f64>, digits: usize) -> String {
-    value.map_or_else(|| "-".to_owned(), |x| fixed(x, digits))
-}
-
-/// A number with some digits behind the point; in engineering notation from a thousand million on, where all its digits would say
-/// nothing, and a dash where it is none.
-pub fn fixed(x: f64, digits: usize) -> String {
-    if !x.is_finite() {
-        return "-".to_owned();
-    }
-    if x.abs() < 1e9 {
-        return format!("{x:.digits$}");
-    }
-    // Six significant digits, the exponent a multiple of three.
-    let text = format!("{x:.5e}");
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let (mantissa, exponent): (f64, i32) = (mantissa.parse().unwrap_or(x), exponent.parse().unwrap_or(0));
-    let shift = exponent.rem_euclid(3);
-    format!(
-        "{:.*}e{}",
-        5 - shift as usize,
-        mantissa * 10_f64.powi(shift),
-        exponent - shift
-    )
-}
-
-/// Where a value is that left a range; one end of the range may be open.
-pub fn beyond(least: f64, greatest: f64) -> String {
-    match (least.is_finite(), greatest.is_finite()) {
-        (true, false) => format!("below {}", significant(least)),
-        (false, true) => format!("above {}", significant(greatest)),
-        _ => format!("outside of {} to {}", significant(least), significant(greatest)),
-    }
-}
-
-/// A number in six significant digits.
-pub fn significant(x: f64) -> String {
-    figures(x, 6)
-}
-
-/// A number in some significant digits.
-pub fn figures(x: f64, count: u32) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    let magnitude = x.abs().log10().floor();
-    if (-4.0..6.0).contains(&magnitude) {
-        let digits = (f64::from(count) - 1.0 - magnitude).clamp(0.0, 9.0) as usize;
-        let text = format!("{x:.digits$}");
-        if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        }
-    } else {
-        format!("{x:.*e}", count.saturating_sub(1) as usize)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{fixed, number};
-
-    #[test]
-    fn huge_numbers_are_short() {
-        assert_eq!(fixed(8000.0, 2), "8000.00");
-        assert_eq!(fixed(-999_999_999.4, 0), "-999999999");
-        assert_eq!(fixed(1e9, 2), "1.00000e9");
-        assert_eq!(fixed(-12_345_678_901.0, 2), "-12.3457e9");
-        assert_eq!(number(Some(9.999_999e299), 4), "1.00000e300");
-        assert_eq!(fixed(f64::MAX, 1), "179.769e306");
-        assert_eq!(fixed(f64::INFINITY, 1), "-");
     }
 }

@@ -5,8 +5,8 @@ use gearloss_framework::thermal::network::Steady;
 use gearloss_framework::transmission::Transmission;
 use serde_json::{Value, json};
 
-use super::solve::because;
 use crate::output::{Table, significant};
+use gearloss_studies::analyses::balance::reason;
 
 /// What became of the nodes, in lines.
 pub fn of_network(transmission: &Transmission, steady: &Steady) -> String {
@@ -20,7 +20,7 @@ pub fn of_network(transmission: &Transmission, steady: &Steady) -> String {
     );
     if steady.outcome != Outcome::Converged {
         if let Some(why) = &steady.undefined {
-            text.push_str(&format!("  {}\n", because(transmission, why)));
+            text.push_str(&format!("  {}\n", reason(transmission, why)));
         }
         return text;
     }
@@ -80,6 +80,6 @@ pub fn json_of_network(transmission: &Transmission, steady: &Steady) -> Value {
         "exchangers": exchangers,
         "carried_away_w": steady.leaving.flows,
         "residual_w": steady.residual,
-        "undefined": steady.undefined.as_ref().map(|why| because(transmission, why)),
+        "undefined": steady.undefined.as_ref().map(|why| reason(transmission, why)),
     })
 }

@@ -1,7 +1,5 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
-mod axes;
-mod balance;
 mod breakdown;
 mod columns;
 mod compare;
@@ -9,31 +7,25 @@ mod component_compare;
 mod contact_path;
 mod cycle;
 mod deviations;
-mod duties;
 mod fluid_sweep;
 mod folder;
 mod identify;
-mod inputs;
 mod map;
-mod measurable;
 mod operating_points;
 mod parquet;
 mod parts;
 mod pieces;
-mod ranges;
 mod report;
 mod rms_surface;
-mod rows;
 mod runner;
 mod sensitivity;
 mod shard;
-mod shares;
+mod shown;
 mod stated_ranges;
 mod sweep;
 mod table;
 mod thermal_limit;
 mod tournament;
-mod trial;
 mod uncertainty;
 mod write;
 
@@ -41,16 +33,16 @@ pub(super) use map::tidy;
 pub(super) use parts::Parts;
 pub use shard::Shard;
 
-use self::axes::{axis, grid_axes, speeds, torques};
 use self::folder::Held;
-use self::runner::{Built, Runner};
+use self::runner::{Run, Runner};
 
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
-use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analyses::axes::{axis, grid_axes, speeds, torques};
+use gearloss_studies::analyses::{Built, gear_of};
 use gearloss_studies::study::Study;
 
 use crate::args::{ResultArgs, RunArgs};
@@ -119,7 +111,7 @@ pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
             };
         }
     };
-    let runner = Runner::for_check(language, &study);
+    let runner = Run::for_check(language, &study);
     let mut reported = Reported::default();
     let mut refused: Vec<Failure> = Vec::new();
     if let Some(findings) = study.data_findings() {
@@ -216,7 +208,7 @@ pub(super) fn all(
     }
     let template = report::template(args.template.as_deref())?;
     let held = taken(&folder, args.force, out)?;
-    let runner = Runner::new(language, study, folder, parts);
+    let runner = Run::new(language, study, folder, parts);
     if let Some(title) = &study.entry.title {
         out.line(title)?;
         out.line("")?;
@@ -295,12 +287,6 @@ pub(super) fn all(
             study.entry.analyses.len()
         )))
     }
-}
-
-/// The gear state that an analysis names, or the first.
-fn gear_of<'a>(named: Option<&'a str>, transmission: &'a Transmission) -> &'a str {
-    let first = transmission.states().first().map_or("", |s| s.name.as_str());
-    named.unwrap_or(first)
 }
 
 /// Says where the conditions take the place of a temperature that a gearbox states.

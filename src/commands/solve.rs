@@ -5,10 +5,12 @@ use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::loss::Extent;
-use gearloss_framework::thermal::{Equilibrium, Outcome, Step, Unbalanced};
 use gearloss_framework::transmission::Transmission;
+pub use gearloss_report::page::outside;
+use gearloss_report::views::balance::balance_text;
+use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analysis::Found;
-use gearloss_studies::analysis::{Note, SUMS, evidence, notes, sum_of};
+use gearloss_studies::analysis::{SUMS, evidence, notes, sum_of};
 use serde_json::{Value, json};
 
 use super::check::grade;
@@ -17,7 +19,7 @@ use super::point::{Prepared, prepare};
 use super::run::tidy;
 use super::{locking, set, warn};
 use crate::args::{Format, SolveArgs};
-use crate::output::{End, Failure, Out, Table, beyond, fixed, number, significant};
+use crate::output::{End, Failure, Out, Table, fixed, number, significant};
 
 /// rad/s in 1/min.
 pub const RPM: f64 = 30.0 / std::f64::consts::PI;
@@ -52,7 +54,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             // Without a balance there is no temperature of the oil; the losses belong to another one.
             value["oil_temperature_degc"] = json!(warm.is_sound().then_some(warm.oil));
             value["evaluated_at_degc"] = json!(warm.oil);
-            value["balance"] = json!(warm.balance.as_ref().map(|b| json_of_balance(&transmission, b)));
+            value["balance"] = json!(warm.balance.as_ref().map(|b| BalanceOfPoint::new(&transmission, b)));
             value["network"] = json!(warm.network.as_ref().map(|n| json_of_network(&transmission, n)));
             value["notes"] = json!(seen);
             value["evidence"] = json!(known);
@@ -220,121 +222,12 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
 
 /// How the temperatures of a point were found, in lines; none where they are given.
 pub fn of_warmth(transmission: &Transmission, warm: &Found) -> String {
-    let balance = warm.balance.as_ref().map(|b| of_balance(transmission, b, true));
+    let balance = warm
+        .balance
+        .as_ref()
+        .map(|b| balance_text(&BalanceOfPoint::new(transmission, b), true));
     let network = warm.network.as_ref().map(|n| of_network(transmission, n));
     balance.or(network).unwrap_or_default()
-}
-
-/// What became of the balance, in lines; `above` where losses were printed before.
-pub fn of_balance(transmission: &Transmission, balance: &Equilibrium, above: bool) -> String {
-    let housing = transmission.housing();
-    let mut text = format!("balance: {}", balance.outcome.name());
-    if let (Some(oil), Some(surface)) = (balance.oil(), balance.surface) {
-        text.push_str(&format!(
-            ", oil {oil:.2} degC, surface {surface:.2} degC, surroundings {} degC",
-            significant(housing.ambient)
-        ));
-    }
-    text.push_str(&format!(
-        ", {} evaluations, looked for every {} K\n",
-        balance.evaluations(),
-        significant(balance.spacing)
-    ));
-    for (way, watts) in housing.ways().iter().zip(&balance.ways) {
-        text.push_str(&format!("  {} takes {watts:.3} W\n", way.path));
-    }
-    if housing.into_oil + housing.into_surface > 0.0 {
-        text.push_str(&format!(
-            "  sources bring {} W into the oil and {} W into the surface\n",
-            significant(housing.into_oil),
-            significant(housing.into_surface)
-        ));
-    }
-    for root in &balance.stable {
-        if let Some(beyond) = root.beyond {
-            text.push_str(&format!(
-                "  at {:.4} degC a law jumps: {:.4} W are left over below it and {:.4} W above\n",
-                root.temperature,
-                root.step.residual(),
-                beyond.residual()
-            ));
-        }
-    }
-    match balance.outcome {
-        Outcome::Several => {
-            let all: Vec<String> = balance.stable.iter().map(|r| format!("{:.2}", r.temperature)).collect();
-            text.push_str(&format!(
-                "  these keep themselves: {} degC; the lowest is taken\n",
-                all.join(", ")
-            ));
-        }
-        Outcome::NoneBelowMaximum => {
-            text.push_str(&format!(
-                "  losses are greater than the heat up to {} degC",
-                significant(housing.maximum)
-            ));
-            text.push_str(if above {
-                ", at which the losses above are shown\n"
-            } else {
-                "\n"
-            });
-        }
-        Outcome::Undefined if above => {
-            text.push_str(&format!(
-                "  the losses above are those at {} degC\n",
-                significant(housing.maximum)
-            ));
-        }
-        Outcome::Converged | Outcome::AtDiscontinuity | Outcome::Undefined | Outcome::NoConvergence => {}
-    }
-    if let Some((temperature, why)) = &balance.undefined {
-        text.push_str(&format!(
-            "  no value at {temperature:.2} degC: {}\n",
-            because(transmission, why)
-        ));
-    }
-    text
-}
-
-pub fn because(transmission: &Transmission, why: &Unbalanced) -> String {
-    match why {
-        Unbalanced::Part(part, reason) => format!("{}: {reason}", transmission.parts()[*part].path),
-        Unbalanced::Way(way, reason) => format!("{}: {reason}", transmission.housing().ways()[*way].path),
-        Unbalanced::Link(link, reason) => {
-            let path = transmission.network().and_then(|n| n.links().nth(*link));
-            format!("{}: {reason}", path.map_or("a link", |(path, _)| path))
-        }
-        Unbalanced::Flow => "the transmission locks itself, or loads and losses do not agree".to_owned(),
-        Unbalanced::Network => {
-            "the temperatures of the network do not settle, or a node hangs on nothing while its oil stands".to_owned()
-        }
-    }
-}
-
-/// A balance with its history.
-pub fn json_of_balance(transmission: &Transmission, balance: &Equilibrium) -> Value {
-    let step = |s: &Step| json!({ "oil_temperature_degc": s.temperature, "loss_w": s.loss, "heat_w": s.heat, "residual_w": s.residual() });
-    let housing = transmission.housing();
-    json!({
-        "outcome": balance.outcome,
-        "oil_temperature_degc": balance.oil(),
-        "surface_temperature_degc": balance.surface,
-        "ambient_degc": housing.ambient,
-        "stable": balance.stable.iter().map(|r| json!({
-            "oil_temperature_degc": r.temperature, "residual_w": r.step.residual(),
-            "residual_beyond_jump_w": r.beyond.map(|s| s.residual()),
-        })).collect::<Vec<_>>(),
-        "ways": housing.ways().iter().zip(&balance.ways).map(|(way, watts)| json!({
-            "path": way.path, "heat_w": watts,
-        })).collect::<Vec<_>>(),
-        "sources_w": { "oil": housing.into_oil, "surface": housing.into_surface },
-        "undefined": balance.undefined.as_ref().map(|(t, why)| json!({
-            "oil_temperature_degc": t, "reason": because(transmission, why),
-        })),
-        "scan": balance.scanned,
-        "scan_spacing_k": balance.spacing,
-        "history": balance.history.iter().map(step).collect::<Vec<_>>(),
-    })
 }
 
 /// The largest power inside over the power that goes in.
@@ -363,43 +256,6 @@ fn sums(transmission: &Transmission, solution: &Solution<'_>) -> Option<[f64; 6]
         }
     }
     Some(sums)
-}
-
-/// What was outside of its stated range, one line for all components that left the same range.
-pub fn outside(notes: &[Note]) -> String {
-    let mut groups: Vec<(&Note, Vec<&Note>)> = Vec::new();
-    for note in notes.iter().filter(|n| n.outside > 0) {
-        let same = |(first, _): &&mut (&Note, Vec<&Note>)| first.name == note.name && first.range == note.range;
-        match groups.iter_mut().find(same) {
-            Some((_, group)) => group.push(note),
-            None => groups.push((note, vec![note])),
-        }
-    }
-    let mut text = String::new();
-    for (note, group) in groups {
-        let Some(stated) = note.range else {
-            continue;
-        };
-        let unit = if note.unit == "-" {
-            String::new()
-        } else {
-            format!(" {}", note.unit)
-        };
-        let seen = |f: fn(f64, f64) -> f64, of: fn(&Note) -> f64| group.iter().map(|n| of(n)).reduce(f).unwrap_or(0.0);
-        let paths: Vec<&str> = group.iter().map(|n| n.path.as_str()).collect();
-        let outside: u32 = group.iter().map(|n| n.outside).sum();
-        let points: u32 = group.iter().map(|n| n.points).sum();
-        let range = beyond(stated.least, stated.greatest);
-        text.push_str(&format!(
-            "outside: {}: {} {} to {}{unit} is {range} at {outside} of {points} points ({})\n",
-            paths.join(", "),
-            note.name,
-            significant(seen(f64::min, |n| n.least)),
-            significant(seen(f64::max, |n| n.greatest)),
-            stated.origin,
-        ));
-    }
-    text
 }
 
 fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared) -> Value {

@@ -31,7 +31,7 @@ use crate::mechanism::{Component, Mechanism, QuantityDoc};
 pub use inventory;
 
 /// A crate that registers something.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]
 pub struct Package {
     /// Name as in its Cargo.toml.
     pub name: &'static str,

@@ -2,8 +2,11 @@
 
 mod contours;
 pub mod figure;
+pub mod page;
 pub mod plot;
 mod schematic;
+pub mod text;
+pub mod views;
 
 pub use figure::{Cloud, Figure, Map};
 pub use schematic::schematic;

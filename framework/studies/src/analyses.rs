@@ -3,20 +3,38 @@
 //! An analysis registers itself with [`register_analysis!`](crate::register_analysis), as a model does, so that the schema, `run`, the
 //! reference and the report find it.
 
+pub mod axes;
+pub mod balance;
+pub mod context;
+pub mod duties;
 mod entries;
+pub mod head;
+pub mod inputs;
+pub mod measurable;
+pub mod progress;
+pub mod ranges;
+pub mod rows;
+pub mod shares;
+pub mod trial;
 
 use std::any::Any;
 use std::fmt;
+use std::io;
 use std::sync::Arc;
 
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::registry::{Origin, inventory};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeOwned, Error};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 
-use crate::study::{Then, Uses};
+pub use context::{Built, Context, Stopped, gear_of};
+pub use head::Head;
+
+use crate::analysis::Note;
+use crate::study::{Then, Uses, Write};
+use crate::table::Table;
 
 /// What a study writes of an analysis.
 pub trait Entry: DeserializeOwned + JsonSchema + fmt::Debug + Send + Sync + 'static {
@@ -31,6 +49,91 @@ pub trait Entry: DeserializeOwned + JsonSchema + fmt::Debug + Send + Sync + 'sta
     /// The model set that it leaves for later analyses.
     fn then(&self) -> Option<Then<'_>> {
         None
+    }
+}
+
+/// An analysis: what is written of it, and how its outcome is computed.
+///
+/// It prints nothing, writes no file and keeps nothing between two runs.
+pub trait Analysis: Entry {
+    /// What comes out.
+    type Outcome: Outcome;
+
+    /// Computes the outcome.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the input, and an interruption by the caller. Where the analysis is only checked it ends with
+    /// [`Stopped::Checked`] before it computes.
+    fn run(&self, cx: &Context<'_>) -> Result<Self::Outcome, Stopped>;
+
+    /// Files that the study asks for.
+    fn formats(&self) -> &[Write];
+}
+
+/// What comes out of an analysis.
+pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
+    /// Where it comes from.
+    fn head(&self) -> &Head;
+
+    /// Its numbers as columns; the first table is that of the analysis.
+    fn tables(&self) -> Vec<Table>;
+
+    /// What models noted: stated ranges that were left, quantities that were observed.
+    fn notes(&self) -> Vec<&Note>;
+
+    /// Stated ranges that samples left, of which no more is known: path and quantity.
+    fn left_at_samples(&self) -> Vec<(&str, &str)> {
+        Vec::new()
+    }
+
+    /// Values of the model set that the analysis leaves for later ones ([`Entry::then`]): resolved path to value.
+    fn found(&self) -> Vec<(String, Value)> {
+        Vec::new()
+    }
+}
+
+/// An [`Outcome`] of any type.
+pub trait AnyOutcome: fmt::Debug + Send + Sync {
+    /// Where it comes from.
+    fn head(&self) -> &Head;
+    /// Its numbers as columns.
+    fn tables(&self) -> Vec<Table>;
+    /// What models noted.
+    fn notes(&self) -> Vec<&Note>;
+    /// Stated ranges that samples left.
+    fn left_at_samples(&self) -> Vec<(&str, &str)>;
+    /// Values of the model set that it leaves for later analyses.
+    fn found(&self) -> Vec<(String, Value)>;
+    /// For a downcast to its type.
+    fn as_any(&self) -> &dyn Any;
+    /// Writes it as JSON.
+    ///
+    /// # Errors
+    /// What the writer says.
+    fn write_json(&self, to: &mut dyn io::Write) -> serde_json::Result<()>;
+}
+
+impl<O: Outcome> AnyOutcome for O {
+    fn head(&self) -> &Head {
+        Outcome::head(self)
+    }
+    fn tables(&self) -> Vec<Table> {
+        Outcome::tables(self)
+    }
+    fn notes(&self) -> Vec<&Note> {
+        Outcome::notes(self)
+    }
+    fn left_at_samples(&self) -> Vec<(&str, &str)> {
+        Outcome::left_at_samples(self)
+    }
+    fn found(&self) -> Vec<(String, Value)> {
+        Outcome::found(self)
+    }
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+    fn write_json(&self, to: &mut dyn io::Write) -> serde_json::Result<()> {
+        serde_json::to_writer_pretty(to, self)
     }
 }
 
@@ -60,6 +163,14 @@ pub struct AnalysisKind {
     pub origin: Origin,
     schema: fn(&mut SchemaGenerator) -> Schema,
     read: fn(Value) -> Result<Arc<dyn Written>, serde_json::Error>,
+    computed: Option<Computed>,
+}
+
+/// How an analysis is computed.
+struct Computed {
+    run: fn(&dyn Any, &Context<'_>) -> Result<Box<dyn AnyOutcome>, Stopped>,
+    formats: fn(&dyn Any) -> &[Write],
+    schema: fn(&mut SchemaGenerator) -> Schema,
 }
 
 inventory::collect!(AnalysisKind);
@@ -73,7 +184,26 @@ impl AnalysisKind {
             origin,
             schema: SchemaGenerator::subschema_for::<E>,
             read: |value| Ok(Arc::new(serde_json::from_value::<E>(value)?)),
+            computed: None,
         }
+    }
+
+    /// An analysis; use [`register_analysis!`](crate::register_analysis).
+    pub const fn new<A: Analysis>(origin: Origin) -> Self {
+        Self {
+            computed: Some(Computed {
+                run: |entry, cx| Ok(Box::new(own::<A>(entry).run(cx)?)),
+                formats: |entry| own::<A>(entry).formats(),
+                schema: SchemaGenerator::subschema_for::<A::Outcome>,
+            }),
+            ..Self::of_entry::<A>(origin)
+        }
+    }
+
+    /// The schema of its outcome.
+    pub fn outcome_schema(&self, generator: &mut SchemaGenerator) -> Option<Schema> {
+        let computed = self.computed.as_ref()?;
+        Some((computed.schema)(generator))
     }
 
     /// All that are linked, in the order of their names.
@@ -94,6 +224,21 @@ impl AnalysisKind {
         }
         all
     }
+}
+
+/// The entry that a kind has read.
+fn own<A: Analysis>(entry: &dyn Any) -> &A {
+    entry.downcast_ref().expect("a kind runs the entries that it has read")
+}
+
+/// Registers an analysis: `register_analysis!(BalanceEntry);`.
+#[macro_export]
+macro_rules! register_analysis {
+    ($A:ty) => {
+        gearloss_framework::registry::inventory::submit! {
+            $crate::analyses::AnalysisKind::new::<$A>(gearloss_framework::origin!())
+        }
+    };
 }
 
 /// Registers the entry of an analysis.
@@ -129,6 +274,21 @@ impl AnalysisEntry {
     pub fn entry<E: Entry>(&self) -> Option<&E> {
         let written: &dyn Any = self.written.as_ref();
         written.downcast_ref()
+    }
+
+    /// Computes the outcome; absent where the program computes it elsewhere.
+    ///
+    /// # Errors
+    /// As [`Analysis::run`].
+    pub fn run(&self, cx: &Context<'_>) -> Option<Result<Box<dyn AnyOutcome>, Stopped>> {
+        let computed = self.kind.computed.as_ref()?;
+        Some((computed.run)(self.written.as_ref(), cx))
+    }
+
+    /// Files that the study asks for.
+    pub fn formats(&self) -> &[Write] {
+        let computed = self.kind.computed.as_ref();
+        computed.map_or(&[], |computed| (computed.formats)(self.written.as_ref()))
     }
 
     /// The names that it uses.

@@ -6,4 +6,5 @@ pub mod duty;
 pub mod identify;
 pub mod measured;
 pub mod study;
+pub mod table;
 pub mod varied;

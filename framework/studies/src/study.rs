@@ -44,7 +44,7 @@ pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sensitivity::{Method, SensitivityEntry};
 pub use sweep::{SecondEntry, SweepEntry};
-pub use temperature::{BalanceEntry, Find, ThermalLimitEntry};
+pub use temperature::{Find, ThermalLimitEntry};
 pub use then::Then;
 pub use tournament::{CandidatesEntry, FactorsEntry, LossErrorsEntry, TournamentEntry};
 pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};

@@ -188,7 +188,7 @@ fn finish(runner: &Runner<'_>, name: &str, built: &[Built<'_>], bars: &Bars<'_>)
     if runner.only_checks {
         return Ok(());
     }
-    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
+    let mut value = head(runner, &built.iter().collect::<Vec<_>>());
     value["breakdowns"] = Value::Array(bars.results.clone());
     write(runner, name, bars.formats(), &bars.header(), &bars.rows, &value)
 }

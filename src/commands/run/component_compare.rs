@@ -15,10 +15,10 @@ use serde_json::{Value, json};
 
 use super::super::solve::RPM;
 use super::map::{spread, tidy};
-use super::measurable::{is_measurable, note};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, speeds, torques};
 use crate::output::{Failure, Out, Table, fixed, number};
+use gearloss_studies::analyses::measurable::{is_measurable, note};
 
 /// The component under one model at one point.
 struct Answer {
@@ -123,7 +123,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ComponentCompareEntry, out: 
         "undefined",
     ]
     .map(str::to_owned);
-    let mut value = head(runner, name, &models.iter().map(|m| &m.built).collect::<Vec<_>>());
+    let mut value = head(runner, &models.iter().map(|m| &m.built).collect::<Vec<_>>());
     let given = runner.points(&models[0].built.transmission, "", Vec::new(), Vec::new());
     value["component_comparison"] = json!({
         "component": entry.component,

@@ -9,13 +9,13 @@ use gearloss_studies::study::{By, CycleAnalysisEntry};
 use serde_json::Value;
 
 use self::outcome::Outcome;
-use super::duties::Duties;
-use super::inputs::Input;
-use super::shares::together;
 use super::write::{head, write};
 use super::{Built, Runner};
 use crate::interrupt;
 use crate::output::{Failure, Out};
+use gearloss_studies::analyses::duties::Duties;
+use gearloss_studies::analyses::inputs::Input;
+use gearloss_studies::analyses::shares::together;
 
 pub fn run(runner: &Runner<'_>, name: &str, entry: &CycleAnalysisEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
@@ -70,7 +70,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CycleAnalysisEntry, out: &mu
     }
     let nodes = outcome::all_nodes(&outcomes);
     let rows: Vec<Vec<String>> = outcomes.iter().flat_map(|o| o.rows(&nodes)).collect();
-    let mut value = head(runner, name, &built.iter().collect::<Vec<&Built<'_>>>());
+    let mut value = head(runner, &built.iter().collect::<Vec<&Built<'_>>>());
     value["cycles"] = outcomes.iter().map(Outcome::json).collect::<Vec<Value>>().into();
     write(
         runner,
@@ -82,7 +82,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CycleAnalysisEntry, out: &mu
     )?;
     let broken = outcomes.iter().find_map(|o| Some((o, o.driven.broken.as_ref()?)));
     if let Some((o, (time, why))) = broken {
-        let reason = super::super::solve::because(&o.built.transmission, why);
+        let reason = gearloss_studies::analyses::balance::reason(&o.built.transmission, why);
         let message = format!("`{}` could not be driven beyond {time} s: {reason}", o.read.name);
         return Err(runner.wrong(
             &path,

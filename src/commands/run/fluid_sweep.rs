@@ -15,13 +15,13 @@ use serde_json::{Value, json};
 
 use self::least::Least;
 use super::cycle::whole;
-use super::duties::Duties;
-use super::shares::{Shares, together};
-use super::trial::{Left, Trial, left};
 use super::write::{cell, head, write};
 use super::{Built, Runner};
 use crate::interrupt;
 use crate::output::{Failure, Out};
+use gearloss_studies::analyses::duties::Duties;
+use gearloss_studies::analyses::shares::{Shares, together};
+use gearloss_studies::analyses::trial::{Left, Trial, left};
 
 /// Kinematic viscosity at 100 degC below which the viscosity index is not defined. \[mm2/s\]
 const DEFINED: f64 = 2.0;
@@ -247,7 +247,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &FluidSweepEntry, out: &mut O
             }
         }
     }
-    let mut value = head(runner, name, &all.iter().map(|s| &s.built).collect::<Vec<_>>());
+    let mut value = head(runner, &all.iter().map(|s| &s.built).collect::<Vec<_>>());
     value["fluid_sweep"] = all
         .iter()
         .map(|s| s.json(&duties, &names))
@@ -279,7 +279,7 @@ fn sweep<'a>(
                 .map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?
                 .ok_or("interrupted")?;
             if let Some((time, why)) = driven.broken {
-                let reason = super::super::solve::because(&t, &why);
+                let reason = gearloss_studies::analyses::balance::reason(&t, &why);
                 return Err(format!("`{}` could not be driven beyond {time} s: {reason}", read.name));
             }
             let time = driven.total.duration;

@@ -145,7 +145,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, out: &mut Out
     let compared = compare::compare(runner, name, &outcomes, out)?;
     compare::write(runner, name, entry, compared.as_ref())?;
     tables::write(runner, name, entry, &outcomes)?;
-    let mut value = head(runner, name, &built.iter().collect::<Vec<&Built<'_>>>());
+    let mut value = head(runner, &built.iter().collect::<Vec<&Built<'_>>>());
     value["data"] = serde_json::json!({ "file": file, "points": measured.rows.len(), "notes": measured.notes });
     value["identifications"] = Value::Array(outcomes.iter().map(|o| results::of(o, entry)).collect());
     value["comparison_of_sets"] = compare::json_of(compared.as_ref());

@@ -11,11 +11,11 @@ use serde_json::{Map, Value, json};
 use super::super::solve::RPM;
 use super::Runner;
 use super::map::tidy;
-use super::measurable::{is_measurable, note};
-use super::rows::Solved;
-use super::shares::{Shares, together};
 use super::write::{cell, head, picture, write};
 use crate::output::{Failure, Out, Table, fixed, number};
+use gearloss_studies::analyses::measurable::{is_measurable, note};
+use gearloss_studies::analyses::rows::Solved;
+use gearloss_studies::analyses::shares::{Shares, together};
 
 /// What may have been measured: quantity and unit.
 const MEASURED: [(&str, &str); 6] = [
@@ -77,7 +77,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &OperatingPointsEntry, out: &
         };
         picture(runner, &format!("{name}-{}", solved.name), figure, &entry.write)?;
     }
-    let mut value = head(runner, name, &built().collect::<Vec<_>>());
+    let mut value = head(runner, &built().collect::<Vec<_>>());
     value["operating_points"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &table, &value)
 }

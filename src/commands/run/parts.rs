@@ -14,14 +14,15 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::Runner;
+use super::Run;
 use super::folder::{Held, cannot, is_unfinished, temporary};
 use super::pieces::{PieceFile, Place};
 use super::shard::{Deal, Kind, Shard};
 use super::stated_ranges::{StatedRanges, is_printed_at_the_end};
-use super::write::{copy, hash_of, inputs};
+use super::write::{copy, hash_of};
 use crate::output::{Failure, Out};
 use crate::report::Section;
+use gearloss_studies::analyses::head::inputs;
 
 /// What the folder of a shard belongs to. A part of anything else is not taken for one of this study.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
@@ -42,9 +43,11 @@ impl Manifest {
     pub fn of(language: &Language, study: &Study, shard: Shard) -> Self {
         let mut all: BTreeMap<String, String> = BTreeMap::new();
         for input in inputs(study) {
-            let word = |key: &str| input[key].as_str().unwrap_or_default().to_owned();
-            let name = [word("gearbox"), word("file")].join(" ").trim().to_owned();
-            all.insert(name, word("fnv1a_64"));
+            let name = [input.gearbox.unwrap_or_default(), input.file]
+                .join(" ")
+                .trim()
+                .to_owned();
+            all.insert(name, input.fnv1a_64);
         }
         // Whatever the study names that is a file: points, cycles, tables of models under trial.
         let mut words = BTreeSet::new();
@@ -168,7 +171,7 @@ impl Outcome {
     }
 
     /// What a runner whose folder is that of the files has done with one analysis.
-    pub fn of(runner: &Runner<'_>, failed: bool) -> Option<Self> {
+    pub fn of(runner: &Run<'_>, failed: bool) -> Option<Self> {
         let section = runner.report.borrow_mut().drop_last()?;
         let hashed = |file: &String| Some((file.clone(), hash_of(&runner.folder.join(file)).ok()?));
         let files = runner.names.borrow().iter().filter_map(hashed).collect();
@@ -197,7 +200,7 @@ impl Outcome {
     }
 
     /// Prints what was printed, and puts files and section where they would be.
-    pub fn replay(&self, runner: &Runner<'_>, out: &mut Out) -> Result<(), Failure> {
+    pub fn replay(&self, runner: &Run<'_>, out: &mut Out) -> Result<(), Failure> {
         for line in self.section.text().split_inclusive('\n') {
             if !is_printed_at_the_end(line) {
                 out.text(line)?;
@@ -270,8 +273,9 @@ impl Parts {
             }
         }
         let of = of.map_or(1, |(of, _)| of);
-        let runner = Runner::new(language, study, PathBuf::new(), None);
-        let deal = Deal::of(&runner, of);
+        let runner = Run::new(language, study, PathBuf::new(), None);
+        let runners = runner.all();
+        let deal = Deal::of(&runners, of);
         let mut parts = Self {
             maps: BTreeMap::new(),
             outcomes: BTreeMap::new(),

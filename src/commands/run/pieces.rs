@@ -8,8 +8,8 @@ use gearloss_framework::files::{LONGEST_DATA, open_regular};
 use gearloss_studies::analysis::{Bits, Piece};
 
 use super::folder::{cannot, own, temporary};
-use super::write::fnv1a_64;
 use crate::output::Failure;
+use gearloss_studies::analyses::head::fnv1a_64;
 
 /// Length and hash before the bytes of a piece.
 const HEAD: usize = 16;

@@ -16,10 +16,11 @@ use gearloss_studies::study::Study;
 use serde_json::Value;
 
 use super::super::solve::RPM;
+use super::Run;
 use super::write::{Place, REPORT};
-use super::{Built, Runner};
 use crate::output::{Failure, number};
 use crate::report::{Frame, GearboxPage, PageFault, PageTable};
+use gearloss_studies::analyses::{Built, Context};
 
 /// The user's template, where there is one.
 pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
@@ -35,9 +36,10 @@ pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
 }
 
 /// Writes `report.html` beside the results.
-pub fn write(runner: &Runner<'_>, template: Option<&str>) -> Result<(), Failure> {
+pub fn write(runner: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
+    let context = runner.runner("report");
     for (i, (name, gearbox)) in runner.study.gearboxes.iter().enumerate() {
-        let page = page(runner, name, gearbox, i == 0)?;
+        let page = page(&context, name, gearbox, i == 0)?;
         runner.report.borrow_mut().gearbox(page);
     }
     let frame = Frame {
@@ -67,7 +69,7 @@ pub fn write(runner: &Runner<'_>, template: Option<&str>) -> Result<(), Failure>
 }
 
 /// What every analysis starts from, as a sentence.
-fn conditions(runner: &Runner<'_>) -> String {
+fn conditions(runner: &Run<'_>) -> String {
     let given = &runner.study.entry.conditions;
     let oil = given.oil_temperature.map_or_else(
         || "oil at the temperature of the gearbox".to_owned(),
@@ -85,12 +87,12 @@ fn conditions(runner: &Runner<'_>) -> String {
 
 /// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that
 /// the analyses use.
-fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<GearboxPage, Failure> {
-    let sets = sets(runner.study, name, first);
+fn page(cx: &Context<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<GearboxPage, Failure> {
+    let sets = sets(cx.study, name, first);
     // Overrides may be meant for the models of a set, which the own models of the gearbox do not take.
-    let own = runner.built(gearbox, &[]).or_else(|fault| match &sets[..] {
+    let own = cx.built(gearbox, &[]).or_else(|fault| match &sets[..] {
         [] => Err(fault),
-        [first, ..] => runner.built(gearbox, std::slice::from_ref(first)),
+        [first, ..] => cx.built(gearbox, std::slice::from_ref(first)),
     })?;
     let (resolved, transmission) = (&own[0].resolved, &own[0].transmission);
     let text = |key: &str| {
@@ -106,8 +108,8 @@ fn page(runner: &Runner<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Resu
         .get("assumed")
         .and_then(|list| serde_json::from_value(list.clone()).ok())
         .unwrap_or_default();
-    let built = runner.built(gearbox, &sets)?;
-    let point = point::page(runner, &built, &assumed);
+    let built = cx.built(gearbox, &sets)?;
+    let point = point::page(cx, &built, &assumed);
     let mut tables = vec![gears(transmission), meshes(transmission), states(transmission)];
     tables.extend(changed(own.iter().chain(&built)));
     Ok(GearboxPage {

@@ -13,11 +13,11 @@ use serde_json::Value;
 use self::least::Least;
 use self::solve::Pair;
 use super::compare::countable;
-use super::ranges::varied;
-use super::trial::Left;
 use super::write::{cell, head, write};
 use super::{Built, Runner};
 use crate::output::{Failure, Out};
+use gearloss_studies::analyses::ranges::varied;
+use gearloss_studies::analyses::trial::Left;
 
 /// A quantity and its values, rising, in its unit.
 struct Axis {
@@ -119,11 +119,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &RmsSurfaceEntry, out: &mut O
         }
         results.push(show::result(&file.to_string(), entry, &measured, &counted, surface));
     }
-    let mut value = head(
-        runner,
-        name,
-        &all.iter().map(|surface| &surface.built).collect::<Vec<_>>(),
-    );
+    let mut value = head(runner, &all.iter().map(|surface| &surface.built).collect::<Vec<_>>());
     value["surfaces"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &table, &value)?;
     all.iter()

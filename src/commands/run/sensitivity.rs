@@ -15,12 +15,12 @@ use indicatif::ProgressBar;
 use serde_json::Value;
 
 use self::outputs::{Kind, Outputs};
-use super::ranges::{Range, once};
-use super::trial::{Left, Trial, left};
 use super::write::{head, write};
 use super::{Built, Runner, grid_axes};
 use crate::interrupt;
 use crate::output::{Failure, Out};
+use gearloss_studies::analyses::ranges::{Range, once};
+use gearloss_studies::analyses::trial::{Left, Trial, left};
 
 /// Relative noise of a mean loss. A point is solved until what is left to change is below 1e-9 of its power.
 const NOISE: f64 = 1e-9;
@@ -80,7 +80,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SensitivityEntry, out: &mut 
         values.push(found.result());
         pictures::draw(runner, name, found, &entry.write)?;
     }
-    let mut value = head(runner, name, &all.iter().map(|found| &found.built).collect::<Vec<_>>());
+    let mut value = head(runner, &all.iter().map(|found| &found.built).collect::<Vec<_>>());
     value["sensitivities"] = Value::Array(values);
     write(runner, name, &entry.write, &results::header(), &rows, &value)
 }

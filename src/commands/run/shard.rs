@@ -11,11 +11,11 @@ use gearloss_studies::analysis::Bits;
 use gearloss_studies::study::{MapEntry, Study};
 use serde::{Deserialize, Serialize};
 
-use super::Runner;
 use super::folder::{cannot, inside};
 use super::map::{Planned, planned};
 use super::parts::{Manifest, Outcome, piece_file};
 use super::pieces::PieceFile;
+use super::{Run, Runner};
 use crate::args::RunArgs;
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
@@ -91,10 +91,14 @@ impl Pieces<'_> {
 
 impl<'a> Deal<'a> {
     /// The work of a study for so many shards.
-    pub fn of(runner: &'a Runner<'_>, of: usize) -> Self {
+    pub fn of(runners: &'a [Runner<'a>], of: usize) -> Self {
         let mut units = 0;
         let mut works = Vec::new();
-        for (name, analysis) in runner.study.entry.analyses.iter() {
+        for runner in runners {
+            let name = runner.name;
+            let Some(analysis) = runner.study.entry.analyses.get(name) else {
+                continue;
+            };
             let kind = match analysis.entry::<MapEntry>() {
                 Some(entry) if entry.points.is_none() => match planned(runner, name, entry) {
                     Ok(plans) if plans.iter().all(|p| p.points.case(&p.built.transmission).is_ok()) => {
@@ -157,8 +161,9 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
     }
     let held = Manifest::of(language, study, shard).claim(&folder)?;
     interrupt::listen();
-    let runner = Runner::new(language, study, folder, None);
-    let deal = Deal::of(&runner, shard.of);
+    let runner = Run::new(language, study, folder, None);
+    let runners = runner.all();
+    let deal = Deal::of(&runners, shard.of);
     let mut count = Count::default();
     let done = deal.works.iter().try_for_each(|work| match &work.kind {
         Kind::Whole(unit) if deal.owner(*unit) == shard.number => whole(&runner, work, &mut count),
@@ -190,7 +195,7 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
 }
 
 /// Runs an analysis that is not split, unless that was done.
-fn whole(runner: &Runner<'_>, work: &Work<'_>, count: &mut Count) -> Result<(), Failure> {
+fn whole(runner: &Run<'_>, work: &Work<'_>, count: &mut Count) -> Result<(), Failure> {
     let part = &runner.folder;
     if Outcome::read(part, work.name).is_some_and(|outcome| !outcome.failed) {
         count.kept += 1;
@@ -201,7 +206,7 @@ fn whole(runner: &Runner<'_>, work: &Work<'_>, count: &mut Count) -> Result<(), 
     inside(&of_work).map_err(|e| cannot(&of_work, &e))?;
     let _ = fs::remove_dir_all(&of_work);
     fs::create_dir_all(&folder).map_err(|e| cannot(&folder, &e))?;
-    let own = Runner::new(runner.language, runner.study, folder, None);
+    let own = Run::new(runner.language, runner.study, folder, None);
     let failed = match own.attempt(work.name, work.analysis, &mut Out::nowhere()) {
         Ok(()) => false,
         Err(failure) => {
@@ -222,7 +227,7 @@ fn whole(runner: &Runner<'_>, work: &Work<'_>, count: &mut Count) -> Result<(), 
 
 /// Solves the pieces of a map that are still missing.
 fn of_map(
-    runner: &Runner<'_>,
+    runner: &Run<'_>,
     name: &str,
     number: usize,
     map: &Pieces<'_>,
@@ -241,9 +246,11 @@ fn of_map(
         .filter(|piece| found.iter().all(|(there, _)| there != *piece));
     let missing: Vec<usize> = missing.copied().collect();
     count.kept += own.len() - missing.len();
-    runner.evaluate(&map.plan.built, &map.plan.points, &missing, &Bits::of, &mut |piece| {
-        file.append(&piece)?;
-        count.computed += 1;
-        Ok(())
-    })
+    runner
+        .runner(name)
+        .evaluate(&map.plan.built, &map.plan.points, &missing, &Bits::of, &mut |piece| {
+            file.append(&piece)?;
+            count.computed += 1;
+            Ok(())
+        })
 }

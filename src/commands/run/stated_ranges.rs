@@ -3,8 +3,10 @@
 use gearloss_studies::analysis::Note;
 use serde::{Deserialize, Serialize};
 
-use super::super::solve;
-use super::Runner;
+use gearloss_report::page::outside;
+use gearloss_studies::analyses::trial::Left as LeftAtSamples;
+
+use super::{Run, Runner};
 use crate::output::{Failure, Out, beyond, significant};
 
 /// Beginning of each line about a range that was left.
@@ -140,30 +142,44 @@ pub fn is_printed_at_the_end(line: &str) -> bool {
 impl Runner<'_> {
     /// Keeps what left its stated range for the end of the run; the report has it at the analysis, too.
     pub(super) fn outside(&self, notes: &[Note], out: &mut Out) {
-        out.only_copy(&solve::outside(notes));
-        for note in notes.iter().filter(|note| note.outside > 0) {
-            self.stated_ranges.borrow_mut().add(Left {
-                path: note.path.clone(),
-                name: note.name.to_owned(),
-                values: Values::of(note),
-                analyses: vec![self.analysis.borrow().clone()],
-            });
-        }
+        out.only_copy(&outside(notes));
+        let left = notes.iter().filter(|note| note.outside > 0);
+        left.for_each(|note| self.keep_outside(note));
     }
 
-    /// The same for a range that some samples left.
-    pub(super) fn outside_at_samples(&self, path: &str, name: &str, out: &mut Out) {
-        out.only_copy(&format!(
-            "{OUTSIDE}{path}: {name} leaves its stated range at some samples\n"
-        ));
-        self.stated_ranges.borrow_mut().add(Left {
-            path: path.to_owned(),
-            name: name.to_owned(),
-            values: None,
-            analyses: vec![self.analysis.borrow().clone()],
+    /// Keeps a range that was left.
+    pub(super) fn keep_outside(&self, note: &Note) {
+        self.run.stated_ranges.borrow_mut().add(Left {
+            path: note.path.clone(),
+            name: note.name.to_owned(),
+            values: Values::of(note),
+            analyses: vec![self.name.to_owned()],
         });
     }
 
+    /// Keeps a range that some samples left.
+    pub(super) fn keep_outside_at_samples(&self, path: &str, name: &str) {
+        self.run.stated_ranges.borrow_mut().add(Left {
+            path: path.to_owned(),
+            name: name.to_owned(),
+            values: None,
+            analyses: vec![self.name.to_owned()],
+        });
+    }
+
+    /// Counts the stated ranges that trials left, and keeps them for the end of the run.
+    pub(super) fn left_at_samples(&self, left: &LeftAtSamples, out: &mut Out) {
+        self.run.left.set(self.run.left.get() + left.len());
+        for (path, name) in left {
+            out.only_copy(&format!(
+                "{OUTSIDE}{path}: {name} leaves its stated range at some samples\n"
+            ));
+            self.keep_outside_at_samples(path, name);
+        }
+    }
+}
+
+impl Run<'_> {
     /// Prints what was kept.
     pub(super) fn print_stated_ranges(&self, out: &mut Out) -> Result<(), Failure> {
         let lines = self.stated_ranges.borrow().lines();

@@ -12,11 +12,11 @@ use serde_json::{Value, json};
 
 use super::super::solve::RPM;
 use super::map::{tidy, word};
-use super::ranges::show_published;
-use super::shares::{Shares, together};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, gear_of, speeds, torques};
+use crate::commands::run::shown::show_published;
 use crate::output::{Failure, Out, Table, fixed, number};
+use gearloss_studies::analyses::shares::{Shares, together};
 
 /// A quantity in short, in words, and how to read it.
 type Shown = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
@@ -129,7 +129,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &SweepEntry, out: &mut Out) -
         show_published(varied.iter(), out)?;
     }
     show(runner, name, entry, &words, &all, out)?;
-    let mut value = head(runner, name, &all.iter().map(|at| &at.built).collect::<Vec<_>>());
+    let mut value = head(runner, &all.iter().map(|at| &at.built).collect::<Vec<_>>());
     value["sweep"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &rows, &value)?;
     pictures(runner, name, entry, &words, &all)

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use gearloss_studies::study::Write;
 
-use super::Runner;
+use super::Run;
 use super::columns::{Column, Columns, number, word};
 use super::parquet::ParquetTable;
 use super::write::Place;
@@ -125,7 +125,7 @@ fn bug(what: impl std::fmt::Display) -> Failure {
 }
 
 impl TableFile {
-    pub fn new(runner: &Runner<'_>, name: &str, formats: &[Write], header: &[String]) -> Result<Self, Failure> {
+    pub fn new(runner: &Run<'_>, name: &str, formats: &[Write], header: &[String]) -> Result<Self, Failure> {
         let mut table = Self {
             csv: None,
             parquet: None,

@@ -111,7 +111,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &ThermalLimitEntry, out: &mut
     if runner.only_checks {
         return Ok(());
     }
-    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
+    let mut value = head(runner, &built.iter().collect::<Vec<_>>());
     value["thermal_limits"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &rows, &value)?;
     let conditions = &runner.study.entry.conditions;

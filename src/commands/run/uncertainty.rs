@@ -10,14 +10,14 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
-use super::inputs::Input;
 use super::map::{spread, tidy};
-use super::ranges::show_published;
-use super::trial::{Left, Trial, left};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, grid_axes};
+use crate::commands::run::shown::show_published;
 use crate::interrupt;
 use crate::output::{Failure, Out, Table, fixed, number};
+use gearloss_studies::analyses::inputs::Input;
+use gearloss_studies::analyses::trial::{Left, Trial, left};
 
 /// A quantity: name in results, in words, how to read it.
 type Quantity = (&'static str, &'static str, fn(&PointResult) -> Option<f64>);
@@ -107,7 +107,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &UncertaintyEntry, out: &mut 
         results.push(s.result(gear, &bands, &ranked));
         pictures(runner, name, entry, s, &bands)?;
     }
-    let mut value = head(runner, name, &all.iter().map(|s| &s.built).collect::<Vec<_>>());
+    let mut value = head(runner, &all.iter().map(|s| &s.built).collect::<Vec<_>>());
     value["bands"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &rows, &value)
 }

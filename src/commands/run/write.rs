@@ -7,63 +7,54 @@ use std::io::{BufRead as _, BufReader, BufWriter, Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
-use gearloss_studies::study::{Study, Write};
+use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
+use gearloss_studies::analyses::{AnyOutcome, Built};
+use gearloss_studies::study::Write;
+use gearloss_studies::table::{Table, Values};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::folder::{cannot, temporary};
 use super::table::TableFile;
-use super::{Built, Runner};
+use super::{Run, Runner};
 use crate::output::Failure;
 
 /// What stands at the head of every JSON result.
-pub fn head(runner: &Runner<'_>, analysis: &str, built: &[&Built<'_>]) -> Value {
-    let mut inputs = inputs(runner.study);
-    for (file, hash) in runner.read.borrow().iter() {
-        inputs.push(json!({ "gearbox": null, "file": file, "fnv1a_64": hash }));
-    }
-    let conditions = &runner.study.entry.conditions;
-    json!({
-        "format": "gearloss-result/1",
-        "gearloss": env!("CARGO_PKG_VERSION"),
-        "packages": runner.language.registry().packages(),
-        "study": runner.study.entry.title,
-        "analysis": analysis,
-        "conditions": {
-            "torque_at": conditions.torque_at,
-            "speed_at": conditions.speed_at,
-            "oil_temperature_degc": conditions.oil_temperature,
-            "power_flow": conditions.power_flow,
-            "set": conditions.set,
-        },
-        "inputs": inputs,
-        "changed_from_source": built.iter().map(|b| json!({
-            "model_set": b.name, "coefficients": changed_from_source(&b.transmission, &b.resolved),
-        })).collect::<Vec<_>>(),
-        "unreached": built.iter().map(|b| json!({ "model_set": b.name, "lines": b.resolved.unreached })).collect::<Vec<_>>(),
-    })
+pub fn head(runner: &Runner<'_>, built: &[&Built<'_>]) -> Value {
+    json!(runner.head(built))
 }
 
-/// The study, its gearboxes and the files that they have read, with their hashes.
-pub fn inputs(study: &Study) -> Vec<Value> {
-    let mut list = vec![json!({ "gearbox": null, "file": "study", "fnv1a_64": hash(study.text.as_bytes()) })];
-    for (name, gearbox) in &study.gearboxes {
-        for source in 0.. {
-            let Some((file, text)) = gearbox.sources.get(source) else {
-                break;
-            };
-            let file = Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file));
-            list.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
-        }
-        for (file, text) in gearbox.files.all() {
-            let file = file.file_name().and_then(|f| f.to_str()).unwrap_or_default().to_owned();
-            list.push(json!({ "gearbox": name, "file": file, "fnv1a_64": hash(text.as_bytes()) }));
-        }
+/// Writes what a study asks for of an outcome.
+pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome, formats: &[Write]) -> Result<(), Failure> {
+    for table in outcome.tables() {
+        table_files(runner, &table, formats)?;
     }
-    list
+    if !formats.contains(&Write::Json) {
+        return Ok(());
+    }
+    let (place, mut file) = Place::new(runner.run, &format!("{}.json", runner.name))?;
+    let written = outcome.write_json(&mut file).map_err(std::io::Error::from);
+    let written = written.and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush());
+    place.done(written.map_err(|e| e.to_string()))
+}
+
+/// Writes a table as CSV and Parquet, as asked.
+fn table_files(runner: &Runner<'_>, table: &Table, formats: &[Write]) -> Result<(), Failure> {
+    let header: Vec<String> = table.columns.iter().map(|column| column.name.clone()).collect();
+    let mut file = TableFile::new(runner.run, &table.name, formats, &header)?;
+    let rows: Vec<usize> = (0..table.len()).collect();
+    let made = file.shape().rows(&rows, |rows, columns| {
+        for column in &table.columns {
+            match &column.values {
+                Values::Numbers(numbers) => columns.numbers(rows.iter().map(|row| Some(numbers[*row]))),
+                Values::Texts(texts) => columns.texts(rows.iter().map(|row| texts.get(*row).unwrap_or_default())),
+            }
+        }
+    });
+    file.push_rows(vec![made], vec![(0, 0..table.len())])?;
+    file.finish()
 }
 
 /// Name of the page.
@@ -71,7 +62,7 @@ pub const REPORT: &str = "report.html";
 
 /// Takes away what an earlier run of an analysis left, because it would pass for the results of this one. What this run has
 /// written stays: an analysis may fail in part.
-pub fn remove(runner: &Runner<'_>, name: &str) {
+pub fn remove(runner: &Run<'_>, name: &str) {
     for kind in ["csv", "json", "parquet"] {
         let file = format!("{name}.{kind}");
         if !runner.names.borrow().contains(&file) {
@@ -89,7 +80,7 @@ pub fn write(
     rows: &[Vec<String>],
     value: &impl Serialize,
 ) -> Result<(), Failure> {
-    let mut table = TableFile::new(runner, name, formats, header)?;
+    let mut table = TableFile::new(runner.run, name, formats, header)?;
     table.push_all(rows)?;
     table.finish()?;
     write_json(runner, name, formats, value)
@@ -100,7 +91,7 @@ pub fn write_json(runner: &Runner<'_>, name: &str, formats: &[Write], value: &im
     if !formats.contains(&Write::Json) {
         return Ok(());
     }
-    let (place, mut file) = Place::new(runner, &format!("{name}.json"))?;
+    let (place, mut file) = Place::new(runner.run, &format!("{name}.json"))?;
     let written = serde_json::to_writer_pretty(&mut file, value).map_err(std::io::Error::from);
     let written = written.and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush());
     place.done(written.map_err(|e| e.to_string()))
@@ -118,7 +109,7 @@ pub struct Place {
 pub type Names = Rc<RefCell<BTreeSet<String>>>;
 
 impl Place {
-    pub fn new(runner: &Runner<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
+    pub fn new(runner: &Run<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
         // Names of analyses, sets and products are joined with hyphens, which they may hold themselves.
         if !runner.names.borrow_mut().insert(name.to_owned()) {
             return Err(Failure::input(
@@ -170,14 +161,14 @@ pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, formats: &[Write
     if formats.contains(&Write::Svg) {
         // A product stands before its set with a slash.
         let file = format!("{}.svg", name.replace('/', "-"));
-        keep(runner, &file, figure.svg().map(String::into_bytes))?;
+        keep(runner.run, &file, figure.svg().map(String::into_bytes))?;
     }
-    runner.report.borrow_mut().figure(figure);
+    runner.run.report.borrow_mut().figure(figure);
     Ok(())
 }
 
 /// Writes a file of results whole, or says why it could not.
-pub fn keep(runner: &Runner<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Result<(), Failure> {
+pub fn keep(runner: &Run<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Result<(), Failure> {
     let (place, mut to) = Place::new(runner, file)?;
     let written = bytes.and_then(|bytes| {
         to.write_all(&bytes)
@@ -188,7 +179,7 @@ pub fn keep(runner: &Runner<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> 
 }
 
 /// Writes a file of results from what another one holds.
-pub fn copy(runner: &Runner<'_>, file: &str, mut from: impl Read) -> Result<(), Failure> {
+pub fn copy(runner: &Run<'_>, file: &str, mut from: impl Read) -> Result<(), Failure> {
     let (place, mut to) = Place::new(runner, file)?;
     let written = std::io::copy(&mut from, &mut to).and_then(|_| to.flush());
     place.done(written.map_err(|e| e.to_string()))
@@ -201,25 +192,6 @@ pub fn cell(value: Option<f64>) -> String {
         .map_or_else(String::new, |x| format!("{x}"))
 }
 
-/// FNV-1a, 64 bit: tells whether an input changed, no more.
-pub fn fnv1a_64(bytes: &[u8]) -> u64 {
-    fnv1a_from(FNV_BASIS, bytes)
-}
-
-/// The hash of nothing.
-const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-
-fn fnv1a_from(hash: u64, bytes: &[u8]) -> u64 {
-    bytes.iter().fold(hash, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-    })
-}
-
-/// The hash of bytes as it stands in results.
-pub fn hash(bytes: &[u8]) -> String {
-    words(fnv1a_64(bytes))
-}
-
 /// The hash of a regular file, which is read some bytes at a time.
 pub fn hash_of(file: &Path) -> std::io::Result<String> {
     let mut file = BufReader::new(open_regular(file)?);
@@ -227,14 +199,10 @@ pub fn hash_of(file: &Path) -> std::io::Result<String> {
     loop {
         let bytes = file.fill_buf()?;
         if bytes.is_empty() {
-            return Ok(words(hash));
+            return Ok(hexadecimal(hash));
         }
         hash = fnv1a_from(hash, bytes);
         let count = bytes.len();
         file.consume(count);
     }
-}
-
-fn words(hash: u64) -> String {
-    format!("{hash:016x}")
 }

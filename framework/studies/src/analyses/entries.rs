@@ -3,9 +3,9 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BalanceEntry, BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry,
-    FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry,
-    SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
+    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
+    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -128,18 +128,6 @@ impl Entry for ThermalLimitEntry {
 }
 
 register_entry!(ThermalLimitEntry);
-
-impl Entry for BalanceEntry {
-    const TYPE: &'static str = "balance";
-    const MEANING: &'static str =
-        "How the temperature of one point is found: losses and heat over temperature, and every step.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(BalanceEntry);
 
 impl Entry for SweepEntry {
     const TYPE: &'static str = "sweep";

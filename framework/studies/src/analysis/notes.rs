@@ -1,5 +1,6 @@
 //! What was seen of limits and observed quantities, with the paths of their models, and how well models are known.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -13,7 +14,7 @@ use gearloss_framework::transmission::Transmission;
 pub const STATIC_SAFETY: &str = "S0 = C0/P0";
 
 /// One limit or observed quantity over many points.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Note {
     /// Path of the model.
     pub path: String,
@@ -34,7 +35,7 @@ pub struct Note {
 }
 
 /// The range in which a model is stated to hold, in the unit of the note.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Stated {
     /// Lower end.
     pub least: f64,

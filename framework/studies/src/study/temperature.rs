@@ -2,10 +2,8 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use super::{SpeedAxis, TorqueAxis, Write};
-use gearloss_framework::description::Ordered;
 
 /// The torque, or the speed, at which the balance reaches a given temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -42,28 +40,4 @@ pub enum Find {
     Torque,
     /// The speed at each torque.
     Speed,
-}
-
-/// How the temperature of one point is found.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct BalanceEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
-    pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// Torque. [Nm]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub torque: f64,
-    /// Speed. [rpm]
-    #[schemars(range(min = -1e6, max = 1e6))]
-    pub speed: f64,
-    /// Overrides for this analysis: resolved path to value.
-    #[serde(default)]
-    pub set: Ordered<Value>,
-    /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
-    pub write: Vec<Write>,
 }

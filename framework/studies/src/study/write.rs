@@ -19,12 +19,12 @@ pub enum Write {
 
 impl Write {
     /// CSV and JSON.
-    pub(super) fn data() -> Vec<Self> {
+    pub(crate) fn data() -> Vec<Self> {
         vec![Self::Csv, Self::Json]
     }
 
     /// CSV, JSON and pictures.
-    pub(super) fn all() -> Vec<Self> {
+    pub(crate) fn all() -> Vec<Self> {
         vec![Self::Csv, Self::Json, Self::Svg]
     }
 }

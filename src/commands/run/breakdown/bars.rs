@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
 use super::super::map::{spread, tidy};
-use super::super::shares::{Shares, together};
 use super::super::write::{cell, picture};
 use super::super::{Built, Runner};
 use crate::output::{Failure, Out, Table, number};
+use gearloss_studies::analyses::shares::{Shares, together};
 
 /// What is stacked, in which unit, and what is written of it.
 pub struct Kind<'a> {

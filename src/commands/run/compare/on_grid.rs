@@ -181,7 +181,7 @@ pub fn run(
         }));
         gaps.push(differences);
     }
-    let mut value = head(runner, name, &built.iter().collect::<Vec<_>>());
+    let mut value = head(runner, &built.iter().collect::<Vec<_>>());
     value["comparisons"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &rows, &value)?;
     let mark = |x: f64| format!("{}", tidy(x));

@@ -9,11 +9,12 @@ use serde_json::{Value, json};
 use super::super::super::solve::RPM;
 use super::super::deviations::{self, Deviation};
 use super::super::map::tidy;
-use super::super::measurable::{is_measurable, note};
-use super::super::rows::{Solved, in_file};
 use super::super::write::{cell, head, picture, write};
 use super::super::{Built, Runner};
+use crate::commands::run::shown::in_file;
 use crate::output::{Failure, Out, Table, number};
+use gearloss_studies::analyses::measurable::{is_measurable, note};
+use gearloss_studies::analyses::rows::Solved;
 
 /// One measured point beside one model.
 struct Pair {
@@ -117,7 +118,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CompareEntry, data: &Data, o
     }
     verdict(runner, name, entry, &all, out)?;
     let built: Vec<&Built<'_>> = all.iter().flat_map(|c| &c.built).collect();
-    let mut value = head(runner, name, &built);
+    let mut value = head(runner, &built);
     value["data"] = json!({ "file": data.file, "points": measured.rows.len(), "notes": measured.notes });
     value["comparisons"] = Value::Array(results);
     write(runner, name, &entry.write, &header, &rows, &value)?;

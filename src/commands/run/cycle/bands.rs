@@ -6,14 +6,14 @@ use gearloss_studies::study::{CycleAnalysisEntry, ReferenceLoss};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use super::super::duties::Duties;
-use super::super::inputs::Input;
-use super::super::shares::Shares;
-use super::super::trial::{Left, Trial, left};
 use super::super::{Built, Runner};
 use super::outcome::Outcome;
 use crate::interrupt;
 use crate::output::{Failure, Out, Table};
+use gearloss_studies::analyses::duties::Duties;
+use gearloss_studies::analyses::inputs::Input;
+use gearloss_studies::analyses::shares::Shares;
+use gearloss_studies::analyses::trial::{Left, Trial, left};
 
 /// Shares of the samples below the ends and the middle of a band.
 const SHARES: [f64; 3] = [0.025, 0.5, 0.975];

@@ -5,13 +5,13 @@ use gearloss_studies::duty::Duty;
 use gearloss_studies::study::{CycleAnalysisEntry, ReferenceLoss};
 use serde_json::{Value, json};
 
-use super::super::super::solve::{RPM, because};
+use super::super::super::solve::RPM;
 use super::super::Built;
-use super::super::duties::{Read, nodes};
 use super::super::map::tidy;
-use super::super::shares::Shares;
 use super::super::write::cell;
 use super::bands::Band;
+use gearloss_studies::analyses::duties::{Read, nodes};
+use gearloss_studies::analyses::shares::Shares;
 
 /// A driven duty.
 pub struct Outcome<'a> {
@@ -271,7 +271,7 @@ impl<'a> Outcome<'a> {
             "bands": self.bands.as_ref().map(|b| b.json(self.reference)),
             "evaluations": self.driven.evaluations, "calls": self.driven.calls, "steps": self.driven.steps[0],
             "steps_in_vain": self.driven.steps[1],
-            "broken": self.driven.broken.as_ref().map(|(time, why)| json!({ "time_s": time, "reason": because(t, why) })),
+            "broken": self.driven.broken.as_ref().map(|(time, why)| json!({ "time_s": time, "reason": gearloss_studies::analyses::balance::reason(t, why) })),
             "notes": notes(t, &self.driven.seen),
         })
     }

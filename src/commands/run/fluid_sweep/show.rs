@@ -5,10 +5,10 @@ use gearloss_report::plot::{Line, Stroke};
 use gearloss_studies::study::FluidSweepEntry;
 
 use super::super::Runner;
-use super::super::duties::Duties;
 use super::super::write::picture;
 use super::Sweep;
 use crate::output::{Failure, Out, Table, significant};
+use gearloss_studies::analyses::duties::Duties;
 
 pub fn show(name: &str, s: &Sweep<'_>, duties: &Duties<'_>, out: &mut Out) -> Result<(), Failure> {
     out.line(format!(

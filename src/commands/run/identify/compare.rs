@@ -280,7 +280,7 @@ pub fn write(
         cells.push(against.map_or_else(String::new, |c| c.reason.name().to_owned()));
         cells
     };
-    let mut table = TableFile::new(runner, &format!("{name}-sets"), &entry.write, &header)?;
+    let mut table = TableFile::new(runner.run, &format!("{name}-sets"), &entry.write, &header)?;
     table.push_all(&compared.sets.iter().map(row).collect::<Vec<_>>())?;
     table.finish()
 }

@@ -252,7 +252,7 @@ pub fn table(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outc
         "inside",
     ]
     .map(str::to_owned);
-    let mut table = TableFile::new(runner, &format!("{name}-hold-out"), &entry.write, &header)?;
+    let mut table = TableFile::new(runner.run, &format!("{name}-hold-out"), &entry.write, &header)?;
     let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let Some(held) = &o.held_out else { continue };

@@ -133,7 +133,7 @@ pub fn write(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outc
         "independent_draws",
     ]
     .map(str::to_owned);
-    let mut table = TableFile::new(runner, &format!("{name}-posterior"), &entry.write, &header)?;
+    let mut table = TableFile::new(runner.run, &format!("{name}-posterior"), &entry.write, &header)?;
     let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         for (k, marginal) in drawn(o) {

@@ -7,11 +7,11 @@ use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
 use super::super::map::tidy;
-use super::super::rows::in_file;
 use super::hold_out;
 use super::outcome::Outcome;
 use super::posterior;
 use super::show::{RESOLVED, fold_name, fold_unit};
+use crate::commands::run::shown::in_file;
 
 /// All that was found for one set.
 pub fn of(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {

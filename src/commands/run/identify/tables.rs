@@ -36,7 +36,7 @@ pub fn write(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outc
     }
     for o in all {
         let file = format!("{name}-{}.yaml", o.name.replace('/', "-"));
-        keep(runner, &file, Ok(values(name, o).into_bytes()))?;
+        keep(runner.run, &file, Ok(values(name, o).into_bytes()))?;
     }
     Ok(())
 }
@@ -62,7 +62,7 @@ fn points(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
         "standardised_residual",
         "leverage",
     ]);
-    let mut table = TableFile::new(runner, name, &entry.write, &header)?;
+    let mut table = TableFile::new(runner.run, name, &entry.write, &header)?;
     let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let measured = o.identification.measured();
@@ -118,7 +118,7 @@ fn shares(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome
         "share_low",
         "share_high",
     ]);
-    let mut table = TableFile::new(runner, &format!("{name}-shares"), &entry.write, &header)?;
+    let mut table = TableFile::new(runner.run, &format!("{name}-shares"), &entry.write, &header)?;
     let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let Ok(shares) = &o.shares else { continue };
@@ -190,7 +190,7 @@ fn parameters(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Out
         "verdict",
         "sentence",
     ]);
-    let mut table = TableFile::new(runner, &format!("{name}-parameters"), &entry.write, &header)?;
+    let mut table = TableFile::new(runner.run, &format!("{name}-parameters"), &entry.write, &header)?;
     let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let inference = &o.fitted.inference;
@@ -236,7 +236,7 @@ fn next(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, all: &[Outcome<'
         "gain_alone",
         "places_in_plan",
     ]);
-    let mut table = TableFile::new(runner, &format!("{name}-next"), &entry.write, &header)?;
+    let mut table = TableFile::new(runner.run, &format!("{name}-next"), &entry.write, &header)?;
     let mut rows: Vec<Vec<String>> = Vec::new();
     for o in all {
         let Some(Ok(next)) = &o.next else { continue };

@@ -108,7 +108,7 @@ fn write_one(
             }
         };
         let (text, said) = text.map_err(|(message, help)| runner.wrong(&path, message, &help))?;
-        keep(runner, &file, Ok(text.into_bytes()))?;
+        keep(runner.run, &file, Ok(text.into_bytes()))?;
         lines.push(format!("{file}: {said}{missed}"));
     }
     Ok(lines)

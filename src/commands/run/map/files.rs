@@ -33,7 +33,7 @@ impl Files {
             }
         }
         Ok(Self {
-            table: TableFile::new(runner, name, &entry.write, &header(bound, &parts))?,
+            table: TableFile::new(runner.run, name, &entry.write, &header(bound, &parts))?,
             waited: Waited::where_asked(runner, name, &entry.write)?,
             parts,
         })
@@ -42,7 +42,7 @@ impl Files {
     /// Ends the table, and writes the JSON with the points that have waited for it.
     pub fn finish(self, runner: &Runner<'_>, name: &str, entry: &MapEntry, maps: &[Map<'_>]) -> Result<(), Failure> {
         self.table.finish()?;
-        let head = head(runner, name, &maps.iter().map(|m| &*m.built).collect::<Vec<_>>());
+        let head = head(runner, &maps.iter().map(|m| &*m.built).collect::<Vec<_>>());
         match self.waited {
             Some(waited) => write_json(runner, name, &entry.write, &waited.results(head, maps)),
             None => Ok(()),

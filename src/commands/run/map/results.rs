@@ -25,7 +25,7 @@ impl Waited {
         if !formats.contains(&Write::Json) {
             return Ok(None);
         }
-        let waiting = Waiting::new(&runner.folder.join(format!("{name}.points")))?;
+        let waiting = Waiting::new(&runner.run.folder.join(format!("{name}.points")))?;
         Ok(Some(Self(RefCell::new(waiting))))
     }
 

@@ -9,13 +9,14 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analysis::{Given, OilTemperature, evidence};
 
 use super::super::super::solve::RPM;
-use super::super::{Built, Runner, gear_of, speeds, torques};
+use super::super::{Built, gear_of, speeds, torques};
 use super::table;
 use crate::output::{fixed, number};
 use crate::report::PageTable;
+use gearloss_studies::analyses::Context;
 
 /// Where the report looks: as the study says, or the greatest torque and speed of its first grid.
-pub fn place(runner: &Runner<'_>, t: &Transmission) -> Option<(String, Given)> {
+pub fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
     let entry = &runner.study.entry;
     let given = |torque, speed| Given {
         torque,
@@ -44,7 +45,7 @@ pub struct Page {
 }
 
 /// Solves the point under every set.
-pub fn page(runner: &Runner<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -> Option<Page> {
+pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -> Option<Page> {
     let first = sets.first()?;
     let (gear, given) = place(runner, &first.transmission)?;
     let (mut tables, mut rests, mut words) = (Vec::new(), Vec::new(), String::new());

@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 
 use super::super::Runner;
 use super::super::map::spread;
-use super::super::rows::in_file;
 use super::super::write::picture;
 use super::least::Flat;
 use super::{Axis, Counted, Surface};
+use crate::commands::run::shown::in_file;
 use crate::output::{Failure, Out, Table, number};
 
 /// Points that are named one by one.

@@ -8,11 +8,11 @@ use gearloss_studies::study::RmsSurfaceEntry;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 
-use super::super::trial::{Left, Trial};
 use super::super::{Built, Runner};
 use super::{Axis, Counted};
 use crate::interrupt;
 use crate::output::Failure;
+use gearloss_studies::analyses::trial::{Left, Trial};
 
 /// A row at a pair: the difference of the model from the measurement, or why there is none.
 pub type Difference = Result<f64, String>;
@@ -93,7 +93,7 @@ fn pair(
     entry: &RmsSurfaceEntry,
     measured: &Measured,
     at: [f64; 2],
-    solved: Result<Vec<super::super::rows::SolvedRow>, String>,
+    solved: Result<Vec<gearloss_studies::analyses::rows::SolvedRow>, String>,
 ) -> Pair {
     let solved = match solved {
         Ok(solved) => solved,

@@ -6,9 +6,9 @@ use gearloss_studies::study::By;
 
 use super::super::super::solve::RPM;
 use super::super::map::tidy;
-use super::super::shares::{Shares, together};
-use super::super::trial::why;
 use crate::output::fixed;
+use gearloss_studies::analyses::shares::{Shares, together};
+use gearloss_studies::analyses::trial::why;
 
 /// What an output is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

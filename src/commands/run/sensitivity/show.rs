@@ -3,9 +3,9 @@
 use gearloss_numerics::sensitivity::{Estimate, Influence, VarianceShares};
 
 use super::super::Runner;
-use super::super::ranges::show_published;
 use super::Found;
 use super::outputs::Kind;
+use crate::commands::run::shown::show_published;
 use crate::output::{Failure, Out, Table, number, significant};
 
 /// Share of the variance, with others, below which a parameter counts as not influential: that of the screening.

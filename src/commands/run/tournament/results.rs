@@ -24,7 +24,7 @@ pub fn write_all(
 ) -> Result<(), Failure> {
     shortlist(runner, name, entry, gear, (rows, field), o)?;
     let (header, cells) = ranking(field, o);
-    let mut value = head(runner, name, &[&field.base]);
+    let mut value = head(runner, &[&field.base]);
     value["tournament"] = json_of_ranking(entry, gear, (rows, field), o);
     write(runner, name, &entry.write, &header, &cells, &value)
 }
@@ -136,7 +136,7 @@ fn shortlist(
         cells.extend(numbers.map(|x| cell(Some(x))));
         cells
     };
-    let mut table = TableFile::new(runner, &format!("{name}-shortlist"), &entry.write, &header)?;
+    let mut table = TableFile::new(runner.run, &format!("{name}-shortlist"), &entry.write, &header)?;
     table.push_all(&(0..rows.losses.len()).map(row).collect::<Vec<_>>())?;
     table.finish()
 }

@@ -105,7 +105,7 @@ pub fn show(
     );
     runner.verdict(sentence, out)?;
     out.line("")?;
-    let mut value = head(runner, name, &[&field.base]);
+    let mut value = head(runner, &[&field.base]);
     value["tournament"] = json!({
         "model_set": field.base.name, "gear": gear, "unit": unit(entry), "combinations": field.count(), "mechanisms": json_of(field),
         "shares_of_spread": field.slots.iter().zip(&shares).map(|(slot, share)| json!({

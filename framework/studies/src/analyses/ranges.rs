@@ -1,14 +1,14 @@
 //! Quantities that a study varies over ranges.
 
-use gearloss_studies::study::RangeEntry;
-use gearloss_studies::varied::Varied;
+use crate::study::RangeEntry;
+use crate::varied::Varied;
 use serde_json::Value;
 
-use super::{Built, Runner};
-use crate::output::{Failure, Out};
+use super::{Built, Context, Stopped};
 
 /// A varied quantity with its range, in the unit of the path.
 pub struct Range {
+    /// The quantity.
     pub varied: Varied,
     /// Lower and upper end; the upper one is greater.
     pub ends: [f64; 2],
@@ -16,9 +16,9 @@ pub struct Range {
 
 impl Range {
     /// `path` is the entry's place in the study.
-    pub fn new(runner: &Runner<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Failure> {
-        let wrong = |message: String, mend: &str| runner.wrong(path, format!("{}: {message}", entry.path), mend);
-        let varied = varied(runner, path, (&entry.path, entry.tie), b)?;
+    pub fn new(cx: &Context<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
+        let wrong = |message: String, mend: &str| cx.wrong(path, format!("{}: {message}", entry.path), mend);
+        let varied = varied(cx, path, (&entry.path, entry.tie), b)?;
         let about = || {
             varied.start().ok_or_else(|| {
                 wrong(
@@ -62,7 +62,7 @@ impl Range {
     }
 
     /// Refuses a range that leaves what the schema allows.
-    pub fn inside(&self, runner: &Runner<'_>, path: &str) -> Result<(), Failure> {
+    pub fn inside(&self, cx: &Context<'_>, path: &str) -> Result<(), Stopped> {
         let ([low, high], [least, greatest]) = (self.ends, self.varied.range);
         if low >= least && high <= greatest {
             return Ok(());
@@ -73,7 +73,7 @@ impl Range {
             self.varied.words(low),
             self.varied.words(high)
         );
-        Err(runner.wrong(path, said, "narrow the range"))
+        Err(cx.wrong(path, said, "narrow the range"))
     }
 
     /// The value at a share of the range.
@@ -83,47 +83,53 @@ impl Range {
     }
 }
 
-/// Prints which of the varied quantities are coefficients of formulas, with the value of the source.
-pub fn show_published<'a>(all: impl Iterator<Item = &'a Varied>, out: &mut Out) -> Result<(), Failure> {
-    for varied in all {
-        let published = varied.published.iter().flatten().next();
-        if let Some(published) = published {
-            out.line(format!(
-                "`{}`: a coefficient of a formula, published {published}; other values are changed from the source",
-                varied.pattern
-            ))?;
-        }
-    }
-    Ok(())
+/// A coefficient of a formula that a study varies.
+#[derive(Debug, Clone)]
+pub struct PublishedCoefficient {
+    /// The pattern as written.
+    pub pattern: String,
+    /// Value of the source.
+    pub published: f64,
+}
+
+/// Which of the varied quantities are coefficients of formulas.
+pub fn published<'v>(all: impl Iterator<Item = &'v Varied>) -> Vec<PublishedCoefficient> {
+    let coefficient = |varied: &Varied| {
+        Some(PublishedCoefficient {
+            pattern: varied.pattern.clone(),
+            published: *varied.published.iter().flatten().next()?,
+        })
+    };
+    all.filter_map(coefficient).collect()
 }
 
 /// A varied quantity of a study; `path` is its place there.
 pub fn varied(
-    runner: &Runner<'_>,
+    cx: &Context<'_>,
     path: &str,
-    (pattern, tie): (&str, gearloss_studies::varied::Tie),
+    (pattern, tie): (&str, crate::varied::Tie),
     b: &Built<'_>,
-) -> Result<Varied, Failure> {
-    let varied = Varied::new(runner.language, &b.resolved, pattern, tie).map_err(|mut error| {
+) -> Result<Varied, Stopped> {
+    let varied = Varied::new(cx.language, &b.resolved, pattern, tie).map_err(|mut error| {
         error.message = format!("`{pattern}`: {}", error.message);
         path.clone_into(&mut error.path);
-        Failure::from(runner.study.findings(vec![error]))
+        cx.found(vec![error])
     })?;
-    let fixed = runner.study.entry.conditions.oil_temperature.is_some();
+    let fixed = cx.study.entry.conditions.oil_temperature.is_some();
     if fixed && varied.paths.iter().any(|path| path == "thermal.oil") {
         let message = "the conditions fix the temperature, so it cannot change";
-        return Err(runner.wrong(path, message, "leave `conditions.oil_temperature` out"));
+        return Err(cx.wrong(path, message, "leave `conditions.oil_temperature` out"));
     }
     Ok(varied)
 }
 
 /// Refuses a value that two quantities change; `place` is the key of a list in the study.
-pub fn once(runner: &Runner<'_>, place: &str, all: &[&Varied]) -> Result<(), Failure> {
+pub fn once(cx: &Context<'_>, place: &str, all: &[&Varied]) -> Result<(), Stopped> {
     for (i, own) in all.iter().enumerate() {
         let twice = |other: &&&Varied| other.paths.iter().any(|p| own.paths.contains(p));
         if let Some(other) = all[..i].iter().find(twice) {
             let message = format!("`{}` and `{}` change the same value", other.pattern, own.pattern);
-            return Err(runner.wrong(&format!("{place}.{i}"), message, "name every value once"));
+            return Err(cx.wrong(&format!("{place}.{i}"), message, "name every value once"));
         }
     }
     Ok(())

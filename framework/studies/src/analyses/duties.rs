@@ -1,16 +1,14 @@
 //! Duties of a study: read, and driven through a transmission.
 
+use crate::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
+use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
+use crate::study::{Conditions, DriveEntry};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
-use gearloss_studies::duty::{Demand, Duty, Given, Interval, Vehicle};
-use gearloss_studies::study::{Conditions, DriveEntry};
 
-use super::write::hash;
-use super::{Built, Runner, gear_of};
-use crate::output::Failure;
+use super::{Built, Context, Stopped, gear_of};
 
 /// A duty as read.
 pub struct Read {
@@ -37,17 +35,17 @@ pub struct Duties<'a> {
 
 impl<'a> Duties<'a> {
     /// Reads the duties of an analysis at a path.
-    pub fn new(runner: &Runner<'a>, path: &str, entry: &'a DriveEntry) -> Result<Self, Failure> {
-        let study = &runner.study.entry;
+    pub fn new(cx: &Context<'a>, path: &str, entry: &'a DriveEntry) -> Result<Self, Stopped> {
+        let study = &cx.study.entry;
         if entry.step.is_some() && entry.tolerance.is_some() {
             let message = "both `step` and `tolerance` are given";
-            return Err(runner.wrong(path, message, "leave one of them out"));
+            return Err(cx.wrong(path, message, "leave one of them out"));
         }
         let mut found = Vec::new();
         if entry.vehicle.is_none() && study.vehicles.len() > 1 {
             let names: Vec<&str> = study.vehicles.ids().collect();
             let message = format!("the study has several vehicles: {}", names.join(", "));
-            return Err(runner.wrong(path, message, "name one, such as `vehicle: car`"));
+            return Err(cx.wrong(path, message, "name one, such as `vehicle: car`"));
         }
         let own = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
         let vehicle = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
@@ -60,15 +58,12 @@ impl<'a> Duties<'a> {
             let Some(cycle) = study.cycles.get(name) else { continue };
             let at = format!("cycles.{name}");
             let read = |file: &str| {
-                let bytes = read_bytes(&runner.study.folder.join(file), LONGEST_DATA)
+                let bytes = read_bytes(&cx.study.folder.join(file), LONGEST_DATA)
                     .map_err(|e| format!("cannot read {file}: {e}"))?;
-                let known = (file.to_owned(), hash(&bytes));
-                if !runner.read.borrow().contains(&known) {
-                    runner.read.borrow_mut().push(known);
-                }
+                cx.keep_input(file, &bytes);
                 Ok(bytes)
             };
-            let duty = match cycle.read(runner.language.registry(), read) {
+            let duty = match cycle.read(cx.language.registry(), read) {
                 Ok(duty) => duty,
                 Err(faults) => {
                     found.extend(
@@ -91,7 +86,7 @@ impl<'a> Duties<'a> {
             }
         }
         if !found.is_empty() {
-            return Err(runner.study.findings(found).into());
+            return Err(cx.study.findings(found).into());
         }
         Ok(Self {
             list,
@@ -107,7 +102,7 @@ impl<'a> Duties<'a> {
     }
 
     /// What keeps the duties from being driven through a gearbox.
-    pub fn check(&self, runner: &Runner<'_>, path: &str, b: &Built<'_>) -> Result<(), Failure> {
+    pub fn check(&self, cx: &Context<'_>, path: &str, b: &Built<'_>) -> Result<(), Stopped> {
         let oil = OilTemperature::of(&b.transmission, self.conditions.oil_temperature);
         let in_time = self.list.iter().find(|read| matches!(read.duty, Duty::Trace(_)));
         if let (OilTemperature::Balance, Some(read)) = (oil, in_time) {
@@ -116,7 +111,7 @@ impl<'a> Duties<'a> {
                 read.name
             );
             let mend = "write `thermal: { mode: network, network: auto }` in the gearbox, or `conditions: { oil_temperature: ... }`";
-            return Err(runner.wrong(path, message, mend));
+            return Err(cx.wrong(path, message, mend));
         }
         // Keys that need temperatures that go on, or that follow.
         let goes_on = oil == OilTemperature::Network && in_time.is_some();
@@ -140,7 +135,7 @@ impl<'a> Duties<'a> {
                 OilTemperature::Network => "leave it out",
                 _ => "leave it out, or let the gearbox have a thermal network",
             };
-            return Err(runner.wrong(&format!("{path}.{key}"), message, mend));
+            return Err(cx.wrong(&format!("{path}.{key}"), message, mend));
         }
         let told = |read: &&Read| read.intervals.iter().any(|i| i.given.oil_temperature.is_some());
         if let (OilTemperature::Network, Some(read)) = (oil, self.list.iter().find(told)) {
@@ -149,10 +144,10 @@ impl<'a> Duties<'a> {
                 read.name
             );
             let mend = "leave them out, or give all of them by `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is compared";
-            return Err(runner.wrong(&format!("cycles.{}", read.name), message, mend));
+            return Err(cx.wrong(&format!("cycles.{}", read.name), message, mend));
         }
         for read in &self.list {
-            can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(runner, read, list))?;
+            can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(cx, read, list))?;
         }
         let network = b.transmission.network().filter(|_| oil == OilTemperature::Network);
         let cooled = network.is_some_and(|n| n.exchangers().len() > 0);
@@ -178,7 +173,7 @@ impl<'a> Duties<'a> {
                 };
                 let message = format!("`{column}` of `{}` needs {what}", read.name);
                 let mend = "leave the column out, or describe what uses it";
-                return Err(runner.wrong(&format!("cycles.{}.columns", read.name), message, mend));
+                return Err(cx.wrong(&format!("cycles.{}.columns", read.name), message, mend));
             }
             let Duty::Trace(trace) = &read.duty else { continue };
             let nodes: Vec<&str> = match network {
@@ -188,7 +183,7 @@ impl<'a> Duties<'a> {
             if let Some(unknown) = trace.nodes.iter().find(|node| !nodes.contains(&node.as_str())) {
                 let at = format!("cycles.{}.temperatures", read.name);
                 let error = gearloss_framework::attach::dangling(&at, "node", unknown, &nodes);
-                return Err(runner.study.findings(vec![error]).into());
+                return Err(cx.study.findings(vec![error]).into());
             }
         }
         Ok(())
@@ -233,7 +228,7 @@ impl<'a> Duties<'a> {
 }
 
 /// What keeps a duty from being driven, at the duty.
-fn unfit(runner: &Runner<'_>, read: &Read, list: Vec<Diagnostic>) -> Failure {
+fn unfit(cx: &Context<'_>, read: &Read, list: Vec<Diagnostic>) -> Stopped {
     let at_duty = |mut error: Diagnostic| {
         let key = if error.path == "ports" && read.port.is_some() {
             ".port"
@@ -246,7 +241,7 @@ fn unfit(runner: &Runner<'_>, read: &Read, list: Vec<Diagnostic>) -> Failure {
     let mut list: Vec<Diagnostic> = list.into_iter().map(at_duty).collect();
     // A port of both torque and speed is unknown once.
     list.dedup();
-    runner.study.findings(list).into()
+    cx.study.findings(list).into()
 }
 
 /// Names of the temperatures of a driven duty: nodes, or the oil alone.

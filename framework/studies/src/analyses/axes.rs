@@ -1,20 +1,19 @@
 //! Values of the axes of grids and sweeps, with their faults told.
 
+use crate::study::{Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::study::{Grid, SpeedAxis, TorqueAxis};
 
-use super::Runner;
-use crate::output::Failure;
+use super::{Context, Stopped};
 
 /// Values of an axis, or the fault with its path.
-pub fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Failure> {
+pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Stopped> {
     values.map_err(|reason| {
         let mend = if reason.contains("rating") {
             "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis values of its own"
         } else {
             "give a step that leads from one end to the other"
         };
-        runner.wrong(path, reason, mend)
+        cx.wrong(path, reason, mend)
     })
 }
 
@@ -22,37 +21,32 @@ pub fn axis(runner: &Runner<'_>, path: &str, values: Result<Vec<f64>, String>) -
 const MOST_POINTS: usize = 20_000_000;
 
 /// Torques and speeds of a grid for a gearbox; each rises or falls all along.
-pub fn grid_axes(
-    runner: &Runner<'_>,
-    name: &str,
-    grid: &Grid,
-    t: &Transmission,
-) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+pub fn grid_axes(cx: &Context<'_>, name: &str, grid: &Grid, t: &Transmission) -> Result<(Vec<f64>, Vec<f64>), Stopped> {
     let path = format!("grids.{name}");
     let own = (
-        torques(runner, &format!("{path}.torque"), &grid.torque, t)?,
-        speeds(runner, &format!("{path}.speed"), &grid.speed, t)?,
+        torques(cx, &format!("{path}.torque"), &grid.torque, t)?,
+        speeds(cx, &format!("{path}.speed"), &grid.speed, t)?,
     );
     for (list, key) in [(&own.0, "torque"), (&own.1, "speed")] {
         let along = |rises: bool| list.windows(2).all(|w| if rises { w[0] < w[1] } else { w[0] > w[1] });
         if !along(true) && !along(false) {
             let message = "the values of a grid's axis neither rise nor fall all along";
-            return Err(runner.wrong(&format!("{path}.{key}"), message, "sort them, and name each once"));
+            return Err(cx.wrong(&format!("{path}.{key}"), message, "sort them, and name each once"));
         }
     }
     if own.0.len().saturating_mul(own.1.len()) > MOST_POINTS {
         let message = format!("the grid has more than {MOST_POINTS} points");
-        return Err(runner.wrong(&path, message, "take wider steps"));
+        return Err(cx.wrong(&path, message, "take wider steps"));
     }
     Ok(own)
 }
 
 /// Torques of an axis for a gearbox.
-pub fn torques(runner: &Runner<'_>, path: &str, axis_of: &TorqueAxis, t: &Transmission) -> Result<Vec<f64>, Failure> {
-    axis(runner, path, axis_of.values(t.rating.map(|r| r.torque)))
+pub fn torques(cx: &Context<'_>, path: &str, axis_of: &TorqueAxis, t: &Transmission) -> Result<Vec<f64>, Stopped> {
+    axis(cx, path, axis_of.values(t.rating.map(|r| r.torque)))
 }
 
 /// Speeds of an axis for a gearbox.
-pub fn speeds(runner: &Runner<'_>, path: &str, axis_of: &SpeedAxis, t: &Transmission) -> Result<Vec<f64>, Failure> {
-    axis(runner, path, axis_of.values(t.rating.map(|r| r.speed)))
+pub fn speeds(cx: &Context<'_>, path: &str, axis_of: &SpeedAxis, t: &Transmission) -> Result<Vec<f64>, Stopped> {
+    axis(cx, path, axis_of.values(t.rating.map(|r| r.speed)))
 }

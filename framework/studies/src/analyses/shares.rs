@@ -1,8 +1,8 @@
 //! Losses of a point summed by mechanism, component, stage, term or the usual sums.
 
+use crate::analysis::{PointResult, SUMS};
+use crate::study::By;
 use gearloss_framework::transmission::{PartInfo, PartKind, Transmission};
-use gearloss_studies::analysis::{PointResult, SUMS};
-use gearloss_studies::study::By;
 
 /// Names of the shares of a transmission, and which of them every part belongs to.
 pub struct Shares {

@@ -2,25 +2,22 @@
 
 use std::collections::BTreeSet;
 
+use crate::analysis::{GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::{
-    GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid,
-};
 use serde_json::Value;
 
-use super::{Built, Runner};
-use crate::interrupt;
-use crate::output::Out;
-use gearloss_studies::study::Study;
+use super::{Built, Context};
+use crate::study::Study;
 
 /// Stated ranges that were left: path and quantity.
 pub type Left = BTreeSet<(String, &'static str)>;
 
-/// What is built anew. A runner holds its report and cannot be shared among threads; this can.
+/// What is built anew.
 pub struct Trial<'a> {
+    cx: &'a Context<'a>,
     language: &'a Language,
     study: &'a Study,
     gearbox: &'a Gearbox,
@@ -28,10 +25,12 @@ pub struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    pub fn new(runner: &Runner<'a>, built: &'a Built<'_>) -> Self {
+    /// That of a gearbox under a set.
+    pub fn new(cx: &'a Context<'a>, built: &'a Built<'_>) -> Self {
         Self {
-            language: runner.language,
-            study: runner.study,
+            cx,
+            language: cx.language,
+            study: cx.study,
             gearbox: built.gearbox,
             set: built.set(),
         }
@@ -56,13 +55,13 @@ impl<'a> Trial<'a> {
             oil: OilTemperature::of(transmission, self.study.entry.conditions.oil_temperature),
             ..points.clone()
         };
-        let solved = run_grid(transmission, &points, &|_| !interrupt::pressed());
+        let solved = run_grid(transmission, &points, &|_| self.cx.goes_on());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         solved.ok_or_else(|| "interrupted".to_owned())
     }
 
     /// Rows of a file with overrides.
-    pub(super) fn solved_rows(
+    pub fn solved_rows(
         &self,
         rows: &Rows<'_>,
         overrides: &[(String, Value)],
@@ -73,7 +72,7 @@ impl<'a> Trial<'a> {
         let built = rows
             .build(self.language, self.gearbox, &choice)
             .map_err(|findings| findings.first())?;
-        let solved = rows.solve(built, on, &|_| !interrupt::pressed());
+        let solved = rows.solve(built, on, &|_| self.cx.goes_on());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         solved.ok_or_else(|| "interrupted".to_owned())
     }
@@ -91,15 +90,5 @@ pub fn why(t: &Transmission, p: &PointResult) -> String {
         (Some((part, undefined)), _) => format!("{}: {undefined}", t.parts()[part].path),
         (None, Some(outcome)) => format!("balance: {}", outcome.name()),
         (None, None) => p.status.name().to_owned(),
-    }
-}
-
-impl Runner<'_> {
-    /// Counts the stated ranges that trials left, and keeps them for the end of the run.
-    pub(super) fn left_at_samples(&self, left: &Left, out: &mut Out) {
-        self.left.set(self.left.get() + left.len());
-        for (path, name) in left {
-            self.outside_at_samples(path, name, out);
-        }
     }
 }

@@ -1,19 +1,16 @@
 //! Points of a file: read, and solved under sets of models.
 
+use crate::analysis::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
+use crate::measured::{Measured, MeasuredEntry, PortSpeeds};
+use crate::study::Data;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::resolve::{Choice, OWN_MODELS};
-use gearloss_studies::analysis::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
-use gearloss_studies::measured::{Measured, MeasuredEntry, PortSpeeds, Row};
-use gearloss_studies::study::Data;
 use serde_json::Value;
 
 use super::trial::{Left, Trial, left, why};
-use super::write::hash;
-use super::{Built, Runner};
-use crate::interrupt;
-use crate::output::Failure;
+use super::{Built, Context, Stopped};
 
 /// All rows of a file under one set.
 pub struct Solved<'a> {
@@ -27,31 +24,28 @@ pub struct Solved<'a> {
     pub notes: Vec<Note>,
 }
 
-impl Runner<'_> {
+impl Context<'_> {
     /// The entry of data: that of the measurements of the study, or the analysis' own.
-    pub(super) fn data<'s>(&'s self, path: &str, data: &'s Data) -> Result<&'s MeasuredEntry, Failure> {
+    pub fn data<'s>(&'s self, path: &str, data: &'s Data) -> Result<&'s MeasuredEntry, Stopped> {
         Ok(self.study.measurement(path, data)?)
     }
 
     /// Reads a file of points; `path` is the analysis' key that names it.
-    pub(super) fn read(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Failure> {
+    pub fn read(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Stopped> {
         let entry = self.data(path, data)?;
         if let Some(about) = &entry.about {
-            self.report.borrow_mut().verdict(&format!("{}: {about}", entry.file));
+            self.keep_about(&entry.file.to_string(), about);
         }
         let (measured, files) = self.study.measured(path, data, bind)?;
         for (file, bytes) in files {
-            let known = (file, hash(&bytes));
-            if !self.read.borrow().contains(&known) {
-                self.read.borrow_mut().push(known);
-            }
+            self.keep_input(&file, &bytes);
         }
         Ok(measured)
     }
 
     /// As [`Runner::read`], for analyses that do not ask a gearbox at which speed and torque its ports turn: torque and speed have
     /// to be those at the ports of the conditions.
-    pub(super) fn read_at_ports(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Failure> {
+    pub fn read_at_ports(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Stopped> {
         let measured = self.read(path, data, bind)?;
         let given = [
             (measured.torque_at_other_port, "torque"),
@@ -74,7 +68,7 @@ impl Runner<'_> {
 
     /// Solves every row under each set, with the torques that the rig leaves for the transmission; solves none where an analysis is
     /// only checked.
-    pub(super) fn at_rows<'s>(
+    pub fn at_rows<'s>(
         &'s self,
         gearbox: &'s Gearbox,
         sets: &'s [String],
@@ -82,9 +76,9 @@ impl Runner<'_> {
         gear: Option<&str>,
         measured: &Measured,
         terms: bool,
-    ) -> Result<Vec<Solved<'s>>, Failure> {
+    ) -> Result<Vec<Solved<'s>>, Stopped> {
         let rows = self.study.rows(measured, bind, gear, terms);
-        let own = |set: Option<&'s String>| -> Result<Option<Solved<'s>>, Failure> {
+        let own = |set: Option<&'s String>| -> Result<Option<Solved<'s>>, Stopped> {
             let (gearbox, choice) = match set {
                 Some(name) => self.study.reference("analyses", name, gearbox)?,
                 None => (gearbox, None),
@@ -95,26 +89,21 @@ impl Runner<'_> {
             if self.only_checks {
                 return Ok(None);
             }
-            let bar = self.bar(measured.rows.len() as u64, name);
-            let going = |n: usize| {
-                bar.inc(n as u64);
-                !interrupt::pressed()
-            };
+            let running = self.running(measured.rows.len(), name);
+            let going = |n: usize| running.advance(n);
             let solve = |transmissions: Vec<BuiltFrom>, on: Option<OnRig<'_>>| {
                 let solved = rows.solve(transmissions, on, &going);
-                let solved = solved.map_err(|list| Failure::from(gearbox.findings(list)))?;
-                solved.ok_or(Failure::Interrupted)
+                let solved = solved.map_err(|list| Stopped::from(gearbox.findings(list)))?;
+                solved.ok_or(Stopped::Interrupted)
             };
             let mut solved = solve(transmissions, None)?;
             if !measured.rig.is_silent() {
                 let speeds = rows.speeds(&solved, measured.rig.at_out());
-                let speeds = speeds.map_err(|error| Failure::from(self.study.findings(vec![error])))?;
+                let speeds = speeds.map_err(|error| self.found(vec![error]))?;
                 let (rig, speeds) = (measured.rig, &speeds[..]);
                 let transmissions = rows.build(self.language, gearbox, &choice)?;
                 solved = solve(transmissions, Some(OnRig { rig, speeds }))?;
             }
-            bar.finish_and_clear();
-            self.seen(&solved.transmissions[0].1, &solved.seen);
             let built = solved.transmissions.into_iter().map(|(resolved, transmission)| Built {
                 name: name.to_owned(),
                 gearbox,
@@ -132,23 +121,18 @@ impl Runner<'_> {
         if sets.is_empty() {
             return Ok(own(None)?.into_iter().collect());
         }
-        let all: Vec<_> = sets.iter().map(|set| own(Some(set))).collect::<Result<_, Failure>>()?;
+        let all: Vec<_> = sets.iter().map(|set| own(Some(set))).collect::<Result<_, Stopped>>()?;
         Ok(all.into_iter().flatten().collect())
     }
 
     /// The transmissions of rows; refuses rows whose bound values, gear states or ports do not fit the gearbox.
-    pub(super) fn rows_fit(
-        &self,
-        rows: &Rows<'_>,
-        gearbox: &Gearbox,
-        choice: &Choice,
-    ) -> Result<Vec<BuiltFrom>, Failure> {
+    pub fn rows_fit(&self, rows: &Rows<'_>, gearbox: &Gearbox, choice: &Choice) -> Result<Vec<BuiltFrom>, Stopped> {
         let transmissions = rows.build(self.language, gearbox, choice).map_err(|findings| {
             // What belongs to no key of the gearbox belongs to the analysis.
             if findings.list.iter().any(|error| !error.path.is_empty()) {
                 return findings;
             }
-            let path = format!("analyses.{}", self.analysis.borrow());
+            let path = self.path();
             let at_analysis = |error| Diagnostic {
                 path: path.clone(),
                 ..error
@@ -163,20 +147,12 @@ impl Runner<'_> {
     }
 }
 
-/// A row in results, with its file where there are several.
-pub fn in_file(mut value: Value, measured: &Measured, row: &Row) -> Value {
-    if let (Some(file), Some(value)) = (measured.file(row), value.as_object_mut()) {
-        value.insert("file".to_owned(), file.into());
-    }
-    value
-}
-
 /// A row that was solved: its point, and why it has no loss where it has none.
 pub type SolvedRow = (PointResult, Option<String>);
 
 impl Trial<'_> {
     /// Speeds of the ports in every row, where the rig of the rows adds something.
-    pub(super) fn speeds(&self, rows: &Rows<'_>) -> Result<Vec<PortSpeeds>, String> {
+    pub fn speeds(&self, rows: &Rows<'_>) -> Result<Vec<PortSpeeds>, String> {
         let rig = &rows.measured.rig;
         if rig.is_silent() {
             return Ok(Vec::new());
@@ -187,7 +163,7 @@ impl Trial<'_> {
 
     /// Solves every row with further overrides, as [`Runner::at_rows`] does, and adds the stated ranges that were left. The
     /// speeds are those of [`Trial::speeds`].
-    pub(super) fn rows(
+    pub fn rows(
         &self,
         rows: &Rows<'_>,
         speeds: &[PortSpeeds],

@@ -1,39 +1,34 @@
 //! Uncertain inputs: quantities of the description with distributions.
 
+use crate::study::{Shape, ToleranceEntry};
 use gearloss_numerics::sampling::Distribution;
-use gearloss_studies::study::{Shape, ToleranceEntry};
 
 use super::ranges::{Range, once};
-use super::{Built, Runner};
-use crate::output::Failure;
+use super::{Built, Context, Stopped};
 
 /// An uncertain input with its distribution, in the unit of the path.
 pub struct Input {
+    /// Its range.
     pub range: Range,
     distribution: Distribution,
 }
 
 impl Input {
     /// All inputs of an analysis at a path; each quantity once.
-    pub fn all(
-        runner: &Runner<'_>,
-        path: &str,
-        entries: &[ToleranceEntry],
-        b: &Built<'_>,
-    ) -> Result<Vec<Self>, Failure> {
+    pub fn all(cx: &Context<'_>, path: &str, entries: &[ToleranceEntry], b: &Built<'_>) -> Result<Vec<Self>, Stopped> {
         let path = format!("{path}.inputs");
-        let of = |(i, input)| Self::new(runner, &format!("{path}.{i}"), input, b);
+        let of = |(i, input)| Self::new(cx, &format!("{path}.{i}"), input, b);
         let inputs: Vec<Self> = entries.iter().enumerate().map(of).collect::<Result<_, _>>()?;
         let varied: Vec<_> = inputs.iter().map(|input| &input.range.varied).collect();
-        once(runner, &path, &varied)?;
+        once(cx, &path, &varied)?;
         Ok(inputs)
     }
 
-    fn new(runner: &Runner<'_>, path: &str, entry: &ToleranceEntry, b: &Built<'_>) -> Result<Self, Failure> {
-        let range = Range::new(runner, path, &entry.range, b)?;
+    fn new(cx: &Context<'_>, path: &str, entry: &ToleranceEntry, b: &Built<'_>) -> Result<Self, Stopped> {
+        let range = Range::new(cx, path, &entry.range, b)?;
         // The others are moved onto the range of the schema.
         if entry.distribution != Shape::Normal {
-            range.inside(runner, path)?;
+            range.inside(cx, path)?;
         }
         let [low, high] = range.ends;
         let distribution = match entry.distribution {
@@ -47,7 +42,7 @@ impl Input {
         };
         let wrong = |reason: String| {
             let message = format!("{}: {reason}", entry.range.path);
-            runner.wrong(path, message, "give a range that is wider than nothing")
+            cx.wrong(path, message, "give a range that is wider than nothing")
         };
         Ok(Self {
             distribution: distribution.map_err(wrong)?,

@@ -1,0 +1,3 @@
+//! How the outcomes of the analyses are shown.
+
+pub mod balance;

@@ -1,0 +1,139 @@
+//! A balance: its result in words; losses and heat over temperature; temperature and residual over the steps.
+
+use gearloss_framework::thermal::Outcome;
+use gearloss_studies::analyses::balance::{BalanceOfPoint, BalanceOutcome, BalanceStep};
+
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::{Line, Stroke};
+use crate::register_view;
+use crate::text::significant;
+
+register_view!(BalanceOutcome, show);
+
+fn show(outcome: &BalanceOutcome, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    for of_set in &outcome.balances {
+        page.line(format!("{name}: models {}", of_set.model_set));
+        page.lines(balance_text(&of_set.balance, false));
+        page.outside(&of_set.notes);
+        page.line("");
+        figures(&format!("{name}-{}", of_set.model_set), &of_set.balance, page);
+    }
+}
+
+/// A balance in words; `above` where the losses of its point are printed above.
+pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
+    let mut text = format!("balance: {}", balance.outcome.name());
+    if let (Some(oil), Some(surface)) = (balance.oil_temperature_degc, balance.surface_temperature_degc) {
+        text.push_str(&format!(
+            ", oil {oil:.2} degC, surface {surface:.2} degC, surroundings {} degC",
+            significant(balance.ambient_degc)
+        ));
+    }
+    text.push_str(&format!(
+        ", {} evaluations, looked for every {} K\n",
+        balance.evaluations,
+        significant(balance.scan_spacing_k)
+    ));
+    for path in &balance.ways {
+        text.push_str(&format!("  {} takes {:.3} W\n", path.path, path.heat_w));
+    }
+    if balance.sources_w.oil + balance.sources_w.surface > 0.0 {
+        text.push_str(&format!(
+            "  sources bring {} W into the oil and {} W into the surface\n",
+            significant(balance.sources_w.oil),
+            significant(balance.sources_w.surface)
+        ));
+    }
+    for root in &balance.stable {
+        if let Some(beyond) = root.residual_beyond_jump_w {
+            text.push_str(&format!(
+                "  at {:.4} degC a law jumps: {:.4} W are left over below it and {:.4} W above\n",
+                root.oil_temperature_degc, root.residual_w, beyond
+            ));
+        }
+    }
+    match balance.outcome {
+        Outcome::Several => {
+            let all: Vec<String> = balance
+                .stable
+                .iter()
+                .map(|r| format!("{:.2}", r.oil_temperature_degc))
+                .collect();
+            text.push_str(&format!(
+                "  these keep themselves: {} degC; the lowest is taken\n",
+                all.join(", ")
+            ));
+        }
+        Outcome::NoneBelowMaximum => {
+            text.push_str(&format!(
+                "  losses are greater than the heat up to {} degC",
+                significant(balance.maximum_degc)
+            ));
+            text.push_str(if above {
+                ", at which the losses above are shown\n"
+            } else {
+                "\n"
+            });
+        }
+        Outcome::Undefined if above => {
+            text.push_str(&format!(
+                "  the losses above are those at {} degC\n",
+                significant(balance.maximum_degc)
+            ));
+        }
+        Outcome::Converged | Outcome::AtDiscontinuity | Outcome::Undefined | Outcome::NoConvergence => {}
+    }
+    if let Some(undefined) = &balance.undefined {
+        text.push_str(&format!(
+            "  no value at {:.2} degC: {}\n",
+            undefined.oil_temperature_degc, undefined.reason
+        ));
+    }
+    text
+}
+/// Losses and heat over temperature; temperature and residual over the steps behind the scan.
+fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
+    let history = &balance.history;
+    let figure = |title: String, x: &str, y: &str, lines: Vec<Line>| Figure::Lines {
+        title,
+        x: x.to_owned(),
+        y: y.to_owned(),
+        lines,
+    };
+    let mut sorted: Vec<&BalanceStep> = history.iter().collect();
+    sorted.sort_by(|a, b| a.oil_temperature_degc.total_cmp(&b.oil_temperature_degc));
+    let line = |name: &str, y: fn(&BalanceStep) -> f64| Line {
+        name: name.to_owned(),
+        points: sorted.iter().map(|s| Some((s.oil_temperature_degc, y(s)))).collect(),
+        stroke: Stroke::Marked,
+    };
+    let curves = [line("loss", |s| s.loss_w), line("heat", |s| s.heat_w)];
+    let title = format!("{name}: losses and the heat that leaves");
+    page.figure(name, figure(title, "oil temperature in degC", "W", curves.to_vec()));
+    let steps = &history[balance.scan..];
+    let line = |name: &str, y: &dyn Fn(&BalanceStep) -> Option<f64>| Line {
+        name: name.to_owned(),
+        points: steps
+            .iter()
+            .enumerate()
+            .map(|(i, s)| Some((i as f64 + 1.0, y(s)?)))
+            .collect(),
+        stroke: Stroke::Marked,
+    };
+    let temperature = [line("oil temperature", &|s| Some(s.oil_temperature_degc))];
+    let title = format!("{name}: temperature over the steps behind the scan");
+    page.figure(
+        &format!("{name}-steps"),
+        figure(title, "step", "degC", temperature.to_vec()),
+    );
+    // A residual of zero has no logarithm; it ends the line.
+    let residual = [line("residual", &|s| {
+        let share = (s.residual_w / s.loss_w).abs();
+        (share > 0.0 && share.is_finite()).then(|| share.log10())
+    })];
+    let title = format!("{name}: residual over the steps behind the scan");
+    let figure = figure(title, "step", "log10 of the residual over the loss", residual.to_vec());
+    page.figure(format!("{name}-residual"), figure);
+}

@@ -1,0 +1,335 @@
+//! How the temperature of one point is found: losses and heat over temperature, and every step.
+
+use gearloss_framework::description::{Ordered, ThermalMode};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::evaluate::Point;
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::thermal::{self, Equilibrium, Unbalanced};
+use gearloss_framework::transmission::Transmission;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use crate::analysis::{Note, notes};
+use crate::cells;
+use crate::register_analysis;
+use crate::study::{Uses, Write};
+use crate::table::{Column, Table};
+
+/// How the temperature of one point is found.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct BalanceEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Torque. [Nm]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub torque: f64,
+    /// Speed. [rpm]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub speed: f64,
+    /// Overrides for this analysis: resolved path to value.
+    #[serde(default)]
+    pub set: Ordered<Value>,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+impl Entry for BalanceEntry {
+    const TYPE: &'static str = "balance";
+    const MEANING: &'static str =
+        "How the temperature of one point is found: losses and heat over temperature, and every step.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
+}
+
+register_analysis!(BalanceEntry);
+
+/// The balance of one point under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BalanceOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set.
+    pub balances: Vec<BalanceOfSet>,
+}
+
+/// The balance under one model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BalanceOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// Gear state.
+    pub gear: String,
+    /// The balance.
+    pub balance: BalanceOfPoint,
+    /// What models noted at the temperature that was found.
+    pub notes: Vec<Note>,
+}
+
+/// A balance with its history.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BalanceOfPoint {
+    /// What became of it.
+    pub outcome: thermal::Outcome,
+    /// Temperature of the oil that is taken. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// Temperature of the surface there. [degC]
+    pub surface_temperature_degc: Option<f64>,
+    /// Temperature of the surroundings. [degC]
+    pub ambient_degc: f64,
+    /// Temperatures that keep themselves, the lowest first.
+    pub stable: Vec<StableTemperature>,
+    /// Heat of each heat path there.
+    pub ways: Vec<HeatOfPath>,
+    /// Heat that comes in beside the losses. [W]
+    pub sources_w: HeatSources,
+    /// Where losses or heat had no value.
+    pub undefined: Option<UndefinedBalance>,
+    /// Number of steps of the scan, which come first in the history.
+    pub scan: usize,
+    /// Distance of neighbouring temperatures of the scan: of two balances that lie closer both may be missed. [K]
+    pub scan_spacing_k: f64,
+    /// All steps.
+    pub history: Vec<BalanceStep>,
+    /// Number of temperatures at which losses and heat were computed.
+    #[serde(skip)]
+    pub evaluations: usize,
+    /// Greatest temperature that was looked at. [degC]
+    #[serde(skip)]
+    pub maximum_degc: f64,
+}
+
+/// A temperature at which more heat leaves above and less below.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct StableTemperature {
+    /// Temperature of the oil. [degC]
+    pub oil_temperature_degc: f64,
+    /// What is left over there. [W]
+    pub residual_w: f64,
+    /// What is left over just above, where a law jumps there. [W]
+    pub residual_beyond_jump_w: Option<f64>,
+}
+
+/// Heat of one heat path.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct HeatOfPath {
+    /// Path of its model.
+    pub path: String,
+    /// Heat. [W]
+    pub heat_w: f64,
+}
+
+/// Heat that comes in beside the losses.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct HeatSources {
+    /// Into the oil. [W]
+    pub oil: f64,
+    /// Into the surface. [W]
+    pub surface: f64,
+}
+
+/// Where losses or heat had no value.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct UndefinedBalance {
+    /// Temperature of the oil. [degC]
+    pub oil_temperature_degc: f64,
+    /// Why.
+    pub reason: String,
+}
+
+/// Losses and heat at one temperature.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct BalanceStep {
+    /// Temperature of the oil. [degC]
+    pub oil_temperature_degc: f64,
+    /// Losses, and sources beside them. [W]
+    pub loss_w: f64,
+    /// Heat that leaves. [W]
+    pub heat_w: f64,
+    /// Their difference. [W]
+    pub residual_w: f64,
+}
+
+impl BalanceOfPoint {
+    /// That of an equilibrium of a transmission.
+    pub fn new(transmission: &Transmission, balance: &Equilibrium) -> Self {
+        let housing = transmission.housing();
+        let paths = housing.ways().iter().zip(&balance.ways);
+        Self {
+            outcome: balance.outcome,
+            oil_temperature_degc: balance.oil(),
+            surface_temperature_degc: balance.surface,
+            ambient_degc: housing.ambient,
+            stable: balance
+                .stable
+                .iter()
+                .map(|root| StableTemperature {
+                    oil_temperature_degc: root.temperature,
+                    residual_w: root.step.residual(),
+                    residual_beyond_jump_w: root.beyond.map(|step| step.residual()),
+                })
+                .collect(),
+            ways: paths
+                .map(|(path, watts)| HeatOfPath {
+                    path: path.path.clone(),
+                    heat_w: *watts,
+                })
+                .collect(),
+            sources_w: HeatSources {
+                oil: housing.into_oil,
+                surface: housing.into_surface,
+            },
+            undefined: balance.undefined.as_ref().map(|(temperature, why)| UndefinedBalance {
+                oil_temperature_degc: *temperature,
+                reason: reason(transmission, why),
+            }),
+            scan: balance.scanned,
+            scan_spacing_k: balance.spacing,
+            history: balance
+                .history
+                .iter()
+                .map(|step| BalanceStep {
+                    oil_temperature_degc: step.temperature,
+                    loss_w: step.loss,
+                    heat_w: step.heat,
+                    residual_w: step.residual(),
+                })
+                .collect(),
+            evaluations: balance.evaluations(),
+            maximum_degc: housing.maximum,
+        }
+    }
+}
+
+/// Why there is no balance, in words.
+pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
+    match why {
+        Unbalanced::Part(part, reason) => format!("{}: {reason}", transmission.parts()[*part].path),
+        Unbalanced::Way(way, reason) => format!("{}: {reason}", transmission.housing().ways()[*way].path),
+        Unbalanced::Link(link, reason) => {
+            let path = transmission.network().and_then(|n| n.links().nth(*link));
+            format!("{}: {reason}", path.map_or("a link", |(path, _)| path))
+        }
+        Unbalanced::Flow => "the transmission locks itself, or loads and losses do not agree".to_owned(),
+        Unbalanced::Network => {
+            "the temperatures of the network do not settle, or a node hangs on nothing while its oil stands".to_owned()
+        }
+    }
+}
+
+impl Analysis for BalanceEntry {
+    type Outcome = BalanceOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<BalanceOutcome, Stopped> {
+        let path = cx.path();
+        let change = |(own, value): (&str, &Value)| (own.to_owned(), value.clone(), format!("{path}.set"));
+        let set: Vec<(String, Value, String)> = self.set.iter().map(change).collect();
+        let built = cx.built_with(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets, &set)?;
+        let mut balances = Vec::new();
+        for b in &built {
+            needs_balance(cx, b)?;
+            let t = &b.transmission;
+            let points = cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new());
+            let case = cx.case(b.gearbox, t, &points)?;
+            if cx.only_checks {
+                continue;
+            }
+            let torques = [self.torque];
+            let point = Point {
+                speeds: &[self.speed],
+                torques: &torques[..case.torque_ports.len()],
+                flow: points.flow,
+                tolerance: Tolerance::default(),
+            };
+            let mut scratch = t.scratch(&case);
+            let found = t.equilibrium(&case, &point, &mut scratch);
+            if let Some(oil) = found.oil() {
+                // What is noted belongs to the temperature that was found.
+                t.evaluate(&case, &point, &[oil], &mut scratch);
+            }
+            balances.push(BalanceOfSet {
+                model_set: b.name.clone(),
+                gear: points.gear,
+                balance: BalanceOfPoint::new(t, &found),
+                notes: notes(t, &scratch.totals),
+            });
+        }
+        cx.begin()?;
+        let head = cx.head(&built.iter().collect::<Vec<_>>());
+        Ok(BalanceOutcome { head, balances })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+/// Refuses a gearbox without a balance.
+pub fn needs_balance(cx: &Context<'_>, built: &Built<'_>) -> Result<(), Stopped> {
+    let path = cx.path();
+    if cx.study.entry.conditions.oil_temperature.is_some() {
+        let error = Diagnostic::error(
+            "conditions.oil_temperature",
+            "the study fixes the temperature, so there is no balance",
+        )
+        .note(format!("`{path}` asks for one"))
+        .mend("leave it out, or give this analysis a study of its own");
+        return Err(cx.found(vec![error]));
+    }
+    if built.transmission.thermal_mode == ThermalMode::Balance {
+        return Ok(());
+    }
+    let error = Diagnostic::error(path, "the gearbox has a fixed temperature, and no balance")
+        .mend("write `thermal: { mode: balance, heat_dissipation: { ... } }` in the gearbox");
+    Err(cx.found(vec![error]))
+}
+
+impl Outcome for BalanceOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut table = Table::new(
+            &self.head.analysis,
+            [
+                Column::text("model_set", "Model set"),
+                Column::number("step", "-", "Number of the step"),
+                Column::text("of", "Part of the search: scan or solution"),
+                Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+                Column::number("loss_w", "W", "Losses, and sources beside them"),
+                Column::number("heat_w", "W", "Heat that leaves"),
+                Column::number("residual_w", "W", "Losses minus heat"),
+            ],
+        );
+        for of_set in &self.balances {
+            for (i, step) in of_set.balance.history.iter().enumerate() {
+                let of = if i < of_set.balance.scan { "scan" } else { "solution" };
+                table.push(cells![
+                    &of_set.model_set,
+                    i + 1,
+                    of,
+                    step.oil_temperature_degc,
+                    step.loss_w,
+                    step.heat_w,
+                    step.residual_w,
+                ]);
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        self.balances.iter().flat_map(|of_set| &of_set.notes).collect()
+    }
+}

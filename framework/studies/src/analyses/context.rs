@@ -1,0 +1,328 @@
+//! What an analysis is given: the study, the way to solve its points, and whom to report progress to.
+
+use std::sync::{Mutex, PoisonError};
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::language::Language;
+use gearloss_framework::resolve::{OWN_MODELS, Resolved};
+use gearloss_framework::transmission::{Case, Transmission};
+use serde_json::Value;
+
+use super::head::{Head, InputFile};
+use super::progress::{Progress, Running};
+use crate::analysis::{Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
+use crate::study::{Grid, Study};
+
+/// Why an analysis has no outcome.
+#[derive(Debug, thiserror::Error)]
+pub enum Stopped {
+    /// Its input is wrong.
+    #[error("{0}")]
+    Found(#[from] Findings),
+    /// The caller broke it off.
+    #[error("interrupted")]
+    Interrupted,
+    /// It was only to be checked, and nothing is wrong with it.
+    #[error("nothing was computed")]
+    Checked,
+}
+
+/// One gearbox under one model set.
+pub struct Built<'a> {
+    /// Name of the set as the study writes it.
+    pub name: String,
+    /// The gearbox.
+    pub gearbox: &'a Gearbox,
+    /// Its resolved description.
+    pub resolved: Resolved,
+    /// Its transmission.
+    pub transmission: Transmission,
+}
+
+impl Built<'_> {
+    /// The set as a choice names it: without the product, absent for the gearbox's own models.
+    pub fn set(&self) -> Option<&str> {
+        let set = self.name.rsplit('/').next();
+        set.filter(|set| *set != OWN_MODELS)
+    }
+}
+
+/// The most points that an analysis may hold at a time, some of them as samples; with all that is made of each they take a few
+/// gigabytes. Maps over grids hold none.
+const MOST_HELD: usize = 2_000_000;
+
+/// Files that an analysis has read, and what their entries say of them.
+#[derive(Debug, Default)]
+struct Record {
+    inputs: Vec<InputFile>,
+    about: Vec<String>,
+}
+
+/// What an analysis is given.
+pub struct Context<'a> {
+    /// The language of all documents.
+    pub language: &'a Language,
+    /// The study.
+    pub study: &'a Study,
+    /// Name of the analysis in the study.
+    pub name: &'a str,
+    /// True where the analysis shall end before it computes, with all that it refuses.
+    pub only_checks: bool,
+    progress: &'a dyn Progress,
+    /// Its own lock, because files are also read in parallel.
+    record: Mutex<Record>,
+}
+
+impl<'a> Context<'a> {
+    /// That of an analysis of a study.
+    pub fn new(language: &'a Language, study: &'a Study, name: &'a str, progress: &'a dyn Progress) -> Self {
+        Self {
+            language,
+            study,
+            name,
+            only_checks: false,
+            progress,
+            record: Mutex::default(),
+        }
+    }
+
+    /// For an analysis that is only checked.
+    pub fn checking(self) -> Self {
+        Self {
+            only_checks: true,
+            ..self
+        }
+    }
+
+    /// Path of the analysis in the study.
+    pub fn path(&self) -> String {
+        format!("analyses.{}", self.name)
+    }
+
+    /// Ends an analysis that is only checked.
+    ///
+    /// # Errors
+    /// [`Stopped::Checked`] there.
+    pub fn begin(&self) -> Result<(), Stopped> {
+        if self.only_checks {
+            Err(Stopped::Checked)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The head of its outcome: provenance.
+    pub fn head(&self, built: &[&Built<'_>]) -> Head {
+        let record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
+        Head::new(self, built, &record.inputs, &record.about)
+    }
+
+    /// Keeps the hash of a file that the analysis has read.
+    pub fn keep_input(&self, file: &str, bytes: &[u8]) {
+        let known = InputFile::new(None, file, bytes);
+        let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
+        if !record.inputs.contains(&known) {
+            record.inputs.push(known);
+        }
+    }
+
+    /// Keeps what an entry of data says of its file.
+    pub fn keep_about(&self, file: &str, about: &str) {
+        let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
+        record.about.push(format!("{file}: {about}"));
+    }
+
+    /// The gearbox that an entry names, or the first.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn gearbox(&self, name: Option<&String>) -> Result<&'a Gearbox, Stopped> {
+        let (_, gearbox) = self.study.gearbox(&self.path(), name)?;
+        Ok(gearbox)
+    }
+
+    /// The gearbox under each set; under its own models where no set is named.
+    ///
+    /// # Errors
+    /// Everything that resolving and building find.
+    pub fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &'s [String]) -> Result<Vec<Built<'s>>, Stopped> {
+        self.built_with(gearbox, sets, &[])
+    }
+
+    /// As [`Context::built`], with further overrides, each with its place in the study.
+    ///
+    /// # Errors
+    /// As [`Context::built`].
+    pub fn built_with<'s>(
+        &'s self,
+        gearbox: &'s Gearbox,
+        sets: &'s [String],
+        changes: &[(String, Value, String)],
+    ) -> Result<Vec<Built<'s>>, Stopped> {
+        let build = |name: Option<&'s str>| -> Result<Built<'s>, Stopped> {
+            let (gearbox, set) = match name {
+                Some(name) => self.study.reference("analyses", name, gearbox)?,
+                None => (gearbox, None),
+            };
+            let mut choice = self.study.choice(set);
+            let overrides = changes.iter().map(|(path, value, _)| (path.clone(), value.clone()));
+            choice.overrides.extend(overrides);
+            let places: Vec<_> = changes
+                .iter()
+                .map(|(path, _, place)| (path.clone(), place.clone()))
+                .collect();
+            let (resolved, transmission) = self.study.built(self.language, gearbox, &choice, &places)?;
+            Ok(Built {
+                name: name.unwrap_or(OWN_MODELS).to_owned(),
+                gearbox,
+                resolved,
+                transmission,
+            })
+        };
+        if sets.is_empty() {
+            Ok(vec![build(None)?])
+        } else {
+            sets.iter().map(|set| build(Some(set))).collect()
+        }
+    }
+
+    /// The points of axes under the study's conditions.
+    pub fn points(&self, transmission: &Transmission, gear: &str, torques: Vec<f64>, speeds: Vec<f64>) -> Points {
+        self.field(transmission, gear, Field::Grid { torques, speeds })
+    }
+
+    /// The points of a list under the study's conditions.
+    pub fn listed(&self, transmission: &Transmission, gear: &str, list: Vec<Given>) -> Points {
+        self.field(transmission, gear, Field::List(list))
+    }
+
+    /// Points under the study's conditions.
+    pub fn field(&self, transmission: &Transmission, gear: &str, field: Field) -> Points {
+        self.study.points(transmission, gear, field)
+    }
+
+    /// Refuses points that do not fit a gearbox; true where the analysis shall end there.
+    ///
+    /// # Errors
+    /// As [`Context::case`].
+    pub fn checked(&self, built: &Built<'_>, points: &Points) -> Result<bool, Stopped> {
+        self.case(built.gearbox, &built.transmission, points)?;
+        Ok(self.only_checks)
+    }
+
+    /// The case of points under the conditions.
+    ///
+    /// # Errors
+    /// If the gear state, the ports or their number do not fit.
+    pub fn case(&self, gearbox: &Gearbox, t: &Transmission, points: &Points) -> Result<Case, Stopped> {
+        Ok(self.study.case(&self.path(), gearbox, t, points)?)
+    }
+
+    /// Reports so much work as begun.
+    pub fn running(&self, count: usize, label: &str) -> Running<'_> {
+        Running::new(self.progress, label, count)
+    }
+
+    /// False where the caller wants to break off.
+    pub fn goes_on(&self) -> bool {
+        self.progress.goes_on()
+    }
+
+    /// Solves all points and holds them.
+    ///
+    /// # Errors
+    /// Points that do not fit or are too many, and an interruption.
+    pub fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Stopped> {
+        self.holds("analyses", points.field.len(), 1)?;
+        let mut all = GridResult::default();
+        let numbers: Vec<usize> = (0..points.field.pieces()).collect();
+        self.solve_pieces(built, points, &numbers, &held, &mut |piece| {
+            all.add(piece);
+            Ok(())
+        })?;
+        Ok(all)
+    }
+
+    /// Solves pieces of given numbers and hands over what `make` takes from them, piece by piece.
+    ///
+    /// # Errors
+    /// Points that do not fit, an interruption, and what `take` refuses.
+    pub fn solve_pieces<T: Send>(
+        &self,
+        built: &Built<'_>,
+        points: &Points,
+        numbers: &[usize],
+        make: &Make<'_, T>,
+        take: &mut dyn FnMut(Piece<T>) -> Result<(), Stopped>,
+    ) -> Result<(), Stopped> {
+        self.checked(built, points)?;
+        let count = points.field.len();
+        let own = count * numbers.len() / points.field.pieces().max(1);
+        let running = self.running(own, &built.name);
+        let going = |n: usize| running.advance(n);
+        let mut fault = None;
+        let whole = solve_pieces(&built.transmission, points, numbers, make, &going, &mut |piece| {
+            fault = take(piece).err();
+            fault.is_none()
+        });
+        let whole = whole.map_err(|list| Stopped::from(built.gearbox.findings(list)))?;
+        match fault {
+            Some(fault) => Err(fault),
+            None if whole => Ok(()),
+            None => Err(Stopped::Interrupted),
+        }
+    }
+
+    /// The one gear state of a grid.
+    ///
+    /// # Errors
+    /// If it has several.
+    pub fn one_gear(&self, path: &str, grid: &Grid, t: &Transmission) -> Result<String, Stopped> {
+        match &grid.gear.of(t)[..] {
+            [gear] => Ok(gear.clone()),
+            several => Err(self.wrong(
+                path,
+                format!("this analysis takes a grid of one gear state, not of {}", several.len()),
+                "give it a grid of its own",
+            )),
+        }
+    }
+
+    /// A fault of the study at a path.
+    pub fn wrong(&self, path: &str, message: impl Into<String>, mend: &str) -> Stopped {
+        self.found(vec![Diagnostic::error(path, message.into()).mend(mend)])
+    }
+
+    /// Findings about the study.
+    pub fn found(&self, list: Vec<Diagnostic>) -> Stopped {
+        self.study.findings(list).into()
+    }
+
+    /// Refuses what would hold too many points: so many times so many.
+    ///
+    /// # Errors
+    /// There.
+    pub fn holds(&self, path: &str, points: usize, times: usize) -> Result<(), Stopped> {
+        if points.saturating_mul(times) <= MOST_HELD {
+            return Ok(());
+        }
+        let of = if times > 1 {
+            format!(", {times} times {points},")
+        } else {
+            format!(", {points},")
+        };
+        let message = format!("more points{of} than the {MOST_HELD} that an analysis can hold");
+        Err(self.wrong(
+            path,
+            message,
+            "take fewer samples, values or points; a `map` over a grid takes more, piece by piece",
+        ))
+    }
+}
+
+/// The gear state that an entry names, or the first.
+pub fn gear_of<'t>(named: Option<&'t str>, transmission: &'t Transmission) -> &'t str {
+    let first = transmission.states().first().map_or("", |s| s.name.as_str());
+    named.unwrap_or(first)
+}

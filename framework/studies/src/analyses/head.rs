@@ -1,0 +1,178 @@
+//! Where a result comes from: versions, conditions, inputs with their hashes, changed coefficients.
+
+use std::path::Path;
+
+use gearloss_framework::coefficients::{Changed, changed_from_source};
+use gearloss_framework::description::Ordered;
+use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::registry::Package;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+
+use super::context::{Built, Context};
+use crate::study::Study;
+
+/// The head of every result.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Head {
+    /// Format of the result.
+    pub format: &'static str,
+    /// Version of the program.
+    pub gearloss: &'static str,
+    /// Crates that brought models.
+    pub packages: Vec<Package>,
+    /// Title of the study.
+    pub study: Option<String>,
+    /// Name of the analysis.
+    pub analysis: String,
+    /// What every analysis of the study starts from.
+    pub conditions: ConditionsOfResult,
+    /// The study, its gearboxes and the files that they and the analysis have read.
+    pub inputs: Vec<InputFile>,
+    /// Coefficients that differ from the published value.
+    pub changed_from_source: Vec<ChangedOfSet>,
+    /// Models of a set that no component takes.
+    pub unreached: Vec<UnreachedOfSet>,
+    /// What entries of data say of their files.
+    #[serde(skip)]
+    pub about_data: Vec<String>,
+}
+
+/// What every analysis of a study starts from.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ConditionsOfResult {
+    /// Port at which the torque is given.
+    pub torque_at: String,
+    /// Port at which the speed is given.
+    pub speed_at: String,
+    /// Temperature of the oil; absent, that of the gearbox. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// Whether losses change the torques of what comes after them.
+    pub power_flow: PowerFlow,
+    /// Overrides: resolved path to value.
+    pub set: Ordered<Value>,
+}
+
+/// A file with its hash.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct InputFile {
+    /// Gearbox that it belongs to; absent for the study and the data of analyses.
+    pub gearbox: Option<String>,
+    /// Its name.
+    pub file: String,
+    /// FNV-1a hash of its bytes, hexadecimal.
+    pub fnv1a_64: String,
+}
+
+/// Changed coefficients under a model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ChangedOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// The coefficients.
+    pub coefficients: Vec<Changed>,
+}
+
+/// Models of a set that no component takes.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct UnreachedOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// One line for each.
+    pub lines: Vec<String>,
+}
+
+impl InputFile {
+    pub(super) fn new(gearbox: Option<&str>, file: &str, bytes: &[u8]) -> Self {
+        Self {
+            gearbox: gearbox.map(str::to_owned),
+            file: file.to_owned(),
+            fnv1a_64: hash(bytes),
+        }
+    }
+}
+
+impl Head {
+    pub(super) fn new(cx: &Context<'_>, built: &[&Built<'_>], read: &[InputFile], about: &[String]) -> Self {
+        let conditions = &cx.study.entry.conditions;
+        let mut inputs = inputs(cx.study);
+        inputs.extend_from_slice(read);
+        Self {
+            format: "gearloss-result/1",
+            gearloss: env!("CARGO_PKG_VERSION"),
+            packages: cx.language.registry().packages(),
+            study: cx.study.entry.title.clone(),
+            analysis: cx.name.to_owned(),
+            conditions: ConditionsOfResult {
+                torque_at: conditions.torque_at.clone(),
+                speed_at: conditions.speed_at.clone(),
+                oil_temperature_degc: conditions.oil_temperature,
+                power_flow: conditions.power_flow,
+                set: conditions.set.clone(),
+            },
+            inputs,
+            changed_from_source: built
+                .iter()
+                .map(|b| ChangedOfSet {
+                    model_set: b.name.clone(),
+                    coefficients: changed_from_source(&b.transmission, &b.resolved),
+                })
+                .collect(),
+            unreached: built
+                .iter()
+                .map(|b| UnreachedOfSet {
+                    model_set: b.name.clone(),
+                    lines: b.resolved.unreached.clone(),
+                })
+                .collect(),
+            about_data: about.to_vec(),
+        }
+    }
+}
+
+/// The study, its gearboxes and the files that they have read.
+pub fn inputs(study: &Study) -> Vec<InputFile> {
+    let mut list = vec![InputFile::new(None, "study", study.text.as_bytes())];
+    for (name, gearbox) in &study.gearboxes {
+        let mut add = |file: &str, text: &str| list.push(InputFile::new(Some(name), file, text.as_bytes()));
+        for source in 0.. {
+            let Some((file, text)) = gearbox.sources.get(source) else {
+                break;
+            };
+            add(
+                Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file)),
+                text,
+            );
+        }
+        for (file, text) in gearbox.files.all() {
+            add(file.file_name().and_then(|f| f.to_str()).unwrap_or_default(), &text);
+        }
+    }
+    list
+}
+
+/// FNV-1a, 64 bit: tells whether an input changed, no more.
+pub fn fnv1a_64(bytes: &[u8]) -> u64 {
+    fnv1a_from(FNV_BASIS, bytes)
+}
+
+/// The hash of nothing.
+pub const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// Goes on with a hash over more bytes.
+pub fn fnv1a_from(hash: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(hash, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+/// The hash of bytes as it is written in results.
+pub fn hash(bytes: &[u8]) -> String {
+    hexadecimal(fnv1a_64(bytes))
+}
+
+/// A hash as it is written in results.
+pub fn hexadecimal(hash: u64) -> String {
+    format!("{hash:016x}")
+}
