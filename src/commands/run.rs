@@ -6,7 +6,6 @@ mod compare;
 mod component_compare;
 mod contact_path;
 mod cycle;
-mod deviations;
 mod fluid_sweep;
 mod folder;
 mod identify;

@@ -9,6 +9,7 @@ use gearloss_framework::transmission::Transmission;
 pub use gearloss_report::page::outside;
 use gearloss_report::views::balance::balance_text;
 use gearloss_studies::analyses::balance::BalanceOfPoint;
+pub use gearloss_studies::analyses::numbers::RPM;
 use gearloss_studies::analysis::Found;
 use gearloss_studies::analysis::{SUMS, evidence, notes, sum_of};
 use serde_json::{Value, json};
@@ -20,9 +21,6 @@ use super::run::tidy;
 use super::{locking, set, warn};
 use crate::args::{Format, SolveArgs};
 use crate::output::{End, Failure, Out, Table, fixed, number, significant};
-
-/// rad/s in 1/min.
-pub const RPM: f64 = 30.0 / std::f64::consts::PI;
 
 pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;

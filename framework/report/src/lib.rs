@@ -1,6 +1,7 @@
 //! What readers get to see of results beside numbers: pictures.
 
 mod contours;
+pub mod deviations;
 pub mod figure;
 pub mod page;
 pub mod plot;

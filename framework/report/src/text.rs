@@ -125,6 +125,22 @@ pub fn figures(x: f64, count: u32) -> String {
     }
 }
 
+/// At most a handful of rows and columns, spread evenly, both ends among them.
+pub fn spread(count: usize) -> Vec<usize> {
+    spread_over(count, SHOWN)
+}
+
+/// The most rows and columns of a table on the terminal.
+pub const SHOWN: usize = 8;
+
+/// At most some of as many, spread evenly, both ends among them.
+pub fn spread_over(count: usize, most: usize) -> Vec<usize> {
+    if count <= most {
+        return (0..count).collect();
+    }
+    (0..most).map(|i| i * (count - 1) / (most - 1)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::{fixed, number};

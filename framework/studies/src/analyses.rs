@@ -11,6 +11,7 @@ mod entries;
 pub mod head;
 pub mod inputs;
 pub mod measurable;
+pub mod numbers;
 pub mod progress;
 pub mod ranges;
 pub mod rows;

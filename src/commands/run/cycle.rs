@@ -42,7 +42,7 @@ pub fn run(runner: &Runner<'_>, name: &str, entry: &CycleAnalysisEntry, out: &mu
             Input::all(runner, &path, &entry.inputs, b)?;
             continue;
         }
-        let bar = runner.bar(duties.len() as u64, &b.name);
+        let bar = runner.bar(duties.intervals() as u64, &b.name);
         for read in &duties.list {
             let going = |n: usize| {
                 bar.inc(n as u64);

@@ -10,6 +10,8 @@ mod results;
 mod rows;
 mod taken;
 
+pub use gearloss_report::text::{SHOWN, spread, spread_over};
+pub use gearloss_studies::analyses::numbers::{tidy, word};
 use std::rc::Rc;
 
 use gearloss_framework::gearbox::Gearbox;
@@ -29,9 +31,6 @@ use self::taken::{Taken, Taker};
 use super::super::solve::RPM;
 use super::{Built, Runner};
 use crate::output::{Failure, Out, Table, fixed, number};
-
-/// The most rows and columns of a table on the terminal.
-const SHOWN: usize = 8;
 
 pub fn run(runner: &Runner<'_>, name: &str, entry: &MapEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
@@ -307,11 +306,6 @@ fn set_names<'a>(maps: &'a [Map<'_>]) -> Vec<&'a str> {
     sets
 }
 
-/// A bound value as it was written.
-pub fn word(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
-}
-
 impl Map<'_> {
     /// The bound values, for a heading.
     fn words(&self) -> String {
@@ -384,35 +378,6 @@ impl Map<'_> {
         }
         table.render()
     }
-}
-
-/// A number of 1/min without the noise of its conversion: thirteen significant digits, at most 5e-13 of it away. Below 1e-9, a
-/// turn in two thousand years, what is left is the noise of a difference, and zero.
-pub fn tidy(x: f64) -> f64 {
-    let size = x.abs();
-    if size < 1e-9 {
-        return 0.0;
-    }
-    // From here on numbers have no digits to round.
-    if size >= 1e13 || size.is_nan() {
-        return x;
-    }
-    // Powers of ten up to 1e22 are exact, so that one division gives the number nearest to the decimal.
-    let digits = 10_f64.powi(12 - size.log10().floor() as i32);
-    (x * digits).round() / digits
-}
-
-/// At most a handful of rows and columns, spread evenly, both ends among them.
-pub fn spread(count: usize) -> Vec<usize> {
-    some(count, SHOWN)
-}
-
-/// At most some of as many, spread evenly, both ends among them.
-fn some(count: usize, most: usize) -> Vec<usize> {
-    if count <= most {
-        return (0..count).collect();
-    }
-    (0..most).map(|i| i * (count - 1) / (most - 1)).collect()
 }
 
 /// The usual sums of a point; absent without a temperature or a flow. \[W\]

@@ -12,10 +12,10 @@ use serde_json::Value;
 
 use self::least::Least;
 use self::solve::Pair;
-use super::compare::countable;
 use super::write::{cell, head, write};
 use super::{Built, Runner};
 use crate::output::{Failure, Out};
+use gearloss_studies::analyses::measurable::countable;
 use gearloss_studies::analyses::ranges::varied;
 use gearloss_studies::analyses::trial::Left;
 

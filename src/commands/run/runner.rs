@@ -183,7 +183,9 @@ impl Runner<'_> {
         let notes: Vec<_> = outcome.notes().into_iter().filter(|note| note.outside > 0).collect();
         let samples = outcome.left_at_samples();
         self.run.left.set(self.run.left.get() + notes.len() + samples.len());
-        notes.iter().for_each(|note| self.keep_outside(note));
+        for note in &notes {
+            self.keep_outside(note);
+        }
         samples
             .iter()
             .for_each(|(path, name)| self.keep_outside_at_samples(path, name));

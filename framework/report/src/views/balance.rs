@@ -125,7 +125,7 @@ fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
     let temperature = [line("oil temperature", &|s| Some(s.oil_temperature_degc))];
     let title = format!("{name}: temperature over the steps behind the scan");
     page.figure(
-        &format!("{name}-steps"),
+        format!("{name}-steps"),
         figure(title, "step", "degC", temperature.to_vec()),
     );
     // A residual of zero has no logarithm; it ends the line.

@@ -97,7 +97,7 @@ impl<'a> Duties<'a> {
     }
 
     /// Number of all intervals.
-    pub fn len(&self) -> usize {
+    pub fn intervals(&self) -> usize {
         self.list.iter().map(|read| read.intervals.len()).sum()
     }
 

@@ -7,8 +7,6 @@ use gearloss_studies::study::{Difference, IdentifyEntry, Quantity};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
-use super::super::compare::histograms;
-use super::super::deviations::{self, Deviation};
 use super::super::map::tidy;
 use super::super::write::picture;
 use super::hold_out;
@@ -16,6 +14,8 @@ use super::lines::Sheet;
 use super::outcome::Outcome;
 use super::tables::losses_by;
 use crate::output::{Failure, fixed};
+use gearloss_report::deviations::histograms;
+use gearloss_report::deviations::{self, Deviation};
 
 /// Correlation from which on the joint region of two parameters is drawn, and for how many pairs.
 const JOINT: (f64, usize) = (0.8, 4);

@@ -167,7 +167,7 @@ impl Axes {
     fn shown(&self) -> [Vec<usize>; 2] {
         let count = self.torques.len() * self.speeds.len();
         let most = if count > MOST_SHOWN { LINES } else { usize::MAX };
-        [&self.torques, &self.speeds].map(|axis| super::some(axis.len(), most))
+        [&self.torques, &self.speeds].map(|axis| super::spread_over(axis.len(), most))
     }
 }
 

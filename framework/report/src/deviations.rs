@@ -1,7 +1,9 @@
-//! Differences from measured points over speed and torque.
+//! Pictures of differences: over speed and torque, as histograms, one quantity over another.
 
-use gearloss_report::{Cloud, Figure, Map};
-use gearloss_studies::analysis::levels;
+use gearloss_studies::analysis::{histogram, levels};
+
+use crate::plot::{Line, Stroke};
+use crate::{Cloud, Figure, Map};
 
 /// A difference at a torque in Nm and a speed in rpm.
 pub type Deviation = (f64, f64, Option<f64>);
@@ -69,6 +71,66 @@ fn lines(points: &[Deviation]) -> (Vec<Vec<usize>>, Vec<Vec<usize>>) {
         torques.clear();
     }
     (torques, speeds)
+}
+
+/// Numbers of points over their difference, in the same cells for every set.
+pub fn histograms(name: &str, (what, unit): (&str, &str), lists: Vec<(String, Vec<f64>)>) -> Figure {
+    let all: Vec<f64> = lists.iter().flat_map(|(_, list)| list.iter().copied()).collect();
+    let (from, width, cells) = histogram(&all);
+    let steps = |(set, list): (String, Vec<f64>)| {
+        let mut counts = vec![0.0; cells.len()];
+        for x in list {
+            let cell = (((x - from) / width) as usize).min(cells.len().saturating_sub(1));
+            counts[cell] += 1.0;
+        }
+        let mut points = vec![Some((from, 0.0))];
+        for (i, count) in counts.iter().enumerate() {
+            let left = from + width * i as f64;
+            points.extend([Some((left, *count)), Some((left + width, *count))]);
+        }
+        points.push(Some((from + width * cells.len() as f64, 0.0)));
+        Line {
+            name: set,
+            points,
+            stroke: Stroke::Line,
+        }
+    };
+    Figure::Lines {
+        title: format!("{name}: how often a difference occurs"),
+        x: format!("difference of {what} in {unit}"),
+        y: "points".to_owned(),
+        lines: lists.into_iter().map(steps).collect(),
+    }
+}
+
+/// One quantity over the same of what it is compared with, and the line of equal values.
+pub fn parity(name: &str, what: &str, (x, y): (&str, &str), lists: Vec<(String, Vec<Option<(f64, f64)>>)>) -> Figure {
+    let all = || lists.iter().flat_map(|(_, list)| list.iter().flatten());
+    let ends = all().fold(None, |ends: Option<(f64, f64)>, (a, b)| {
+        let (low, high) = ends.unwrap_or((*a, *a));
+        Some((low.min(*a).min(*b), high.max(*a).max(*b)))
+    });
+    let mut lines: Vec<Line> = Vec::new();
+    for (set, points) in lists {
+        lines.push(Line {
+            name: set,
+            points,
+            stroke: Stroke::Dots,
+        });
+    }
+    if let Some((low, high)) = ends {
+        lines.push(Line {
+            name: "equal".to_owned(),
+            points: vec![Some((low, low)), Some((high, high))],
+            stroke: Stroke::Line,
+        });
+    }
+    Figure::Lines {
+        title: format!("{name}: parity of {what}"),
+        x: x.to_owned(),
+        y: y.to_owned(),
+        lines,
+    }
 }
 
 #[cfg(test)]
