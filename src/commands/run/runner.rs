@@ -186,9 +186,9 @@ impl Runner<'_> {
         for note in &notes {
             self.keep_outside(note);
         }
-        samples
-            .iter()
-            .for_each(|(path, name)| self.keep_outside_at_samples(path, name));
+        for (path, name) in samples {
+            self.keep_outside_at_samples(path, name);
+        }
         let page = Page::of(outcome);
         for text in &page.text {
             match text {
