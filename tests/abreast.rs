@@ -1,9 +1,6 @@
 //! Points side by side have the bits of points alone, but for the sign of zero: losses, terms, power in and out, notes.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{RPM, file, language, two_speed};
+use crate::common::{RPM, file, language, two_speed};
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;

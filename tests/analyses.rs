@@ -1,8 +1,6 @@
 //! The analyses of one component and of one path of contact agree with the whole transmission.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::PathBuf;
 
 use serde_json::Value;

@@ -1,10 +1,7 @@
 //! What is shown of a gearbox before and beside its losses: stages, ratios, static safety; and gearboxes of pitch circles alone.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common::{self, RPM};
 use assert_cmd::Command;
-use common::RPM;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::resolve::Choice;

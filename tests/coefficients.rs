@@ -1,9 +1,7 @@
 //! Constants and exponents of published formulas: their values are those of the sources, their ranges keep formulas
 //! defined, and what is changed counts and is reported.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;

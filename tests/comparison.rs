@@ -1,12 +1,9 @@
 //! The page `docs/comparison.md`: all models of a component side by side on the two-speed example, and two tables of published
 //! laws on one gear beside our values.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::fmt::Write as _;
 
-use common::RPM;
+use crate::common::{self, RPM};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::language::Language;
@@ -419,7 +416,7 @@ fn windage_table(out: &mut String, language: &Language) {
 fn the_comparison_is_not_stale() {
     let language = common::language();
     let mut out = String::from(
-        "# Models side by side\n\nGenerated from the program: `UPDATE=1 cargo test --test comparison`. The first tables take the two-speed \
+        "# Models side by side\n\nGenerated from the program: `UPDATE=1 cargo test --test all comparison::`. The first tables take the two-speed \
          example in first gear at 100 degC and exchange one model; the others put published laws on one gear beside an \
          independent computation. A spread is no error of a program: it is what the field does not agree on.\n\n",
     );
@@ -434,6 +431,6 @@ fn the_comparison_is_not_stale() {
     let committed = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         committed == out,
-        "docs/comparison.md is stale: run `UPDATE=1 cargo test --test comparison`"
+        "docs/comparison.md is stale: run `UPDATE=1 cargo test --test all comparison::`"
     );
 }

@@ -1,8 +1,6 @@
 //! Every linked model owes the same to the framework; registries that cannot work are refused.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use gearloss_framework::conformance::check_all;
 use gearloss_framework::language::Language;
 use gearloss_framework::mechanism::Mechanism;

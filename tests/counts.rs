@@ -1,7 +1,6 @@
 //! How much work results take, in counts that are the same on every machine: times are in `docs/performance.md`. A count may
 //! change with a reason; say it in CHANGELOG.md. Balances of one temperature are counted in `tests/reducer.rs`, a cycle in
 //! `tests/cycle.rs`, solvers on published problems in the framework.
-#![allow(clippy::unwrap_used)]
 
 #[path = "../benches/common/identification.rs"]
 mod identification;
@@ -10,9 +9,7 @@ mod long;
 #[path = "../benches/common/plate.rs"]
 mod plate;
 
-mod common;
-
-use common::{RPM, contact_work, file, language, two_speed, two_speed_with};
+use crate::common::{RPM, contact_work, file, language, two_speed, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow, Scratch};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;

@@ -1,14 +1,12 @@
 //! Whether intervals hold what is hidden as often as they say: 200 measurements of the synthetic rig, each with other noise.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
-mod common;
-
-use common::language;
-use common::rig::{Rig, TRUTH, csv, entry, gearbox, identification, study};
+use crate::common::language;
+use crate::common::rig::{Rig, TRUTH, csv, entry, gearbox, identification, study};
+use gearloss_studies::identify::Settings;
 use gearloss_numerics::inference::Standing;
 use gearloss_numerics::inference::probability::chi_square_quantile;
 use gearloss_numerics::least_squares::Status;
-use gearloss_studies::identify::Settings;
 use rayon::prelude::*;
 
 const SEEDS: u64 = 200;

@@ -1,9 +1,6 @@
 //! Friction of contacts that warm themselves, in a whole gearbox: the oil's rheology reaches the meshes, and losses follow duty.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{RPM, language, two_speed_with};
+use crate::common::{RPM, language, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::language::Language;

@@ -1,10 +1,7 @@
 //! Every model that fits a part of the two-speed example explains its answer, and the explained numbers are those of the
 //! solution, to the last bit.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::RPM;
+use crate::common::{self, RPM};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::resolve::Choice;

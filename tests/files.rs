@@ -1,8 +1,6 @@
 //! What is read and written: regular files only and no longer than stated; one run at a time in a folder; names that every system has.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,8 +1,6 @@
 //! `fit traction` and `fit stribeck`: the rheology of an oil from curves.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::PathBuf;
 
 use assert_cmd::Command;
@@ -42,7 +40,7 @@ fn refused(args: &[&str]) -> String {
 }
 
 fn written(name: &str, text: &str) -> PathBuf {
-    let file = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let file = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("rheology-{name}"));
     std::fs::write(&file, text).unwrap();
     file
 }

@@ -1,8 +1,6 @@
 //! Golden cases: what `check` says about each input in `tests/cases`. `UPDATE=1 cargo test` writes the expected texts anew.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::Path;
 
 use gearloss_framework::gearbox::Gearbox;

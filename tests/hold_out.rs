@@ -1,24 +1,21 @@
 //! Rows held out of an identification: which they are, what is predicted of them, and how often bands hold what they promise.
-#![allow(clippy::unwrap_used)]
 #![allow(clippy::print_stdout, reason = "the documentation quotes the table of coverage")]
-
-mod common;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use common::rig::Normal;
-use common::{RPM, language};
+use crate::common::rig::Normal;
+use crate::common::{RPM, language};
+use gearloss_studies::analysis::{Rows, levels};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::Language;
-use gearloss_framework::resolve::Choice;
-use gearloss_numerics::inference::{Coverage, Widening, succession};
-use gearloss_studies::analysis::{Rows, levels};
 use gearloss_studies::identify::{HoldOut, Identification, Settings};
+use gearloss_numerics::inference::{Coverage, Widening, succession};
+use gearloss_framework::language::Language;
 use gearloss_studies::measured::MeasuredEntry;
+use gearloss_framework::resolve::Choice;
 use gearloss_studies::study::{HoldOutEntry, HoldOutRows, IdentifiedEntry, Quantity, ScaleEntry};
 use serde_json::{Value, json};
 

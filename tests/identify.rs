@@ -1,13 +1,10 @@
 //! Identification: what went into made-up points comes out of them, and what cannot be identified is told with its place.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use common::rig::{SEED, TRUTH};
-use common::{RPM, language};
+use crate::common::rig::{SEED, TRUTH};
+use crate::common::{self, RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::resolve::Choice;

@@ -1,20 +1,15 @@
 //! What holds for any gearbox, on 200 that are laid out at random: power in is power out and losses, a mirror image loses the same,
 //! the order of keys says nothing, and the ideal flow is the limit of the real one for small losses.
 //!
-//! `INVARIANTS=100000 INVARIANTS_SEED=5 cargo test --test invariants` takes more or others.
-#![allow(clippy::unwrap_used)]
+//! `INVARIANTS=100000 INVARIANTS_SEED=5 cargo test --test all invariants::` takes more or others.
 
-mod common;
-#[path = "fuzz/random.rs"]
-mod random;
-
-use common::RPM;
+use crate::common::{self, RPM};
+use crate::fuzz::random::Random;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
-use random::Random;
 use serde_json::json;
 
 /// One stage of spur or helical gears.

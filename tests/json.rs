@@ -1,8 +1,6 @@
 //! What `check` and `models` tell programs: the published schemas hold, and every finding has its code, place and help.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::process::{Command, Output};
 
 use serde_json::Value;

@@ -1,5 +1,4 @@
 //! Laws between the quantities of a context: what follows where `eval` states some of them, and what is refused.
-#![allow(clippy::unwrap_used)]
 
 use std::path::Path;
 

@@ -1,13 +1,10 @@
 //! The examples of the library: each runs, and says what the program says.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::path::PathBuf;
 use std::process::Command;
 
+use crate::common::file;
 use assert_cmd::cargo::CommandCargoExt as _;
-use common::file;
 use serde_json::Value;
 
 /// What an example prints. Tests build the examples, which then lie beside them.

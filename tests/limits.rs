@@ -1,9 +1,6 @@
 //! Limits of the theory on the two-speed example: rest, zero torque with preload, dry, reversal, neutral; the balance.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{RPM, language, two_speed_with};
+use crate::common::{RPM, language, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::transmission::Transmission;

@@ -1,9 +1,6 @@
 //! A planetary differential whose wheels turn nearly alike: what its friction takes goes over continuously into that of equal speeds.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{RPM, language};
+use crate::common::{RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;

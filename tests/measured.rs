@@ -1,8 +1,6 @@
 //! Measured data in studies: columns that are changed, torque and speed at the other port, several files, filters, steady stretches.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;

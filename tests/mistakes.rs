@@ -1,10 +1,8 @@
 //! Golden cases of the command line: what the program says about wrong studies, wrong kinds of files and wrong arguments. Each folder in
 //! `tests/mistakes` holds the arguments, one on a line, in `arguments.txt`, and what is printed in `expected.txt`.
 //! `UPDATE=1 cargo test` writes the expected texts anew.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;

@@ -1,8 +1,6 @@
 //! Whatever text stands in a file: no panic, no number that is not finite, and an end.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::sync::LazyLock;
 
 use gearloss_framework::document::read_yaml;

@@ -1,9 +1,6 @@
 //! Thermal networks that are laid out from a description: heat counted once, temperatures of a sensible size, paths to every number.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::RPM;
+use crate::common::{self, RPM};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;

@@ -1,13 +1,10 @@
 //! Files to start from: they run as they are, and with every option that they show.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use crate::common::language;
 use assert_cmd::Command;
-use common::language;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::resolve::Choice;

@@ -4,14 +4,11 @@
 //! 32 Gauss points on each smooth piece of the path of contact in place of its three (`constants.GAUSS`), so that they have no error
 //! of quadrature: 24 points give the same to 1e-9. `check.py` compares
 //! with the three points that the scripts are timed with, and so only to what these miss.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::path::Path;
 use std::process::Command;
 
-use common::file;
+use crate::common::file;
 
 /// Torque (Nm), speed (rpm), oil temperature (degC) and loss (W) with the inputs of the example.
 const PLAIN: [[f64; 4]; 18] = [

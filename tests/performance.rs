@@ -1,21 +1,18 @@
 //! The page of times: that it names the benches that exist, and how it is written from a run of them. No bench runs here: with
 //! `BENCHED=2026-01-31`, the date of the run, the figures of the last `cargo bench` go into the page.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-use common::{RPM, file, language, two_speed_with};
+use crate::common::{RPM, file, language, two_speed_with};
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::lanes::LANES;
 use serde_json::Value;
 
 const PAGE: &str = "docs/performance.md";
-const BEGIN: &str = "<!-- figures: BENCHED=DATE cargo test --test performance -->\n";
+const BEGIN: &str = "<!-- figures: BENCHED=DATE cargo test --test all performance:: -->\n";
 const END: &str = "<!-- end of figures -->\n";
 
 /// The benches of each file, in the order in which they stand there: their group has the name of the file.
@@ -229,7 +226,7 @@ fn the_page_names_the_benches_that_exist() {
     let rows: Vec<&str> = rows.collect();
     assert_eq!(
         rows, exist,
-        "{PAGE} is stale: run the benches, then `BENCHED=DATE cargo test --test performance`"
+        "{PAGE} is stale: run the benches, then `BENCHED=DATE cargo test --test all performance::`"
     );
     // Cargo runs what it is told of.
     let manifest = std::fs::read_to_string(file("Cargo.toml")).unwrap();

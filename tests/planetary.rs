@@ -1,10 +1,7 @@
 //! Planetary gearboxes from their documents: rolling power, unequal sharing, planets that dip, assembly, trains of several
 //! sets.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{RPM, language};
+use crate::common::{RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::gearbox::Gearbox;

@@ -1,8 +1,6 @@
 //! The program as its users call it.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use assert_cmd::Command;
 
 fn gearloss(args: &[&str]) -> std::process::Output {
@@ -691,7 +689,7 @@ fn faults_of_an_override_point_into_the_option() {
 
 #[test]
 fn faults_of_an_input_of_eval_have_file_and_line() {
-    let folder = std::env::temp_dir().join(format!("gearloss-eval-{}", std::process::id()));
+    let folder = std::env::temp_dir().join(format!("gearloss-eval-faults-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let wrong = |model: &str, input: &str| {
         let file = folder.join("input.yaml");

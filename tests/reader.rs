@@ -1,8 +1,6 @@
 //! Parquet that the program writes, read by an independent reader and compared with the CSV of the same run.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

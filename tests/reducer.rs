@@ -1,12 +1,10 @@
 //! The planetary example: its stand-in table, its results, and how often its loss models are asked.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::fmt::Write as _;
 use std::path::Path;
 
-use common::{RPM, language};
+use crate::common::{RPM, language};
+use gearloss_studies::analysis::OilTemperature;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::gearbox::Gearbox;
@@ -14,7 +12,6 @@ use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::{Equilibrium, Outcome};
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::OilTemperature;
 use serde_json::{Value, json};
 
 fn folder() -> std::path::PathBuf {

@@ -1,9 +1,7 @@
 //! The reference of the models in `docs/models` is that of the program: text from the heads of the model files, tables from
 //! their registrations, answers from running them.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::fmt::Write as _;
 
 use gearloss_framework::coefficients::COEFFICIENTS;
@@ -273,7 +271,7 @@ fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
 
 fn index(language: &Language) -> String {
     let mut out = String::from(
-        "# Models\n\nGenerated from the program: `UPDATE=1 cargo test --test reference`. Evidence grades are explained in \
+        "# Models\n\nGenerated from the program: `UPDATE=1 cargo test --test all reference::`. Evidence grades are explained in \
          [CONTRIBUTING.md](../../CONTRIBUTING.md).\n\n",
     );
     let mut count = 0;
@@ -324,7 +322,7 @@ fn the_reference_is_not_stale() {
         let committed = std::fs::read_to_string(&path).unwrap_or_default();
         assert!(
             committed == *own,
-            "docs/models/{name}.md is stale: run `UPDATE=1 cargo test --test reference`"
+            "docs/models/{name}.md is stale: run `UPDATE=1 cargo test --test all reference::`"
         );
     }
     let mut committed: Vec<String> = std::fs::read_dir(common::file("docs/models"))

@@ -1,14 +1,11 @@
 //! Evaluating allocates nothing after warm-up, and gives the same bits on any number of threads.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{RPM, language, two_speed_with};
+use crate::common::{RPM, language, two_speed_with};
+use gearloss_studies::analysis::{Bits, Field, MOST_HELD, OilTemperature, Points, held, run_grid, solve_pieces};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
-use gearloss_studies::analysis::{Bits, Field, MOST_HELD, OilTemperature, Points, held, run_grid, solve_pieces};
 use serde_json::json;
 
 #[test]

@@ -1,8 +1,6 @@
 //! The report of a study, also in a real browser where one is at hand.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;

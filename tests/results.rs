@@ -1,8 +1,6 @@
 //! Every file of results follows the published schemas, and the formats of a map hold the same numbers.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,9 +1,6 @@
 //! The synthetic measurement of the two-speed example: made here, and compared as a user compares his own.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::language;
+use crate::common::{self, language};
 use serde_json::Value;
 
 /// `UPDATE=1` writes the file.

@@ -1,8 +1,6 @@
 //! The published schemas are those of the program, and the walk gives their verdict on every document.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use gearloss_framework::document::{Content, Node, read_yaml};
 use gearloss_framework::language::{Kind, Language};
 use serde_json::{Value, json};
@@ -19,7 +17,7 @@ fn committed_schemas_are_not_stale() {
         let committed = std::fs::read_to_string(&path).unwrap();
         assert!(
             committed == own,
-            "schemas/{name}.schema.json is stale: run `UPDATE=1 cargo test --test schema`"
+            "schemas/{name}.schema.json is stale: run `UPDATE=1 cargo test --test all schema::`"
         );
     }
 }

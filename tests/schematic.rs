@@ -1,13 +1,10 @@
 //! The schematic of a gearbox: everything is drawn once, inside the picture, and gears in mesh touch.
 //!
 //! The pictures are left in the temporary folder of the target, to be looked at.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use std::path::Path;
 
-use common::language;
+use crate::common::{self, language};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;

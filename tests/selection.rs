@@ -1,19 +1,16 @@
 //! What a comparison of models decides, against a truth that is known: synthetic measurements of two gearboxes at four noise levels,
 //! with and without errors of the rig that all points share. The rates that it finds are in docs/identify.md.
-#![allow(clippy::unwrap_used)]
 #![allow(clippy::print_stdout, reason = "the documentation quotes the rates")]
 
-mod common;
-
-use common::{RPM, file, language};
+use crate::common::{RPM, file, language};
+use gearloss_studies::analysis::{Field, OilTemperature, Points, run_grid};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_numerics::inference::{Decision, PointSet, folds};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
-use gearloss_numerics::inference::{Decision, PointSet, folds};
 use gearloss_numerics::sampling::inverse_normal;
 use gearloss_numerics::selection::{Combination, Losses, MeasuredLosses, rank, stand, validate, winner};
-use gearloss_studies::analysis::{Field, OilTemperature, Points, run_grid};
 use serde_json::{Value, json};
 
 /// Numbers that are the same every time (Steele, Lea, Flood: SplitMix, 2014).

@@ -1,8 +1,6 @@
 //! What losses depend on: of laws whose slopes and shares are known, and what is refused.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

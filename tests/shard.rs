@@ -1,9 +1,7 @@
 //! Shards of a study, merged, give what a single run gives, byte by byte; they go on where they were broken off, and parts of
 //! anything else are refused.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,8 +1,6 @@
 //! Studies of the two-speed example: maps, stacks, exports, bands, tournaments; what they show agrees with what was solved.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,8 +1,6 @@
 //! Deviation from measured points over two quantities: of points that a model made itself, and beside `compare`.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,8 +1,6 @@
 //! Analyses that find temperatures, as a user runs them, and what is said where they cannot.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
+use crate::common;
 use std::path::PathBuf;
 
 use serde_json::Value;

@@ -1,9 +1,6 @@
 //! Other gearboxes than the example, from their documents: a differential, a planetary set, parallel paths.
-#![allow(clippy::unwrap_used)]
 
-mod common;
-
-use common::{RPM, language};
+use crate::common::{self, RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::gearbox::Gearbox;

@@ -1,7 +1,4 @@
 //! A gearbox with a port for each wheel, driven straight through a map, a cycle and a sweep of oils.
-#![allow(clippy::unwrap_used)]
-
-mod common;
 
 use assert_cmd::Command;
 use serde_json::Value;

@@ -1,5 +1,4 @@
 //! Shipped cycles: their check sums, and a duty of each.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::Registry;

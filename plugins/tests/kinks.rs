@@ -1,6 +1,5 @@
 //! An identification whose sum of squares has kinks and jumps: a gearbox with a large oil charge, whose losses are mostly churning after a
 //! law with flow regimes. Every start ends in the same minimum, and the result says at which kink it lies.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -1,5 +1,4 @@
 //! How much work the friction law `ehl_mixed` does on the paths of a solved point.
-#![allow(dead_code, clippy::unwrap_used)]
 
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::language::Language;

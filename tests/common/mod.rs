@@ -1,5 +1,4 @@
 //! What several tests share.
-#![allow(dead_code, clippy::unwrap_used)]
 
 pub mod contact_work;
 pub mod rig;

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use gearloss_framework::registry::Registry;
 
-use crate::mutate::{self, Words};
-use crate::random::Random;
-use crate::tree::Tree;
+use super::mutate::{self, Words};
+use super::random::Random;
+use super::tree::Tree;
 
 /// One case: files by name, and the command that reads them.
 pub struct Case {

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::random::Random;
-use crate::tree::{Tree, Way};
+use super::random::Random;
+use super::tree::{Tree, Way};
 
 /// What stands in sound documents: values by their keys.
 pub struct Words {

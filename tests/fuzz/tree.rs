@@ -2,7 +2,7 @@
 
 use gearloss_framework::document::{Content, Node, read_yaml};
 
-use crate::random::Random;
+use super::random::Random;
 
 /// A document, or a part of one.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use crate::cases::{Case, Sound};
+use super::cases::{Case, Sound};
 
 /// The longest that a case may use the processor; the slowest sound one takes two seconds in the test profile.
 pub const MOST_TIME: Duration = Duration::from_secs(30);
@@ -44,7 +44,7 @@ pub fn run(cases: &Cases, folder: &Path) {
     for number in (cases.first..cases.end).step_by(cases.stride as usize) {
         write!(log, "{number} ").unwrap();
         let case = sound.case(cases.seed, number);
-        lay_out(&case);
+        lay_out(&case, Path::new("."));
         reset_peak();
         let now = processor();
         *began.lock().unwrap() = (Instant::now(), now);
@@ -57,9 +57,9 @@ pub fn run(cases: &Cases, folder: &Path) {
     }
 }
 
-/// Writes the files of a case into the present folder, in place of those of the last one.
-pub fn lay_out(case: &Case) {
-    for entry in fs::read_dir(".").unwrap() {
+/// Writes the files of a case into a folder, in place of those of the last one.
+pub fn lay_out(case: &Case, folder: &Path) {
+    for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
             fs::remove_dir_all(path).unwrap();
@@ -68,10 +68,11 @@ pub fn lay_out(case: &Case) {
         }
     }
     for (name, text) in &case.files {
-        if let Some(folder) = Path::new(name).parent() {
+        let file = folder.join(name);
+        if let Some(folder) = file.parent() {
             fs::create_dir_all(folder).unwrap();
         }
-        fs::write(name, text).unwrap();
+        fs::write(file, text).unwrap();
     }
 }
 

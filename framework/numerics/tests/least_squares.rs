@@ -1,13 +1,10 @@
 //! Bounded least squares on a problem with the shape of a gearbox.
-#![allow(clippy::unwrap_used)]
-
-mod loss_map;
 
 use gearloss_numerics::least_squares::{
     Differences, Loss, Options, Parameter, Problem, Side, Status, Subproblem, multistart, solve,
 };
 
-use loss_map::{
+use crate::loss_map::{
     DEVIATIONS, NAMES, OPTIMUM, Point, TRUTH, deviations, errors, loss, measured, near, omega, parameters, points,
     problem, problem_of, sigma,
 };

@@ -1,9 +1,6 @@
 //! Bounded least squares on classic problems.
-#![allow(clippy::unwrap_used)]
 
-mod classics;
-
-use classics::{INF, Residual, beale, broyden, helix, parameters, powell, problem, rosenbrock, ways, wood};
+use crate::classics::{INF, Residual, beale, broyden, helix, parameters, powell, problem, rosenbrock, ways, wood};
 use gearloss_numerics::least_squares::{Fit, Noise, Options, Parameter, Problem, Side, halton, solve};
 
 /// No point of the box near a fit is better, by how much ever.

@@ -1,11 +1,8 @@
 //! What becomes of fits that make no sense, or that something stops.
-#![allow(clippy::unwrap_used)]
-
-mod classics;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use classics::{INF, Residual, parameters, problem, rosenbrock, wood};
+use crate::classics::{INF, Residual, parameters, problem, rosenbrock, wood};
 use gearloss_numerics::least_squares::{Options, Parameter, Problem, Reason, Status, solve};
 
 fn fault(of: &Problem<'_>) -> String {

@@ -1,9 +1,6 @@
 //! Several minima of a fit.
-#![allow(clippy::unwrap_used)]
 
-mod classics;
-
-use classics::{himmelblau, parameters, problem};
+use crate::classics::{himmelblau, parameters, problem};
 use gearloss_numerics::least_squares::{Kinship, Options, Problem, Status, multistart};
 
 #[test]

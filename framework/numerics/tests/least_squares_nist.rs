@@ -1,11 +1,9 @@
 //! The certified problems of nonlinear regression of the NIST (StRD), from both starts.
-#![allow(clippy::unwrap_used, clippy::print_stderr)]
-
-mod nist;
+#![allow(clippy::print_stderr)]
 
 use gearloss_numerics::least_squares::{Differences, Options, Parameter, Status, Steps, Subproblem, halton};
 
-use nist::{Certified, LAWS, all, digits};
+use crate::nist::{Certified, LAWS, all, digits};
 
 /// Sums over the runs of all problems from both starts.
 #[derive(Default)]

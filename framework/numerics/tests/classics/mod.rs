@@ -1,5 +1,4 @@
 //! Classic problems of least squares.
-#![allow(dead_code)]
 
 use gearloss_numerics::least_squares::{Options, Parameter, Problem, Subproblem};
 

@@ -4,7 +4,7 @@ use gearloss_numerics::design::{Design, Information, Plan, Rule, uniform_row};
 use gearloss_numerics::inference::{Parameter, Scale};
 use gearloss_numerics::sensitivity::gradients;
 
-use crate::check_problem::{BOUNDS, NAMES, START, model, points};
+use super::check_problem::{BOUNDS, NAMES, START, model, points};
 
 /// Printed with six to nine digits, the last of six worth up to 1e-5; derivatives have ten.
 fn near(x: f64, y: f64) {

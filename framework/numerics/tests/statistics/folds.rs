@@ -2,7 +2,7 @@
 
 use gearloss_numerics::inference::{FOLDS, Fold, Validation, folds};
 
-use crate::check_problem::{OPTIMUM, measured, minimise, parameters, points, residuals};
+use super::check_problem::{OPTIMUM, measured, minimise, parameters, points, residuals};
 
 /// M_s and dT, whose bounds and values are looked at.
 const M_S: usize = 6;

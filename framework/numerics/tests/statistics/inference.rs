@@ -6,7 +6,7 @@
 use gearloss_numerics::inference::{Fit, Parameter, Scale, Side, Verdict};
 use gearloss_numerics::sensitivity::gradients;
 
-use crate::check_problem::{BOUNDS, NAMES, OPTIMUM, Point, TERMS, TRUTH, fit, model, parameters, terms};
+use super::check_problem::{BOUNDS, NAMES, OPTIMUM, Point, TERMS, TRUTH, fit, model, parameters, terms};
 
 const F_NU: usize = 0;
 const F_MU: usize = 1;
@@ -146,8 +146,8 @@ fn check_7_2_ranged_singular_values() {
         .map(|k| Parameter::new(NAMES[k], Scale::Linear, OPTIMUM[k], BOUNDS[k]).unwrap())
         .collect();
     let all: Vec<usize> = (0..440).collect();
-    let measured = crate::check_problem::measured();
-    let points = crate::check_problem::points();
+    let measured = super::check_problem::measured();
+    let points = super::check_problem::points();
     let function = |theta: &[f64]| {
         let residual = |i: &usize| (model(theta, &points[*i]) - measured[*i]) / points[*i].sigma();
         Ok(all.iter().map(residual).collect())
@@ -155,7 +155,7 @@ fn check_7_2_ranged_singular_values() {
     let slopes = gradients(&linear, 0.0, function).unwrap();
     let jacobian = nalgebra::DMatrix::from_fn(440, 8, |i, k| slopes[i][k]);
     let u: Vec<f64> = parameters(&OPTIMUM).iter().map(|p| p.u).collect();
-    let residuals = crate::check_problem::residuals(&u, &all, &measured);
+    let residuals = super::check_problem::residuals(&u, &all, &measured);
     let fit = Fit::new(
         linear,
         &jacobian,
@@ -286,7 +286,7 @@ fn check_7_2_joint_region() {
     near(fit.rise(&u), 19.4138910, 1e-7);
     // The exact rise from the sums of squares themselves.
     let all: Vec<usize> = (0..440).collect();
-    let there: f64 = crate::check_problem::residuals(&u, &all, &crate::check_problem::measured())
+    let there: f64 = super::check_problem::residuals(&u, &all, &super::check_problem::measured())
         .iter()
         .map(|r| r * r)
         .sum();

@@ -2,7 +2,7 @@
 
 use gearloss_numerics::inference::{Accuracy, Comparison, Decision, FittedModel, PointSet, akaike, ranking};
 
-use crate::check_problem::{OPTIMUM, measured, minimise, parameters};
+use super::check_problem::{OPTIMUM, measured, minimise, parameters};
 
 #[test]
 fn check_7_4_models() {

@@ -2,7 +2,7 @@
 
 use gearloss_numerics::inference::{Accuracy, Fit, Parameter, Reach, Refit, Side, Standing};
 
-use crate::check_problem::{OPTIMUM, fit, linearised, measured, minimise, parameters};
+use super::check_problem::{OPTIMUM, fit, linearised, measured, minimise, parameters};
 
 /// The best of the others when one parameter is held, among parameters with their bounds.
 fn refit(list: &[Parameter], parameter: usize, value: f64, start: &[f64]) -> Refit {

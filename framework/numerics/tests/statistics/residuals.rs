@@ -2,7 +2,7 @@
 
 use gearloss_numerics::inference::{anderson_darling, band_means, succession};
 
-use crate::check_problem::{OPTIMUM, fit, parameters, points};
+use super::check_problem::{OPTIMUM, fit, parameters, points};
 
 fn near(x: f64, y: f64, tolerance: f64) {
     assert!((x - y).abs() <= tolerance, "{x} instead of {y}");

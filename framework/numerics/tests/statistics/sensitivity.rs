@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use gearloss_numerics::sampling::Sobol;
 use gearloss_numerics::sensitivity::{Influence, VarianceShares, local, screening, variance_shares};
 
-use crate::check_problem::{self, OPTIMUM, Point, parameters, scale, terms};
+use super::check_problem::{self, OPTIMUM, Point, parameters, scale, terms};
 
 /// Check values are printed with seven digits, small ones to the same place.
 fn near(x: f64, y: f64, tolerance: f64) {

@@ -4,7 +4,7 @@ use gearloss_numerics::inference::{Accuracy, Fit, Parameter, Scale, Side, Standi
 use gearloss_numerics::sensitivity::gradients;
 use nalgebra::DMatrix;
 
-use crate::check_problem::{BOUNDS, NAMES, OPTIMUM, linearised, measured, model, parameters, points, scale};
+use super::check_problem::{BOUNDS, NAMES, OPTIMUM, linearised, measured, model, parameters, points, scale};
 
 fn near(x: f64, y: f64, tolerance: f64) {
     assert!((x - y).abs() <= tolerance * y.abs(), "{x} instead of {y}");

@@ -1,5 +1,4 @@
 //! What an engineer sees in an editor: the language server of VS Code's YAML extension with the published schemas.
-#![allow(clippy::unwrap_used)]
 
 mod install;
 mod language_server;

@@ -3,8 +3,6 @@
 //!
 //! The check values were computed by an independent program. A test says how near they must be met and why.
 
-#![allow(clippy::unwrap_used)]
-
 mod check_problem;
 mod design;
 mod folds;

@@ -1,15 +1,15 @@
 //! Documents and tables that were changed at random: no command panics, hangs, takes much memory or answers with what is no number.
 //!
-//! 2000 cases in two processes; `FUZZ_CASES=1000000 FUZZ_SEED=5 FUZZ_PROCESSES=2 cargo test --release --test fuzz -- --nocapture`
-//! runs more or others. `FUZZ_ONE=123 cargo test --test fuzz -- --nocapture` lays out the files of one case and says its command.
+//! 2000 cases in two processes; `FUZZ_CASES=1000000 FUZZ_SEED=5 FUZZ_PROCESSES=2 cargo test --release --test all fuzz:: -- --nocapture`
+//! runs more or others. `FUZZ_ONE=123 cargo test --test all fuzz:: -- --nocapture` writes the files of one case and prints its command.
 //!
 //! Cases run inside of the test binary, which is begun again as a process of its own: so one that ends it costs one case. On Unix
 //! `ulimit -v` bounds what it may ask for; on Linux the most memory of each case is read from `/proc`.
-#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
+#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod cases;
 mod mutate;
-mod random;
+pub mod random;
 mod tree;
 mod worker;
 
@@ -74,7 +74,7 @@ fn begin(folder: &Path, [first, end, stride]: [u64; 3]) -> ExitStatus {
             .unwrap()
     };
     command
-        .args(["--exact", "worker", "--nocapture"])
+        .args(["--exact", "fuzz::worker", "--nocapture"])
         .env("FUZZ_FOLDER", folder)
         .env("FUZZ_FIRST", first.to_string())
         .env("FUZZ_END", end.to_string())
@@ -119,8 +119,7 @@ fn changed_documents_are_refused_or_answered() {
     if let Some(number) = given("FUZZ_ONE") {
         let folder = folder(&format!("case-{number}"));
         let case = cases::Sound::read(Path::new(env!("CARGO_MANIFEST_DIR"))).case(seed(), number);
-        std::env::set_current_dir(&folder).unwrap();
-        worker::lay_out(&case);
+        worker::lay_out(&case, &folder);
         println!("cd {}; gearloss {}", folder.display(), case.command.join(" "));
         return;
     }

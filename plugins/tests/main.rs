@@ -1,0 +1,5 @@
+//! The tests of the models from outside, as one program: `cargo test -p gearloss-plugins --test all MODULE::` runs one module.
+#![allow(clippy::unwrap_used)]
+
+mod duty;
+mod kinks;

@@ -1,0 +1,78 @@
+//! The tests of the program and of the models that it ships, as one program: each that links them on its own costs seconds and a
+//! hundred megabytes. A module is a file or a folder beside this one; `cargo test --test all MODULE::` runs the tests of one.
+#![allow(clippy::unwrap_used)]
+
+mod abreast;
+mod analyses;
+mod cards;
+mod coefficients;
+mod common;
+mod comparison;
+mod conformance;
+mod counts;
+mod coverage;
+mod cycle;
+mod editor;
+mod ehl_mixed;
+mod electric_drive_unit;
+mod explained;
+mod files;
+mod fit_rheology;
+mod fuzz;
+mod golden;
+mod hold_out;
+mod identify;
+mod invariants;
+mod json;
+mod laws;
+mod library;
+mod limits;
+mod locked;
+mod measured;
+mod mistakes;
+mod mutated;
+mod network;
+mod new;
+mod peers;
+mod performance;
+mod planetary;
+mod program;
+mod reader;
+mod reducer;
+mod reference;
+mod repeat;
+mod report;
+mod results;
+mod rig;
+mod schema;
+mod schematic;
+mod selection;
+mod sensitivity;
+mod shard;
+mod studies;
+mod surface;
+mod temperature;
+mod topologies;
+mod wheels;
+
+/// A file that no `mod` line names would never be compiled, and its tests would never fail.
+#[test]
+fn every_file_of_tests_is_a_module_of_its_program() {
+    for folder in ["tests", "framework/numerics/tests", "plugins/tests"] {
+        let mut files: Vec<String> = std::fs::read_dir(common::file(folder))
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.extension().is_some_and(|kind| kind == "rs") || path.join("mod.rs").is_file())
+            .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+            .filter(|name| name != "main")
+            .collect();
+        files.sort();
+        let main = std::fs::read_to_string(common::file(folder).join("main.rs")).unwrap();
+        let mut modules: Vec<&str> = main
+            .lines()
+            .filter_map(|line| line.strip_prefix("mod ")?.strip_suffix(';'))
+            .collect();
+        modules.sort_unstable();
+        assert_eq!(modules, files, "{folder}/main.rs");
+    }
+}
