@@ -339,13 +339,7 @@ fn eval_reads_its_input() {
 
 #[test]
 fn run_writes_csv_and_json_and_prints_tables() {
-    let folder = std::env::temp_dir().join(format!("gearloss-run-{}", std::process::id()));
-    let text = out(&[
-        "run",
-        "examples/two-speed-ev/study.yaml",
-        "-o",
-        folder.to_str().unwrap(),
-    ]);
+    let common::StudyRun { folder, text, .. } = common::study_run("examples/two-speed-ev/study.yaml");
     assert!(
         text.contains("efficiency of joint minus iso in efficiency points"),
         "{text}"
@@ -360,7 +354,6 @@ fn run_writes_csv_and_json_and_prints_tables() {
     for name in ["gap", "stack", "shares"] {
         assert!(folder.join(format!("{name}.csv")).exists() && folder.join(format!("{name}.json")).exists());
     }
-    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

@@ -5,27 +5,17 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-fn written(study: &str, name: &str, more: &[&str]) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("report-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(common::file(study))
-        .args(["-o", folder.to_str().unwrap()])
-        .args(more)
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    folder.join("report.html")
+/// The report of a study.
+fn report(study: &'static str) -> PathBuf {
+    common::study_run(study).folder.join("report.html")
 }
 
 /// Every analysis of both examples with its pictures, its words, the gearbox and the study behind it; nothing from a network.
 #[test]
 fn the_report_holds_everything_and_needs_no_network() {
-    for (study, name, words) in [
+    for (study, words) in [
         (
             "examples/two-speed-ev/study.yaml",
-            "two-speed",
             [
                 "rig_fit",
                 "loss torque in Nm",
@@ -35,7 +25,6 @@ fn the_report_holds_everything_and_needs_no_network() {
         ),
         (
             "examples/planetary-reducer/study.yaml",
-            "planetary",
             [
                 "twelve tests",
                 "oil temperature in degC",
@@ -44,21 +33,21 @@ fn the_report_holds_everything_and_needs_no_network() {
             ],
         ),
     ] {
-        let page = std::fs::read_to_string(written(study, name, &[])).unwrap();
+        let page = std::fs::read_to_string(report(study)).unwrap();
         for word in words {
-            assert!(page.contains(word), "{name}: {word}");
+            assert!(page.contains(word), "{study}: {word}");
         }
         // The plotting library names addresses in its text; nothing of the page loads one.
-        assert!(!page.contains("<script src") && !page.contains("<link"), "{name}");
+        assert!(!page.contains("<script src") && !page.contains("<link"), "{study}");
         assert!(page.contains("gearloss: study") && page.contains("Resolved description"));
         let figures = page.matches("class=\"figure\"").count();
-        assert!(figures >= 10, "{name}: {figures} pictures");
+        assert!(figures >= 10, "{study}: {figures} pictures");
     }
 }
 
 #[test]
 fn two_products_stand_side_by_side() {
-    let page = written("examples/two-products/study.yaml", "products", &[]);
+    let page = report("examples/two-products/study.yaml");
     let text = std::fs::read_to_string(&page).unwrap();
     for word in [
         "Gearbox ours",
@@ -88,13 +77,17 @@ fn two_products_stand_side_by_side() {
 fn a_template_of_the_user_makes_the_page() {
     let template = Path::new(env!("CARGO_TARGET_TMPDIR")).join("own.html");
     std::fs::write(&template, "{% for s in sections %}[{{ s.name }}]{% endfor %}").unwrap();
-    let page = written(
-        "examples/planetary-reducer/study.yaml",
-        "own",
-        &["--template", template.to_str().unwrap()],
-    );
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report-own");
+    let _ = std::fs::remove_dir_all(&folder);
+    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .arg("run")
+        .arg(common::file("examples/planetary-reducer/study.yaml"))
+        .args(["-o", folder.to_str().unwrap(), "--template", template.to_str().unwrap()])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(
-        std::fs::read_to_string(page).unwrap(),
+        std::fs::read_to_string(folder.join("report.html")).unwrap(),
         "[tests][loaded][unloaded][limit][fastest][convergence]"
     );
 }
@@ -109,7 +102,7 @@ fn a_browser_draws_every_picture_without_complaint() {
         writeln!(std::io::stderr(), "{words}").unwrap();
         return;
     };
-    let page = written("examples/two-speed-ev/study.yaml", "browser", &[]);
+    let page = report("examples/two-speed-ev/study.yaml");
     let output = Command::new(browser)
         .args([
             "--headless",

@@ -38,25 +38,12 @@ struct Written {
 
 static WRITTEN: LazyLock<Vec<Written>> = LazyLock::new(|| STUDIES.into_iter().flat_map(written).collect());
 
-/// Runs a study and reads what it wrote, one file for each analysis.
-fn written(study: &str) -> Vec<Written> {
-    let folder = folder(study);
-    let _ = std::fs::remove_dir_all(&folder);
-    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(common::file(study))
-        .arg("-o")
-        .arg(&folder)
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{study}: {}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+/// What a study writes, one file for each analysis.
+fn written(study: &'static str) -> Vec<Written> {
+    let folder = &common::study_run(study).folder;
     let text = std::fs::read_to_string(common::file(study)).unwrap();
     let analyses = read_yaml(0, &text).node.to_json()["analyses"].clone();
-    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let count = files.filter(|file| file.extension().is_some_and(|kind| kind == "json"));
     assert_eq!(count.count(), analyses.as_object().unwrap().len(), "{study}");
     let read = |(name, entry): (&String, &Value)| {
@@ -68,11 +55,6 @@ fn written(study: &str) -> Vec<Written> {
         }
     };
     analyses.as_object().unwrap().iter().map(read).collect()
-}
-
-fn folder(study: &str) -> PathBuf {
-    let name = Path::new(study).parent().unwrap().file_name().unwrap();
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join("results").join(name)
 }
 
 /// Operating points that show every branch: fixed, balanced, without balance, without a value, at rest, locking itself.
@@ -413,8 +395,7 @@ fn json_of(value: &Value, header: &[String]) -> Vec<Vec<Value>> {
 
 #[test]
 fn csv_json_and_parquet_of_a_map_hold_the_same_numbers() {
-    LazyLock::force(&WRITTEN);
-    let folder = folder("tests/results/study.yaml");
+    let folder = &common::study_run("tests/results/study.yaml").folder;
     for name in ["map_grid", "map_listed", "map_balanced"] {
         let (header, rows) = csv_of(&folder.join(format!("{name}.csv")));
         assert_eq!(

@@ -3,7 +3,11 @@
 pub mod contact_work;
 pub mod rig;
 
+use std::collections::BTreeMap;
+use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::{Mutex, OnceLock};
 
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
@@ -52,4 +56,46 @@ pub fn cases() -> Vec<PathBuf> {
         .collect();
     folders.sort();
     folders
+}
+
+/// A run of a study with the program.
+pub struct StudyRun {
+    /// Where its results are; to be read only.
+    pub folder: PathBuf,
+    /// What it printed.
+    pub text: String,
+    /// Tests in other processes wait for the folder: a runner may begin one for each test.
+    _lock: File,
+}
+
+/// Runs a study of the repository once for all tests that read its results.
+pub fn study_run(study: &'static str) -> &'static StudyRun {
+    static RUNS: Mutex<BTreeMap<&str, &OnceLock<StudyRun>>> = Mutex::new(BTreeMap::new());
+    let run: &'static OnceLock<StudyRun> = RUNS
+        .lock()
+        .unwrap()
+        .entry(study)
+        .or_insert_with(|| Box::leak(Box::default()));
+    run.get_or_init(|| {
+        let name = Path::new(study).parent().unwrap().file_name().unwrap();
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("results").join(name);
+        std::fs::create_dir_all(folder.parent().unwrap()).unwrap();
+        let lock = File::create(folder.with_extension("lock")).unwrap();
+        lock.lock().unwrap();
+        let _ = std::fs::remove_dir_all(&folder);
+        let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+            .arg("run")
+            .arg(file(study))
+            .arg("-o")
+            .arg(&folder)
+            .output()
+            .unwrap();
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{study}: {error}");
+        StudyRun {
+            folder,
+            text: String::from_utf8(output.stdout).unwrap(),
+            _lock: lock,
+        }
+    })
 }
