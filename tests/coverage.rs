@@ -1,15 +1,16 @@
-//! Whether intervals hold what is hidden as often as they say: 200 measurements of the synthetic rig, each with other noise.
+//! Whether intervals contain the hidden values as often as they state: measurements of the synthetic rig, each with other noise.
+//!
+//! 40 measurements; `FULL=1 cargo test --test all coverage:: -- --nocapture` takes 200, with closer limits.
 #![allow(clippy::print_stdout)]
 
-use crate::common::language;
 use crate::common::rig::{Rig, TRUTH, csv, entry, gearbox, identification, study};
+use crate::common::{is_full, language};
 use gearloss_studies::identify::Settings;
 use gearloss_numerics::inference::Standing;
 use gearloss_numerics::inference::probability::chi_square_quantile;
 use gearloss_numerics::least_squares::Status;
 use rayon::prelude::*;
-
-const SEEDS: u64 = 200;
+use std::ops::RangeInclusive;
 
 /// What one measurement tells.
 struct Told {
@@ -54,11 +55,46 @@ fn told(seed: u64) -> Told {
     }
 }
 
-/// Bands of a correct method for 200 runs: the central 95 % of a count with probability 0.95 are 92 to 98 %, the central 99 %
-/// 90.5 to 98.5 %; parameters of one fit depend on each other, so that the pooled share is held to 93 to 97 %.
+/// What a correct method keeps to with a number of measurements.
+struct Limits {
+    seeds: u64,
+    /// Shares over the runs without a parameter at a bound.
+    pooled: RangeInclusive<f64>,
+    each: RangeInclusive<f64>,
+    /// Minimum number of runs whose joint region of 99 % contains what is hidden.
+    joint: usize,
+}
+
+impl Limits {
+    /// Of 200 runs, the central 95 % of a count with probability 0.95 are 92 to 98 %, the central 99 % 90.5 to 98.5 %; parameters of
+    /// one fit depend on each other, so that the pooled share is held to 93 to 97 %.
+    ///
+    /// Of 40 runs the central 99 % of the count are 34 to 40, and of the pooled one of 320 about 0.92 to 0.98. The pooled share of these
+    /// runs is 0.947; with intervals a tenth narrower it is 0.897, a fifth narrower 0.844, half wider 1: all are outside.
+    fn of_the_run() -> Self {
+        if is_full() {
+            Self {
+                seeds: 200,
+                pooled: 0.93..=0.97,
+                each: 0.91..=0.985,
+                joint: 194,
+            }
+        } else {
+            Self {
+                seeds: 40,
+                pooled: 0.92..=0.98,
+                each: 0.85..=1.0,
+                joint: 38,
+            }
+        }
+    }
+}
+
 #[test]
 fn intervals_hold_what_is_hidden_as_often_as_they_say() {
-    let all: Vec<Told> = (1..=SEEDS).into_par_iter().map(told).collect();
+    let limits = Limits::of_the_run();
+    let seeds = limits.seeds;
+    let all: Vec<Told> = (1..=seeds).into_par_iter().map(told).collect();
     let free: Vec<&Told> = all.iter().filter(|t| !t.at_bound).collect();
     let share = |list: &[&Told], k: usize| list.iter().filter(|t| t.hits[k]).count() as f64 / list.len() as f64;
     let whole: Vec<&Told> = all.iter().collect();
@@ -69,7 +105,7 @@ fn intervals_hold_what_is_hidden_as_often_as_they_say() {
     };
     let evaluations = all.iter().map(|t| t.evaluations).sum::<usize>() as f64 / all.len() as f64;
     println!(
-        "{} of {SEEDS} runs with a parameter at a bound or within one standard error of one; {evaluations:.0} evaluations a fit",
+        "{} of {seeds} runs with a parameter at a bound or within one standard error of one; {evaluations:.0} evaluations a fit",
         all.len() - free.len()
     );
     for (k, (name, _)) in TRUTH.iter().enumerate() {
@@ -80,16 +116,16 @@ fn intervals_hold_what_is_hidden_as_often_as_they_say() {
         );
     }
     println!(
-        "pooled: {:.4} of the free runs, {:.4} of all; joint regions: 95 % {} of {SEEDS}, 99 % {}",
+        "pooled: {:.4} of the free runs, {:.4} of all; joint regions: 95 % {} of {seeds}, 99 % {}",
         pooled(&free),
         pooled(&whole),
         inside(0.95),
         inside(0.99)
     );
-    assert!(free.len() >= 150, "{}", free.len());
-    assert!((0.93..=0.97).contains(&pooled(&free)), "{}", pooled(&free));
+    assert!(4 * free.len() >= 3 * all.len(), "{}", free.len());
+    assert!(limits.pooled.contains(&pooled(&free)), "{}", pooled(&free));
     for (k, (name, _)) in TRUTH.iter().enumerate() {
-        assert!((0.91..=0.985).contains(&share(&free, k)), "{name}: {}", share(&free, k));
+        assert!(limits.each.contains(&share(&free, k)), "{name}: {}", share(&free, k));
     }
-    assert!(inside(0.99) >= 194, "{}", inside(0.99));
+    assert!(inside(0.99) >= limits.joint, "{}", inside(0.99));
 }

@@ -24,6 +24,11 @@ pub fn language() -> Language {
     Language::new(Registry::linked().unwrap()).unwrap_or_else(|faults| panic!("{faults:#?}"))
 }
 
+/// Whether expensive tests take their complete size: `FULL=1` in the environment.
+pub fn is_full() -> bool {
+    std::env::var_os("FULL").is_some()
+}
+
 /// A file of the repository.
 pub fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
