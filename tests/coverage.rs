@@ -5,10 +5,10 @@
 
 use crate::common::rig::{Rig, TRUTH, csv, entry, gearbox, identification, study};
 use crate::common::{is_full, language};
-use gearloss_studies::identify::Settings;
 use gearloss_numerics::inference::Standing;
 use gearloss_numerics::inference::probability::chi_square_quantile;
 use gearloss_numerics::least_squares::Status;
+use gearloss_studies::identify::Settings;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 

@@ -4,21 +4,21 @@
 //! from each gear to the oil.
 
 use crate::common::{RPM, file, language};
-use gearloss_studies::analysis::{Driven, OilTemperature, Ride, drive};
-use gearloss_studies::duty::{
-    CoastDownEntry, CycleEntry, Regeneration, RoadLoad, STANDARD_GRAVITY, ShippedCycleEntry, Vehicle,
-};
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::motor::MotorMap;
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::geometry::Pair;
 use gearloss_framework::language::Language;
 use gearloss_framework::loads::SupportLoad;
+use gearloss_framework::motor::MotorMap;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::{Moment, Scheme, StepSize, Surroundings};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::{Driven, OilTemperature, Ride, drive};
+use gearloss_studies::duty::{
+    CoastDownEntry, CycleEntry, Regeneration, RoadLoad, STANDARD_GRAVITY, ShippedCycleEntry, Vehicle,
+};
 use serde_json::{Value, json};
 
 const EXAMPLE: &str = "examples/electric-drive-unit/gearbox.yaml";

@@ -7,15 +7,15 @@ use std::sync::LazyLock;
 
 use crate::common::rig::Normal;
 use crate::common::{RPM, language};
-use gearloss_studies::analysis::{Rows, levels};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_studies::identify::{HoldOut, Identification, Settings};
-use gearloss_numerics::inference::{Coverage, Widening, succession};
 use gearloss_framework::language::Language;
-use gearloss_studies::measured::MeasuredEntry;
 use gearloss_framework::resolve::Choice;
+use gearloss_numerics::inference::{Coverage, Widening, succession};
+use gearloss_studies::analysis::{Rows, levels};
+use gearloss_studies::identify::{HoldOut, Identification, Settings};
+use gearloss_studies::measured::MeasuredEntry;
 use gearloss_studies::study::{HoldOutEntry, HoldOutRows, IdentifiedEntry, Quantity, ScaleEntry};
 use serde_json::{Value, json};
 

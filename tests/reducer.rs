@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::common::{RPM, language};
-use gearloss_studies::analysis::OilTemperature;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::gearbox::Gearbox;
@@ -12,6 +11,7 @@ use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::{Equilibrium, Outcome};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::OilTemperature;
 use serde_json::{Value, json};
 
 fn folder() -> std::path::PathBuf {

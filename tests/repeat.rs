@@ -3,9 +3,9 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::{RPM, language, two_speed_with};
-use gearloss_studies::analysis::{Bits, Field, MOST_HELD, OilTemperature, Points, held, run_grid, solve_pieces};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
+use gearloss_studies::analysis::{Bits, Field, MOST_HELD, OilTemperature, Points, held, run_grid, solve_pieces};
 use serde_json::json;
 
 #[test]

@@ -3,14 +3,14 @@
 #![allow(clippy::print_stdout, reason = "the documentation quotes the rates")]
 
 use crate::common::{RPM, file, language};
-use gearloss_studies::analysis::{Field, OilTemperature, Points, run_grid};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_numerics::inference::{Decision, PointSet, folds};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
+use gearloss_numerics::inference::{Decision, PointSet, folds};
 use gearloss_numerics::sampling::inverse_normal;
 use gearloss_numerics::selection::{Combination, Losses, MeasuredLosses, rank, stand, validate, winner};
+use gearloss_studies::analysis::{Field, OilTemperature, Points, run_grid};
 use serde_json::{Value, json};
 
 /// Numbers that are the same every time (Steele, Lea, Flood: SplitMix, 2014).
