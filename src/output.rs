@@ -53,7 +53,8 @@ impl From<Stopped> for Failure {
     fn from(stopped: Stopped) -> Self {
         match stopped {
             Stopped::Found(findings) => Self::Found(findings),
-            Stopped::Interrupted | Stopped::Checked => Self::Interrupted,
+            Stopped::Unwritten(text) => Self::Input(text),
+            Stopped::Interrupted | Stopped::Checked | Stopped::Elsewhere => Self::Interrupted,
         }
     }
 }

@@ -7,7 +7,7 @@ use gearloss_report::Figure;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, ErrorKind, Value as Filled};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::Serialize;
 use serde_json::Value;
 
 /// The template that is used unless the user gives one of his own.
@@ -24,8 +24,8 @@ pub struct Report {
 }
 
 /// One analysis.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Section {
+#[derive(Debug)]
+struct Section {
     name: String,
     /// What the analysis is, as a sentence.
     about: String,
@@ -33,52 +33,7 @@ pub struct Section {
     verdicts: Vec<String>,
     /// Tables and notes as printed.
     text: String,
-    figures: Vec<Shown>,
-}
-
-impl Section {
-    /// Tables and notes as printed.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-}
-
-/// A picture in the page.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-struct Shown {
-    title: String,
-    spec: Spec,
-}
-
-/// Traces and layout of a picture.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(from = "String")]
-enum Spec {
-    /// To be made of the picture: of all of them together when the page is written, on all threads.
-    Of(Box<Figure>),
-    /// As JSON, where a shard has made it.
-    Made(String),
-}
-
-impl From<String> for Spec {
-    fn from(json: String) -> Self {
-        Self::Made(json)
-    }
-}
-
-impl Spec {
-    fn json(&self) -> String {
-        match self {
-            Self::Of(figure) => figure.plotly().to_string(),
-            Self::Made(json) => json.clone(),
-        }
-    }
-}
-
-impl Serialize for Spec {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(&self.json())
-    }
+    figures: Vec<Figure>,
 }
 
 /// Why the page cannot be written.
@@ -185,22 +140,14 @@ impl Report {
     }
 
     /// Takes back the last section.
-    pub fn drop_last(&mut self) -> Option<Section> {
-        self.sections.pop()
-    }
-
-    /// Adds a section that was made elsewhere.
-    pub fn add(&mut self, section: Section) {
-        self.sections.push(section);
+    pub fn drop_last(&mut self) {
+        self.sections.pop();
     }
 
     /// Adds a picture to the section.
     pub fn figure(&mut self, figure: Figure) {
         if let Some(section) = self.sections.last_mut() {
-            section.figures.push(Shown {
-                title: figure.title().to_owned(),
-                spec: Spec::Of(Box::new(figure)),
-            });
+            section.figures.push(figure);
         }
     }
 
@@ -233,11 +180,11 @@ impl Report {
         environment.set_fuel(Some(MOST_STEPS));
         // It stands in no list of templates, so that there is none to include, not even itself.
         let page = environment.template_from_named_str("report", template.unwrap_or(TEMPLATE))?;
-        let all: Vec<&Shown> = self.sections.iter().flat_map(|section| &section.figures).collect();
+        let all: Vec<&Figure> = self.sections.iter().flat_map(|section| &section.figures).collect();
         let id = |number: usize| format!("figure-{number}");
-        let datum = |(number, shown): (usize, &&Shown)| {
-            let [id, title] = [id(number), shown.title.clone()].map(Value::from);
-            let json = format!(r#"{{"id":{id},"title":{title},"spec":{}}}"#, shown.spec.json());
+        let datum = |(number, shown): (usize, &&Figure)| {
+            let [id, title] = [id(number), shown.title().to_owned()].map(Value::from);
+            let json = format!(r#"{{"id":{id},"title":{title},"spec":{}}}"#, shown.plotly());
             // A text in the data must neither end the script that holds it nor begin a comment or a script in there.
             json.replace('<', "\\u003c")
         };
@@ -249,7 +196,7 @@ impl Report {
             let figures = section.figures.iter().zip(numbers.by_ref());
             let figures = figures.map(|(shown, number)| FigureOfPage {
                 id: id(number),
-                title: &shown.title,
+                title: shown.title(),
             });
             sections.push(SectionOfPage {
                 name: &section.name,

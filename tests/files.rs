@@ -248,9 +248,13 @@ fn links_are_replaced_and_not_followed() {
             .status
             .success()
     );
-    fs::remove_dir_all(part.join("field")).unwrap();
-    symlink(&folder, part.join("field")).unwrap();
-    refused(&folder, &["run", "study.yaml", "--shard", "1/1"], &["field", "a link"]);
+    fs::remove_file(part.join("field.tasks")).unwrap();
+    symlink(&diary, part.join("field.tasks")).unwrap();
+    refused(
+        &folder,
+        &["run", "study.yaml", "--shard", "1/1"],
+        &["field.tasks", "a link"],
+    );
 }
 
 /// A limit on the length of files stands for a disk that is full: both let a write fail.
@@ -277,9 +281,7 @@ fn what_cannot_be_written_is_named() {
     let output = limited("run study.yaml --shard 1/1");
     let told = text(&output.stderr);
     assert!(
-        output.status.code() == Some(2)
-            && told.contains("cannot write ")
-            && told.contains("shards/1-of-1/field/0.pieces"),
+        output.status.code() == Some(2) && told.contains("cannot write ") && told.contains("shards/1-of-1/field.tasks"),
         "{told}"
     );
     if Path::new("/dev/full").exists() {

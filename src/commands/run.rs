@@ -1,7 +1,6 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
 mod breakdown;
-mod columns;
 mod compare;
 mod component_compare;
 mod contact_path;
@@ -9,28 +8,27 @@ mod cycle;
 mod fluid_sweep;
 mod folder;
 mod identify;
-mod map;
+mod manifest;
 mod operating_points;
-mod parquet;
-mod parts;
-mod pieces;
 mod report;
 mod rms_surface;
 mod runner;
 mod sensitivity;
 mod shard;
+mod shard_tasks;
 mod shown;
 mod stated_ranges;
 mod sweep;
 mod table;
+mod task_file;
 mod thermal_limit;
 mod tournament;
 mod uncertainty;
 mod write;
 
-pub(super) use map::tidy;
-pub(super) use parts::Parts;
 pub use shard::Shard;
+pub(super) use shard::gather;
+pub(super) use shard_tasks::ShardTasks;
 
 use self::folder::Held;
 use self::runner::{Run, Runner};
@@ -194,7 +192,7 @@ fn changed_coefficients(language: &Language, study: &Study) -> Vec<String> {
 pub(super) fn all(
     language: &Language,
     study: &Study,
-    parts: Option<Parts>,
+    tasks: Option<ShardTasks>,
     args: &ResultArgs,
     out: &mut Out,
 ) -> Result<End, Failure> {
@@ -207,7 +205,7 @@ pub(super) fn all(
     }
     let template = report::template(args.template.as_deref())?;
     let held = taken(&folder, args.force, out)?;
-    let runner = Run::new(language, study, folder, parts);
+    let runner = Run::new(language, study, folder, tasks);
     if let Some(title) = &study.entry.title {
         out.line(title)?;
         out.line("")?;
@@ -232,12 +230,7 @@ pub(super) fn all(
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
-        let outcome = runner.parts.as_ref().and_then(|parts| parts.outcome(name));
-        let done = match outcome {
-            Some(outcome) => outcome.replay(&runner, out),
-            None => runner.attempt(name, analysis, out),
-        };
-        match done {
+        match runner.attempt(name, analysis, out) {
             Ok(()) => {}
             Err(failure) => {
                 let Some(text) = failure.text() else {
@@ -260,7 +253,10 @@ pub(super) fn all(
     runner.print_stated_ranges(out)?;
     report::write(&runner, template.as_deref())?;
     held.finish();
-    out.line(format!("results in {}, report in report.html", runner.folder.display()))?;
+    out.line(format!(
+        "results in {}, report in report.html",
+        runner.files.folder.display()
+    ))?;
     if let Some(finished) = finished {
         let all = study.entry.analyses.len();
         Out::error().line(format!("{finished} of {all} analyses are finished and kept"))?;

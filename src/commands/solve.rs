@@ -17,10 +17,10 @@ use serde_json::{Value, json};
 use super::check::grade;
 use super::network::{json_of_network, of_network};
 use super::point::{Prepared, prepare};
-use super::run::tidy;
 use super::{locking, set, warn};
 use crate::args::{Format, SolveArgs};
 use crate::output::{End, Failure, Out, Table, fixed, number, significant};
+use gearloss_studies::analyses::numbers::tidy;
 
 pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;

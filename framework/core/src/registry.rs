@@ -78,7 +78,7 @@ macro_rules! origin {
 }
 
 /// How well a formula, a default value or an option is known; the weakest comes last.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
     /// Several independent sources agree.

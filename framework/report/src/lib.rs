@@ -1,9 +1,12 @@
 //! What readers get to see of results beside numbers: pictures.
 
 mod contours;
+pub mod csv;
 pub mod deviations;
+pub mod exports;
 pub mod figure;
 pub mod page;
+pub mod parquet;
 pub mod plot;
 mod schematic;
 pub mod text;

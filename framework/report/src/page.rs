@@ -5,6 +5,7 @@
 
 use std::any::{Any, TypeId};
 
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::inventory;
 use gearloss_studies::analyses::{AnyOutcome, Outcome};
 use gearloss_studies::analysis::Note;
@@ -22,6 +23,19 @@ pub struct Page {
     pub verdicts: Vec<String>,
     /// Pictures.
     pub figures: Vec<NamedFigure>,
+    /// Files for other programs.
+    pub files: Vec<NamedFile>,
+    /// Why files for other programs are missing.
+    pub faults: Vec<Diagnostic>,
+}
+
+/// A file for another program.
+#[derive(Debug)]
+pub struct NamedFile {
+    /// Its name.
+    pub name: String,
+    /// What it holds.
+    pub bytes: Vec<u8>,
 }
 
 /// A piece of text.
@@ -68,6 +82,17 @@ impl Page {
     pub fn figure(&mut self, name: impl Into<String>, figure: Figure) {
         let name = name.into();
         self.figures.push(NamedFigure { name, figure });
+    }
+
+    /// Adds a file for another program.
+    pub fn file(&mut self, name: impl Into<String>, bytes: Vec<u8>) {
+        let name = name.into();
+        self.files.push(NamedFile { name, bytes });
+    }
+
+    /// Says why a file for another program is missing.
+    pub fn fault(&mut self, why: Diagnostic) {
+        self.faults.push(why);
     }
 
     /// The page of an outcome.

@@ -1,5 +1,8 @@
 //! Numbers and tables as text.
 
+pub use gearloss_studies::analyses::map::SHOWN;
+pub use gearloss_studies::analyses::numbers::spread_over;
+
 use std::fmt::Write as _;
 
 /// A table of texts: the first column to the left, numbers to the right.
@@ -128,17 +131,6 @@ pub fn figures(x: f64, count: u32) -> String {
 /// At most a handful of rows and columns, spread evenly, both ends among them.
 pub fn spread(count: usize) -> Vec<usize> {
     spread_over(count, SHOWN)
-}
-
-/// The most rows and columns of a table on the terminal.
-pub const SHOWN: usize = 8;
-
-/// At most some of as many, spread evenly, both ends among them.
-pub fn spread_over(count: usize, most: usize) -> Vec<usize> {
-    if count <= most {
-        return (0..count).collect();
-    }
-    (0..most).map(|i| i * (count - 1) / (most - 1)).collect()
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ pub mod duties;
 mod entries;
 pub mod head;
 pub mod inputs;
+pub mod map;
 pub mod measurable;
 pub mod numbers;
 pub mod progress;

@@ -7,4 +7,5 @@ pub mod identify;
 pub mod measured;
 pub mod study;
 pub mod table;
+pub mod tasks;
 pub mod varied;

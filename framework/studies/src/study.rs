@@ -8,7 +8,6 @@ mod cycle;
 mod data;
 mod files;
 mod identify;
-mod map;
 mod names;
 mod operating_points;
 mod parameters;
@@ -37,7 +36,6 @@ pub use identify::{
     FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry,
     PosteriorEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
 };
-pub use map::MapEntry;
 pub use names::is_device;
 pub use operating_points::OperatingPointsEntry;
 pub use range::RangeEntry;
@@ -48,7 +46,7 @@ pub use temperature::{Find, ThermalLimitEntry};
 pub use then::Then;
 pub use tournament::{CandidatesEntry, FactorsEntry, LossErrorsEntry, TournamentEntry};
 pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
-pub use write::{Export, Write};
+pub use write::Write;
 
 use crate::analyses::AnalysisEntry;
 use crate::duty::{CycleEntry, VehicleEntry};

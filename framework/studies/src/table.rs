@@ -4,6 +4,12 @@
 //! an Arrow dictionary, because most columns of texts repeat a few.
 
 use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::analyses::Stopped;
 
 /// A table of results.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,13 +33,13 @@ pub struct Column {
     pub values: Values,
 }
 
-/// The cells of a column.
+/// The cells of a column; a copy shares them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
     /// Numbers; NaN is a gap.
-    Numbers(Vec<f64>),
+    Numbers(Arc<Vec<f64>>),
     /// Texts.
-    Texts(Texts),
+    Texts(Arc<Texts>),
 }
 
 /// Texts of which many are the same.
@@ -63,7 +69,7 @@ impl Column {
             name: name.into(),
             unit: unit.into(),
             meaning: meaning.into(),
-            values: Values::Numbers(Vec::new()),
+            values: Values::Numbers(Arc::default()),
         }
     }
 
@@ -73,16 +79,13 @@ impl Column {
             name: name.into(),
             unit: Cow::Borrowed(""),
             meaning: meaning.into(),
-            values: Values::Texts(Texts::default()),
+            values: Values::Texts(Arc::default()),
         }
     }
 
     /// Number of cells.
     pub fn len(&self) -> usize {
-        match &self.values {
-            Values::Numbers(numbers) => numbers.len(),
-            Values::Texts(texts) => texts.codes.len(),
-        }
+        self.values.len()
     }
 
     /// True without cells.
@@ -124,6 +127,27 @@ impl Texts {
         &self.codes
     }
 
+    /// So many times the same text.
+    pub fn repeated(text: &str, count: usize) -> Self {
+        let code = (!text.is_empty()).then_some(0);
+        Self {
+            kinds: code.map(|_| text.to_owned()).into_iter().collect(),
+            codes: vec![code; count],
+        }
+    }
+
+    /// The codes of other texts among these.
+    fn codes_of(&mut self, other: &Self) -> Vec<u32> {
+        let code = |kind: &String| {
+            let known = self.kinds.iter().position(|own| own == kind);
+            known.unwrap_or_else(|| {
+                self.kinds.push(kind.clone());
+                self.kinds.len() - 1
+            }) as u32
+        };
+        other.kinds.iter().map(code).collect()
+    }
+
     fn push(&mut self, text: &str) {
         if text.is_empty() {
             return self.codes.push(None);
@@ -135,6 +159,71 @@ impl Texts {
             self.kinds.len() - 1
         });
         self.codes.push(Some(code as u32));
+    }
+}
+
+impl<'t> FromIterator<&'t str> for Texts {
+    fn from_iter<I: IntoIterator<Item = &'t str>>(all: I) -> Self {
+        let mut texts = Self::default();
+        all.into_iter().for_each(|text| texts.push(text));
+        texts
+    }
+}
+
+impl Values {
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Numbers(numbers) => numbers.len(),
+            Self::Texts(texts) => texts.codes.len(),
+        }
+    }
+
+    /// True without cells.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Numbers with gaps.
+    pub fn from_numbers(numbers: impl Iterator<Item = Option<f64>>) -> Self {
+        Self::Numbers(Arc::new(numbers.map(|x| x.unwrap_or(f64::NAN)).collect()))
+    }
+
+    /// Texts, of which the empty ones are gaps.
+    pub fn from_texts<'t>(texts: impl Iterator<Item = &'t str>) -> Self {
+        Self::Texts(Arc::new(texts.collect()))
+    }
+
+    /// Adds cells of others, in an order: number of one of them, and which of its cells follow.
+    ///
+    /// # Panics
+    /// If numbers and texts meet: a bug of the caller.
+    fn extend(&mut self, others: &[&Self], order: &[(usize, Range<usize>)]) {
+        match self {
+            Self::Numbers(own) => {
+                let own = Arc::make_mut(own);
+                for (number, cells) in order {
+                    let Self::Numbers(other) = others[*number] else {
+                        panic!("a column of numbers takes numbers");
+                    };
+                    own.extend_from_slice(&other[cells.clone()]);
+                }
+            }
+            Self::Texts(own) => {
+                let own = Arc::make_mut(own);
+                let texts = |values: &&Self| match values {
+                    Self::Texts(texts) => Arc::clone(texts),
+                    Self::Numbers(_) => panic!("a column of texts takes texts"),
+                };
+                let others: Vec<Arc<Texts>> = others.iter().map(texts).collect();
+                let codes: Vec<Vec<u32>> = others.iter().map(|other| own.codes_of(other)).collect();
+                for (number, cells) in order {
+                    let cells = others[*number].codes[cells.clone()].iter();
+                    own.codes
+                        .extend(cells.map(|code| code.map(|code| codes[*number][code as usize])));
+                }
+            }
+        }
     }
 }
 
@@ -162,6 +251,29 @@ impl Table {
         self.columns.iter().find(|column| column.name == name)
     }
 
+    /// Adds rows of parts that have values for every column, in an order: number of a part, and which of its rows follow.
+    ///
+    /// # Panics
+    /// If a part has other columns: a bug of the caller.
+    pub fn extend(&mut self, parts: &[Vec<Values>], order: &[(usize, Range<usize>)]) {
+        self.columns.par_iter_mut().enumerate().for_each(|(place, column)| {
+            let others: Vec<&Values> = parts.iter().map(|part| &part[place]).collect();
+            column.values.extend(&others, order);
+        });
+    }
+
+    /// The columns without their cells.
+    pub fn header(&self) -> Self {
+        let column = |column: &Column| Column {
+            values: match column.values {
+                Values::Numbers(_) => Values::Numbers(Arc::default()),
+                Values::Texts(_) => Values::Texts(Arc::default()),
+            },
+            ..column.clone()
+        };
+        Self::new(&self.name, self.columns.iter().map(column))
+    }
+
     /// Adds a row.
     ///
     /// # Panics
@@ -174,15 +286,24 @@ impl Table {
                 .expect("a row has no more cells than the table has columns");
             match (&mut column.values, cell) {
                 (Values::Numbers(numbers), Cell::Number(x)) => {
-                    numbers.push(x.filter(|x| x.is_finite()).unwrap_or(f64::NAN));
+                    Arc::make_mut(numbers).push(x.filter(|x| x.is_finite()).unwrap_or(f64::NAN));
                 }
-                (Values::Texts(texts), Cell::Text(text)) => texts.push(&text),
+                (Values::Texts(texts), Cell::Text(text)) => Arc::make_mut(texts).push(&text),
                 (Values::Numbers(_), Cell::Text(text)) => panic!("`{}` takes numbers, not `{text}`", column.name),
                 (Values::Texts(_), Cell::Number(x)) => panic!("`{}` takes texts, not {x:?}", column.name),
             }
         }
         assert!(columns.next().is_none(), "a row has a cell for every column");
     }
+}
+
+/// Takes the rows of a table that is too large to be held, some at a time.
+pub trait RowSink: Sync {
+    /// Takes rows that follow those before; the name says of which table.
+    ///
+    /// # Errors
+    /// [`Stopped::Unwritten`] where they cannot be kept.
+    fn take(&self, rows: &Table) -> Result<(), Stopped>;
 }
 
 impl From<f64> for Cell<'_> {

@@ -9,10 +9,10 @@ use serde_json::Value;
 
 use self::bars::{Bars, Kind, Row};
 use super::super::solve::RPM;
-use super::map::tidy;
 use super::write::{head, write};
 use super::{Built, Runner, axis, gear_of, speeds, torques};
 use crate::output::{Failure, Out, fixed};
+use gearloss_studies::analyses::numbers::tidy;
 
 pub fn run(runner: &Runner<'_>, name: &str, entry: &BreakdownEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");

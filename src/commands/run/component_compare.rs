@@ -14,11 +14,12 @@ use gearloss_studies::study::{ComponentCompareEntry, Data};
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
-use super::map::{spread, tidy};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, speeds, torques};
 use crate::output::{Failure, Out, Table, fixed, number};
+use gearloss_report::text::spread;
 use gearloss_studies::analyses::measurable::{is_measurable, note};
+use gearloss_studies::analyses::numbers::tidy;
 
 /// The component under one model at one point.
 struct Answer {

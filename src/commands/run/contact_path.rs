@@ -18,10 +18,11 @@ use gearloss_studies::study::ContactPathEntry;
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
-use super::map::{spread, tidy};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner};
 use crate::output::{Failure, Out, Table, number};
+use gearloss_report::text::spread;
+use gearloss_studies::analyses::numbers::tidy;
 
 /// One place on the path.
 struct Place {

@@ -10,10 +10,10 @@ use serde_json::{Map, Value, json};
 
 use super::super::solve::RPM;
 use super::Runner;
-use super::map::tidy;
 use super::write::{cell, head, picture, write};
 use crate::output::{Failure, Out, Table, fixed, number};
 use gearloss_studies::analyses::measurable::{is_measurable, note};
+use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::rows::Solved;
 use gearloss_studies::analyses::shares::{Shares, together};
 

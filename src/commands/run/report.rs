@@ -37,7 +37,7 @@ pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
 
 /// Writes `report.html` beside the results.
 pub fn write(runner: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
-    let context = runner.runner("report");
+    let context = runner.context("report");
     for (i, (name, gearbox)) in runner.study.gearboxes.iter().enumerate() {
         let page = page(&context, name, gearbox, i == 0)?;
         runner.report.borrow_mut().gearbox(page);
@@ -56,7 +56,7 @@ pub fn write(runner: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
             .collect(),
         study: runner.study.text.clone(),
     };
-    let (place, mut to) = Place::new(runner, REPORT)?;
+    let (place, mut to) = Place::new(&runner.files, REPORT)?;
     let written = runner.report.borrow().html(&frame, template, &mut to);
     written.map_err(|fault| match fault {
         PageFault::Template(e) => Failure::input(

@@ -11,18 +11,21 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_report::page::{Page, Text};
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
-use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
+use gearloss_studies::analysis::{GridResult, Points, notes};
 use gearloss_studies::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
-    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
+    IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
+    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Write,
 };
+use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
+use super::table::Tables;
 use super::{
-    Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
-    rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+    breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, operating_points, rms_surface,
+    sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -32,19 +35,18 @@ use crate::report::Report;
 pub struct Run<'a> {
     pub(super) language: &'a Language,
     pub(super) study: &'a Study,
-    pub(super) folder: PathBuf,
     bars: Bars,
     pub(super) report: RefCell<Report>,
-    /// Files that were written.
-    pub(super) names: write::Names,
+    /// Where results go.
+    pub(super) files: write::Files,
     /// Limits that were left at any point, counted over all analyses.
     pub(super) left: Cell<usize>,
     /// The same limits, for the end of the run.
     pub(super) stated_ranges: RefCell<StatedRanges>,
     /// Files that the gearboxes had read before any analysis.
     known: Vec<Vec<PathBuf>>,
-    /// What shards have computed, where they are merged.
-    pub(super) parts: Option<Parts>,
+    /// Results of tasks that shards have computed or are to compute.
+    pub(super) tasks: Option<ShardTasks>,
     /// True for `check`: an analysis ends where it would begin to compute, with all that it refuses before.
     only_checks: bool,
 }
@@ -108,21 +110,20 @@ impl Drop for Bar {
 }
 
 impl<'a> Run<'a> {
-    pub(super) fn new(language: &'a Language, study: &'a Study, folder: PathBuf, parts: Option<Parts>) -> Self {
+    pub(super) fn new(language: &'a Language, study: &'a Study, folder: PathBuf, tasks: Option<ShardTasks>) -> Self {
         let known = |(_, gearbox): &(String, Gearbox)| gearbox.files.all().into_iter().map(|(file, _)| file).collect();
         Self {
             language,
             study,
-            folder,
+            files: write::Files::new(folder),
             bars: Bars {
                 shown: Out::error().is_terminal(),
             },
             report: RefCell::default(),
-            names: write::Names::default(),
             left: Cell::new(0),
             stated_ranges: RefCell::default(),
             known: study.gearboxes.iter().map(known).collect(),
-            parts,
+            tasks,
             only_checks: false,
         }
     }
@@ -136,16 +137,11 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// An analysis by its name.
-    pub(super) fn runner<'r>(&'r self, name: &'r str) -> Runner<'r> {
+    /// What an analysis is given.
+    pub(super) fn context<'r>(&'r self, name: &'r str) -> Context<'r> {
         let cx = Context::new(self.language, self.study, name, &self.bars);
         let cx = if self.only_checks { cx.checking() } else { cx };
-        Runner { cx, run: self }
-    }
-
-    /// All analyses in their order.
-    pub(super) fn all(&self) -> Vec<Runner<'_>> {
-        self.study.entry.analyses.ids().map(|name| self.runner(name)).collect()
+        cx.with_tasks(self.tasks.as_ref().map(|tasks| tasks as &dyn TaskResults))
     }
 
     /// Runs an analysis, with its section in the report. What another one has read is forgotten: the inputs that its results
@@ -155,7 +151,11 @@ impl<'a> Run<'a> {
         for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
             gearbox.files.forget_all_but(known);
         }
-        let runner = self.runner(name);
+        let tables = Tables::new(&self.files, analysis.formats());
+        let runner = Runner {
+            cx: self.context(name).with_sink(&tables),
+            run: self,
+        };
         if let Some((set, by)) = self.study.pending(analysis).filter(|_| !self.only_checks) {
             let message = format!("the set `{set}` has no values: the analysis `{by}` found none");
             let mend = format!("correct `{by}`, or choose another set");
@@ -163,7 +163,12 @@ impl<'a> Run<'a> {
         }
         out.begin_copy();
         let done = match analysis.run(&runner.cx) {
-            Some(Ok(outcome)) => runner.present(analysis, outcome.as_ref(), out),
+            Some(Ok(outcome)) => {
+                let shown = runner.present(analysis, outcome.as_ref(), out);
+                drop(runner);
+                let written = tables.finish(&outcome.tables());
+                shown.and(written)
+            }
             Some(Err(Stopped::Checked)) => Ok(()),
             Some(Err(stopped)) => Err(stopped.into()),
             None => runner.legacy(name, analysis, out),
@@ -200,11 +205,20 @@ impl Runner<'_> {
             self.run.report.borrow_mut().verdict(verdict);
         }
         let formats = analysis.formats();
-        write::outcome(self, outcome, formats)?;
+        if formats.contains(&Write::Json) {
+            write::outcome(self, outcome)?;
+        }
+        for file in page.files {
+            write::keep(self.run, &file.name, Ok(file.bytes))?;
+        }
         for named in page.figures {
             write::picture(self, &named.name, named.figure, formats)?;
         }
-        Ok(())
+        if page.faults.is_empty() {
+            Ok(())
+        } else {
+            Err(self.found(page.faults).into())
+        }
     }
 
     /// Runs an analysis that computes, prints and writes at once.
@@ -217,7 +231,6 @@ impl Runner<'_> {
             };
         }
         one_of! {
-            MapEntry => map::run,
             CompareEntry => compare::run,
             BreakdownEntry => breakdown::run,
             ComponentCompareEntry => component_compare::run,
@@ -240,74 +253,9 @@ impl Runner<'_> {
 
     /// Solves all points and holds them.
     pub(super) fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
-        self.holds("analyses", points.field.len(), 1)?;
-        let mut all = GridResult::default();
-        self.solve_pieces(built, points, None, &held, &mut |piece| {
-            all.add(piece);
-            Ok(())
-        })?;
+        let all = self.cx.solve(built, points)?;
+        self.seen(&built.transmission, &all.seen);
         Ok(all)
-    }
-
-    /// Solves all points and hands over what `make` takes from them, piece by piece. Those `of` a map, its analysis and its
-    /// number there, come from the shards where they are merged.
-    pub(super) fn solve_pieces<T: Send>(
-        &self,
-        built: &Built<'_>,
-        points: &Points,
-        of: Option<(&str, usize)>,
-        make: &Make<'_, T>,
-        take: &mut dyn FnMut(Piece<T>) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        let mut seen = Vec::new();
-        let mut counted = |piece: Piece<T>| {
-            merge(&mut seen, &piece.seen);
-            take(piece)
-        };
-        let solved = self.run.parts.as_ref().zip(of).and_then(|(parts, of)| parts.pieces(of));
-        if let Some(mut solved) = solved {
-            solved.try_for_each(|piece| {
-                let piece = piece?;
-                let own = points.field.of_piece(piece.number);
-                if piece.len() != own.len() {
-                    return Err(Failure::input(
-                        format!(
-                            "piece {} of a map has {} points, not {}",
-                            piece.number,
-                            piece.len(),
-                            own.len()
-                        ),
-                        "take the folders of the shards away and run them again",
-                    ));
-                }
-                counted(piece.made(own.start, make))
-            })?;
-        } else {
-            let numbers: Vec<usize> = (0..points.field.pieces()).collect();
-            self.evaluate(built, points, &numbers, make, &mut counted)?;
-        }
-        self.seen(&built.transmission, &seen);
-        Ok(())
-    }
-
-    /// Solves pieces of given numbers, however they are wanted.
-    pub(super) fn evaluate<T: Send>(
-        &self,
-        built: &Built<'_>,
-        points: &Points,
-        numbers: &[usize],
-        make: &Make<'_, T>,
-        take: &mut dyn FnMut(Piece<T>) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        let mut fault = None;
-        let solved = self.cx.solve_pieces(built, points, numbers, make, &mut |piece| {
-            fault = take(piece).err();
-            if fault.is_some() { Err(Stopped::Checked) } else { Ok(()) }
-        });
-        match fault {
-            Some(fault) => Err(fault),
-            None => Ok(solved?),
-        }
     }
 
     /// A bar of progress on standard error, on a terminal only.

@@ -1,21 +1,19 @@
-//! One part of a study, so that several machines share the work: `run --shard K/N`.
+//! One part of a study, so that several machines share the work: `run --shard K/N`, and `merge`.
 
 use std::fmt;
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use gearloss_framework::document::Diagnostic;
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::AnalysisEntry;
-use gearloss_studies::analysis::Bits;
-use gearloss_studies::study::{MapEntry, Study};
+use gearloss_studies::analyses::Stopped;
+use gearloss_studies::study::Study;
+use gearloss_studies::table::{RowSink, Table};
 use serde::{Deserialize, Serialize};
 
-use super::folder::{cannot, inside};
-use super::map::{Planned, planned};
-use super::parts::{Manifest, Outcome, piece_file};
-use super::pieces::PieceFile;
-use super::{Run, Runner};
+use super::Run;
+use super::manifest::{MANIFEST, Manifest};
+use super::shard_tasks::ShardTasks;
 use crate::args::RunArgs;
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
@@ -49,208 +47,152 @@ impl fmt::Display for Shard {
     }
 }
 
-/// The work of a study in units, which are dealt to the shards one after the other: pieces of maps over grids, and every other
-/// analysis as a whole.
-pub struct Deal<'a> {
-    pub works: Vec<Work<'a>>,
-    of: usize,
-    /// Number of units.
-    pub units: usize,
-}
-
-/// One analysis.
-pub struct Work<'a> {
-    pub name: &'a str,
-    pub analysis: &'a AnalysisEntry,
-    pub kind: Kind<'a>,
-}
-
-/// How an analysis is split.
-pub enum Kind<'a> {
-    /// Not at all: one unit of this number.
-    Whole(usize),
-    /// Into the pieces of its maps.
-    Maps(Vec<Pieces<'a>>),
-    /// A map that cannot be planned has nothing to compute; the merge tells why.
-    Faulty,
-}
-
-/// The pieces of one map.
-pub struct Pieces<'a> {
-    pub plan: Planned<'a>,
-    /// Number of the unit of its first piece.
-    pub first: usize,
-}
-
-impl Pieces<'_> {
-    /// How many there are.
-    pub fn pieces(&self) -> usize {
-        self.plan.points.field.pieces()
-    }
-}
-
-impl<'a> Deal<'a> {
-    /// The work of a study for so many shards.
-    pub fn of(runners: &'a [Runner<'a>], of: usize) -> Self {
-        let mut units = 0;
-        let mut works = Vec::new();
-        for runner in runners {
-            let name = runner.name;
-            let Some(analysis) = runner.study.entry.analyses.get(name) else {
-                continue;
-            };
-            let kind = match analysis.entry::<MapEntry>() {
-                Some(entry) if entry.points.is_none() => match planned(runner, name, entry) {
-                    Ok(plans) if plans.iter().all(|p| p.points.case(&p.built.transmission).is_ok()) => {
-                        let maps = plans.into_iter().map(|plan| {
-                            let map = Pieces { plan, first: units };
-                            units += map.pieces();
-                            map
-                        });
-                        Kind::Maps(maps.collect())
-                    }
-                    _ => Kind::Faulty,
-                },
-                _ => {
-                    units += 1;
-                    Kind::Whole(units - 1)
-                }
-            };
-            works.push(Work { name, analysis, kind });
-        }
-        Self { works, of, units }
-    }
-
-    /// The shard that a unit is dealt to.
-    pub fn owner(&self, unit: usize) -> usize {
-        unit % self.of + 1
-    }
-}
-
-/// What a shard has to do, and how much of it an earlier run has done.
-#[derive(Default)]
-struct Count {
-    computed: usize,
-    kept: usize,
-    failed: usize,
-}
-
-/// Computes the part of a shard, and goes on where an earlier run of it was broken off.
+/// Computes the tasks of a shard, and goes on where an earlier run of it was broken off.
 pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
-    let own = || {
-        study
-            .folder
-            .join("shards")
-            .join(format!("{}-of-{}", shard.number, shard.of))
-    };
+    let beside = study.folder.join("shards");
+    let own = || beside.join(format!("{}-of-{}", shard.number, shard.of));
     let folder = args.results.output.clone().unwrap_or_else(own);
-    // A shard does not know what an analysis of another one finds.
-    if let Some((name, (set, by))) = study
-        .entry
-        .analyses
-        .iter()
-        .find_map(|(name, a)| Some((name, study.pending(a)?)))
-    {
-        let message = format!(
-            "`{name}` uses the set `{set}`, whose values `{by}` finds, and the two may fall into different shards"
-        );
-        let mend = format!("run `{by}` first, and write what it finds under `model_sets`; or run the study as a whole");
-        return Err(study
-            .findings(vec![Diagnostic::error(format!("analyses.{name}"), message).mend(mend)])
-            .into());
-    }
-    let held = Manifest::of(language, study, shard).claim(&folder)?;
+    let manifest = Manifest::of(language, study, shard);
+    let held = manifest.claim(&folder)?;
+    // What the others have finished so far leads to later stages.
+    let mut others = if args.results.output.is_none() {
+        folders(&beside)
+    } else {
+        Vec::new()
+    };
+    others.retain(|other| *other != folder && manifest.is_of_splitting(other));
     interrupt::listen();
-    let runner = Run::new(language, study, folder, None);
-    let runners = runner.all();
-    let deal = Deal::of(&runners, shard.of);
-    let mut count = Count::default();
-    let done = deal.works.iter().try_for_each(|work| match &work.kind {
-        Kind::Whole(unit) if deal.owner(*unit) == shard.number => whole(&runner, work, &mut count),
-        Kind::Whole(_) | Kind::Faulty => Ok(()),
-        Kind::Maps(maps) => maps.iter().enumerate().try_for_each(|(number, map)| {
-            let own = (0..map.pieces()).filter(|piece| deal.owner(map.first + piece) == shard.number);
-            of_map(&runner, work.name, number, map, own.collect(), &mut count)
-        }),
-    });
+    let tasks = ShardTasks::of_shard(study, shard, &folder, &others)?;
+    let run = Run::new(language, study, folder.clone(), Some(tasks));
+    let failed = compute(&run);
     // Broken off or not: the same command goes on.
     held.finish();
-    let Count { computed, kept, failed } = count;
-    let of_all = format!("{} of {} units", computed + kept, deal.units);
+    let (computed, before) = run.tasks.as_ref().map_or((0, 0), ShardTasks::counts);
     let words = format!(
-        "shard {shard}: {of_all} in {}, {kept} of them from before",
-        runner.folder.display()
+        "shard {shard}: {} tasks in {}, {before} of them from before",
+        computed + before,
+        folder.display()
     );
-    if let Err(fault) = done {
-        Out::error().line(words)?;
-        return Err(fault);
-    }
-    out.line(words)?;
-    if failed > 0 {
-        out.line(format!(
-            "{failed} analyses failed; `gearloss merge` runs them again and tells why"
-        ))?;
+    match failed {
+        Err(fault) => {
+            Out::error().line(words)?;
+            return Err(fault);
+        }
+        Ok(failed) => {
+            manifest.finish(&folder, computed + before)?;
+            out.line(words)?;
+            if failed > 0 {
+                out.line(format!(
+                    "{failed} analyses failed; `gearloss merge` runs them again and tells why"
+                ))?;
+            }
+        }
     }
     Ok(End::Fine)
 }
 
-/// Runs an analysis that is not split, unless that was done.
-fn whole(runner: &Run<'_>, work: &Work<'_>, count: &mut Count) -> Result<(), Failure> {
-    let part = &runner.folder;
-    if Outcome::read(part, work.name).is_some_and(|outcome| !outcome.failed) {
-        count.kept += 1;
-        return Ok(());
+/// Rows that nobody wants: a shard writes no tables.
+struct Unwanted;
+
+impl RowSink for Unwanted {
+    fn take(&self, _: &Table) -> Result<(), Stopped> {
+        Ok(())
     }
-    let folder = Outcome::folder(part, work.name);
-    let of_work = part.join(work.name);
-    inside(&of_work).map_err(|e| cannot(&of_work, &e))?;
-    let _ = fs::remove_dir_all(&of_work);
-    fs::create_dir_all(&folder).map_err(|e| cannot(&folder, &e))?;
-    let own = Run::new(runner.language, runner.study, folder, None);
-    let failed = match own.attempt(work.name, work.analysis, &mut Out::nowhere()) {
-        Ok(()) => false,
-        Err(failure) => {
-            let Some(text) = failure.text() else {
-                return Err(failure);
-            };
-            Out::error().text(&text)?;
-            count.failed += 1;
-            true
-        }
-    };
-    if let Some(outcome) = Outcome::of(&own, failed) {
-        outcome.keep(part, work.name)?;
-    }
-    count.computed += 1;
-    Ok(())
 }
 
-/// Solves the pieces of a map that are still missing.
-fn of_map(
-    runner: &Run<'_>,
-    name: &str,
-    number: usize,
-    map: &Pieces<'_>,
-    own: Vec<usize>,
-    count: &mut Count,
-) -> Result<(), Failure> {
-    if own.is_empty() {
-        return Ok(());
+/// Computes the shard's tasks of all analyses, and counts those that fail.
+fn compute(run: &Run<'_>) -> Result<usize, Failure> {
+    let mut failed = 0;
+    for (name, analysis) in run.study.entry.analyses.iter() {
+        // It uses what an analysis finds whose results are not all there yet.
+        if run.study.pending(analysis).is_some() {
+            continue;
+        }
+        let cx = run.context(name).with_sink(&Unwanted);
+        match analysis.run(&cx) {
+            Some(Ok(outcome)) => {
+                if let Some(then) = analysis.then() {
+                    run.study.keep_found(then.set, outcome.found());
+                }
+            }
+            Some(Err(Stopped::Found(findings))) => {
+                Out::error().text(&findings.render())?;
+                failed += 1;
+            }
+            None | Some(Err(Stopped::Elsewhere | Stopped::Checked)) => {}
+            Some(Err(stopped)) => return Err(stopped.into()),
+        }
     }
-    let path = piece_file(&runner.folder, name, number);
-    let parent = path.parent().unwrap_or(&runner.folder);
-    inside(parent).map_err(|e| cannot(parent, &e))?;
-    let (mut file, found) = PieceFile::reopen(path.clone()).map_err(|e| cannot(&path, &e))?;
-    let missing = own
-        .iter()
-        .filter(|piece| found.iter().all(|(there, _)| there != *piece));
-    let missing: Vec<usize> = missing.copied().collect();
-    count.kept += own.len() - missing.len();
-    runner
-        .runner(name)
-        .evaluate(&map.plan.built, &map.plan.points, &missing, &Bits::of, &mut |piece| {
-            file.append(&piece)?;
-            count.computed += 1;
-            Ok(())
-        })
+    Ok(failed)
+}
+
+/// What all shards of a study have computed, if none is missing; absent folders are those in `shards` beside the study.
+pub fn gather(language: &Language, study: &Study, named: &[PathBuf], file: &Path) -> Result<ShardTasks, Failure> {
+    let folders = if named.is_empty() {
+        beside(study)?
+    } else {
+        named.to_vec()
+    };
+    let manifest = Manifest::of(language, study, Shard { number: 0, of: 0 });
+    let mut first: Option<(usize, &Path)> = None;
+    let mut finished = Vec::new();
+    for folder in &folders {
+        let (shard, results) = manifest.suits(folder)?;
+        let (count, of_first) = *first.get_or_insert((shard.of, folder));
+        if shard.of != count {
+            return Err(Failure::input(
+                format!(
+                    "{} is of {count} shards, {} of {}",
+                    of_first.display(),
+                    folder.display(),
+                    shard.of
+                ),
+                "name the folders of one splitting",
+            ));
+        }
+        if results.is_some_and(|results| ShardTasks::count(study, folder) >= results) {
+            finished.push(shard.number);
+        }
+    }
+    let of = first.map_or(1, |(of, _)| of);
+    let missing: Vec<String> = (1..=of)
+        .filter(|number| !finished.contains(number))
+        .map(|number| format!("{number}/{of}"))
+        .collect();
+    if missing.is_empty() {
+        return ShardTasks::of_merge(study, &folders);
+    }
+    Err(Failure::input(
+        format!("missing or not finished: shard {}", missing.join(", ")),
+        format!(
+            "run `gearloss run {} --shard {}`{} and merge then",
+            file.display(),
+            missing[0],
+            if missing.len() > 1 { " and so on" } else { "" }
+        ),
+    ))
+}
+
+/// The folders of shards beside a study.
+fn beside(study: &Study) -> Result<Vec<PathBuf>, Failure> {
+    let folder = study.folder.join("shards");
+    let found = folders(&folder);
+    if found.is_empty() {
+        return Err(Failure::input(
+            format!("{} holds no shard", folder.display()),
+            "name the folders of the shards, or run them with `gearloss run STUDY --shard K/N` first",
+        ));
+    }
+    Ok(found)
+}
+
+/// Folders of shards in a folder.
+fn folders(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut found: Vec<PathBuf> = entries
+        .map(|e| e.path())
+        .filter(|f| f.join(MANIFEST).is_file())
+        .collect();
+    found.sort();
+    found
 }

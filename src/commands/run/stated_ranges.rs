@@ -1,7 +1,6 @@
 //! Stated ranges that models left, over all analyses of a run: printed once, at its end.
 
 use gearloss_studies::analysis::Note;
-use serde::{Deserialize, Serialize};
 
 use gearloss_report::page::outside;
 use gearloss_studies::analyses::trial::Left as LeftAtSamples;
@@ -13,7 +12,7 @@ use crate::output::{Failure, Out, beyond, significant};
 const OUTSIDE: &str = "outside: ";
 
 /// Values of a model's quantity that were outside of its stated range.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 struct Values {
     least: f64,
     greatest: f64,
@@ -46,7 +45,7 @@ impl Values {
 }
 
 /// A quantity of one model that left its range.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 struct Left {
     /// Path of the model.
     path: String,
@@ -59,7 +58,7 @@ struct Left {
 }
 
 /// All ranges that were left, in the order in which they were first.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default)]
 pub struct StatedRanges(Vec<Left>);
 
 impl StatedRanges {
@@ -79,11 +78,6 @@ impl StatedRanges {
                 own.analyses.push(analysis);
             }
         }
-    }
-
-    /// Adds those of another run.
-    pub fn extend(&mut self, other: Self) {
-        other.0.into_iter().for_each(|left| self.add(left));
     }
 
     /// A line for each quantity and range, with all models that left it.
@@ -132,11 +126,6 @@ fn line(group: &[&Left]) -> String {
         all.outside,
         all.points
     )
-}
-
-/// What a section of the report says beyond what is printed while the analyses run.
-pub fn is_printed_at_the_end(line: &str) -> bool {
-    line.starts_with(OUTSIDE)
 }
 
 impl Runner<'_> {

@@ -11,11 +11,11 @@ use gearloss_studies::varied::{Tie, Varied};
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
-use super::map::{tidy, word};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, gear_of, speeds, torques};
 use crate::commands::run::shown::show_published;
 use crate::output::{Failure, Out, Table, fixed, number};
+use gearloss_studies::analyses::numbers::{tidy, word};
 use gearloss_studies::analyses::shares::{Shares, together};
 
 /// A quantity in short, in words, and how to read it.

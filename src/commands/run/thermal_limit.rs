@@ -12,10 +12,10 @@ use gearloss_studies::study::{Find, ThermalLimitEntry};
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
-use super::map::tidy;
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, gear_of, speeds, torques};
 use crate::output::{Failure, Out, Table, number};
+use gearloss_studies::analyses::numbers::tidy;
 
 /// The limit at one speed, or at one torque.
 struct Found {

@@ -10,13 +10,14 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::super::solve::RPM;
-use super::map::{spread, tidy};
 use super::write::{cell, head, picture, write};
 use super::{Built, Runner, grid_axes};
 use crate::commands::run::shown::show_published;
 use crate::interrupt;
 use crate::output::{Failure, Out, Table, fixed, number};
+use gearloss_report::text::spread;
 use gearloss_studies::analyses::inputs::Input;
+use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::trial::{Left, Trial, left};
 
 /// A quantity: name in results, in words, how to read it.

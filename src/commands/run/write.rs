@@ -1,18 +1,16 @@
 //! Files of results.
 
-use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::{BufRead as _, BufReader, BufWriter, Read, Write as _};
+use std::io::{BufRead as _, BufReader, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
 use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
 use gearloss_studies::analyses::{AnyOutcome, Built};
 use gearloss_studies::study::Write;
-use gearloss_studies::table::{Table, Values};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -26,35 +24,12 @@ pub fn head(runner: &Runner<'_>, built: &[&Built<'_>]) -> Value {
     json!(runner.head(built))
 }
 
-/// Writes what a study asks for of an outcome.
-pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome, formats: &[Write]) -> Result<(), Failure> {
-    for table in outcome.tables() {
-        table_files(runner, &table, formats)?;
-    }
-    if !formats.contains(&Write::Json) {
-        return Ok(());
-    }
-    let (place, mut file) = Place::new(runner.run, &format!("{}.json", runner.name))?;
+/// Writes an outcome as JSON.
+pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome) -> Result<(), Failure> {
+    let (place, mut file) = Place::new(&runner.run.files, &format!("{}.json", runner.name))?;
     let written = outcome.write_json(&mut file).map_err(std::io::Error::from);
     let written = written.and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush());
     place.done(written.map_err(|e| e.to_string()))
-}
-
-/// Writes a table as CSV and Parquet, as asked.
-fn table_files(runner: &Runner<'_>, table: &Table, formats: &[Write]) -> Result<(), Failure> {
-    let header: Vec<String> = table.columns.iter().map(|column| column.name.clone()).collect();
-    let mut file = TableFile::new(runner.run, &table.name, formats, &header)?;
-    let rows: Vec<usize> = (0..table.len()).collect();
-    let made = file.shape().rows(&rows, |rows, columns| {
-        for column in &table.columns {
-            match &column.values {
-                Values::Numbers(numbers) => columns.numbers(rows.iter().map(|row| Some(numbers[*row]))),
-                Values::Texts(texts) => columns.texts(rows.iter().map(|row| texts.get(*row).unwrap_or_default())),
-            }
-        }
-    });
-    file.push_rows(vec![made], vec![(0, 0..table.len())])?;
-    file.finish()
 }
 
 /// Name of the page.
@@ -65,8 +40,8 @@ pub const REPORT: &str = "report.html";
 pub fn remove(runner: &Run<'_>, name: &str) {
     for kind in ["csv", "json", "parquet"] {
         let file = format!("{name}.{kind}");
-        if !runner.names.borrow().contains(&file) {
-            let _ = fs::remove_file(runner.folder.join(file));
+        if !runner.files.has(&file) {
+            let _ = fs::remove_file(runner.files.folder.join(file));
         }
     }
 }
@@ -91,10 +66,38 @@ pub fn write_json(runner: &Runner<'_>, name: &str, formats: &[Write], value: &im
     if !formats.contains(&Write::Json) {
         return Ok(());
     }
-    let (place, mut file) = Place::new(runner.run, &format!("{name}.json"))?;
+    let (place, mut file) = Place::new(&runner.run.files, &format!("{name}.json"))?;
     let written = serde_json::to_writer_pretty(&mut file, value).map_err(std::io::Error::from);
     let written = written.and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush());
     place.done(written.map_err(|e| e.to_string()))
+}
+
+/// The folder of results, and the files that were written into it.
+#[derive(Debug, Default)]
+pub struct Files {
+    pub folder: PathBuf,
+    names: Names,
+}
+
+/// Names of files, shared with those that are being written.
+type Names = Arc<Mutex<BTreeSet<String>>>;
+
+impl Files {
+    pub fn new(folder: PathBuf) -> Self {
+        Self {
+            folder,
+            names: Names::default(),
+        }
+    }
+
+    /// Whether a file was written, or is being written.
+    pub fn has(&self, name: &str) -> bool {
+        locked(&self.names).contains(name)
+    }
+}
+
+fn locked(names: &Names) -> std::sync::MutexGuard<'_, BTreeSet<String>> {
+    names.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A file that is written beside its place and moved there when it is whole; until then its name is held for it.
@@ -105,22 +108,19 @@ pub struct Place {
     path: PathBuf,
 }
 
-/// Names of the files of a run.
-pub type Names = Rc<RefCell<BTreeSet<String>>>;
-
 impl Place {
-    pub fn new(runner: &Run<'_>, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
+    pub fn new(files: &Files, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
         // Names of analyses, sets and products are joined with hyphens, which they may hold themselves.
-        if !runner.names.borrow_mut().insert(name.to_owned()) {
+        if !locked(&files.names).insert(name.to_owned()) {
             return Err(Failure::input(
                 format!("two results would be called {name}"),
                 "rename an analysis or a set of models",
             ));
         }
-        let path = runner.folder.join(name);
+        let path = files.folder.join(name);
         let mut place = Self {
             name: name.to_owned(),
-            names: Rc::clone(&runner.names),
+            names: Arc::clone(&files.names),
             part: PathBuf::new(),
             path,
         };
@@ -151,7 +151,7 @@ impl Drop for Place {
     fn drop(&mut self) {
         if !self.name.is_empty() {
             let _ = fs::remove_file(&self.part);
-            self.names.borrow_mut().remove(&self.name);
+            locked(&self.names).remove(&self.name);
         }
     }
 }
@@ -169,20 +169,13 @@ pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, formats: &[Write
 
 /// Writes a file of results whole, or says why it could not.
 pub fn keep(runner: &Run<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Result<(), Failure> {
-    let (place, mut to) = Place::new(runner, file)?;
+    let (place, mut to) = Place::new(&runner.files, file)?;
     let written = bytes.and_then(|bytes| {
         to.write_all(&bytes)
             .and_then(|()| to.flush())
             .map_err(|e| e.to_string())
     });
     place.done(written)
-}
-
-/// Writes a file of results from what another one holds.
-pub fn copy(runner: &Run<'_>, file: &str, mut from: impl Read) -> Result<(), Failure> {
-    let (place, mut to) = Place::new(runner, file)?;
-    let written = std::io::copy(&mut from, &mut to).and_then(|_| to.flush());
-    place.done(written.map_err(|e| e.to_string()))
 }
 
 /// A cell: the number with all its digits; nothing where it is none.

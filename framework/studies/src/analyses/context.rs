@@ -1,5 +1,6 @@
 //! What an analysis is given: the study, the way to solve its points, and whom to report progress to.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use gearloss_framework::document::Diagnostic;
@@ -7,12 +8,17 @@ use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::{Case, Transmission};
+use rayon::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::head::{Head, InputFile};
 use super::progress::{Progress, Running};
-use crate::analysis::{Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
+use crate::analysis::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
 use crate::study::{Grid, Study};
+use crate::table::RowSink;
+use crate::tasks::{Task, TaskResults};
 
 /// Why an analysis has no outcome.
 #[derive(Debug, thiserror::Error)]
@@ -26,6 +32,12 @@ pub enum Stopped {
     /// It was only to be checked, and nothing is wrong with it.
     #[error("nothing was computed")]
     Checked,
+    /// Other runs compute tasks whose results it needs.
+    #[error("it needs results that other runs compute")]
+    Elsewhere,
+    /// Results cannot be written or read; the text to print.
+    #[error("{0}")]
+    Unwritten(String),
 }
 
 /// One gearbox under one model set.
@@ -69,7 +81,13 @@ pub struct Context<'a> {
     pub name: &'a str,
     /// True where the analysis shall end before it computes, with all that it refuses.
     pub only_checks: bool,
+    /// Who takes the rows of tables that are too large to be held.
+    pub sink: Option<&'a dyn RowSink>,
     progress: &'a dyn Progress,
+    /// Results of tasks that are kept.
+    tasks: Option<&'a dyn TaskResults>,
+    /// Number of the stage that is next.
+    stage: AtomicUsize,
     /// Its own lock, because files are also read in parallel.
     record: Mutex<Record>,
 }
@@ -82,8 +100,24 @@ impl<'a> Context<'a> {
             study,
             name,
             only_checks: false,
+            sink: None,
             progress,
+            tasks: None,
+            stage: AtomicUsize::new(0),
             record: Mutex::default(),
+        }
+    }
+
+    /// With results of tasks that are kept.
+    pub fn with_tasks(self, tasks: Option<&'a dyn TaskResults>) -> Self {
+        Self { tasks, ..self }
+    }
+
+    /// With someone who takes the rows of large tables.
+    pub fn with_sink(self, sink: &'a dyn RowSink) -> Self {
+        Self {
+            sink: Some(sink),
+            ..self
         }
     }
 
@@ -236,15 +270,14 @@ impl<'a> Context<'a> {
     pub fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Stopped> {
         self.holds("analyses", points.field.len(), 1)?;
         let mut all = GridResult::default();
-        let numbers: Vec<usize> = (0..points.field.pieces()).collect();
-        self.solve_pieces(built, points, &numbers, &held, &mut |piece| {
+        self.solve_pieces(built, points, &held, &mut |piece| {
             all.add(piece);
             Ok(())
         })?;
         Ok(all)
     }
 
-    /// Solves pieces of given numbers and hands over what `make` takes from them, piece by piece.
+    /// Solves all points, a stage of one task for each piece of them, and hands over what `make` takes from them, piece by piece.
     ///
     /// # Errors
     /// Points that do not fit, an interruption, and what `take` refuses.
@@ -252,11 +285,119 @@ impl<'a> Context<'a> {
         &self,
         built: &Built<'_>,
         points: &Points,
-        numbers: &[usize],
         make: &Make<'_, T>,
         take: &mut dyn FnMut(Piece<T>) -> Result<(), Stopped>,
     ) -> Result<(), Stopped> {
         self.checked(built, points)?;
+        let all: Vec<usize> = (0..points.field.pieces()).collect();
+        let stage = self.next_stage();
+        let Some(kept) = self.tasks.filter(|kept| !self.is_alone(*kept, stage, all.len())) else {
+            return self.evaluate(built, points, &all, make, take);
+        };
+        let missing = self.missing(kept, stage, all.len())?;
+        self.evaluate(built, points, &missing.own, &Bits::of, &mut |piece| {
+            let mut bytes = Vec::new();
+            piece.write_bits(&mut bytes);
+            kept.keep(self.task(stage, piece.number), &bytes)
+        })?;
+        missing.end()?;
+        for number in all {
+            let task = self.task(stage, number);
+            let bytes = kept.read(task)?;
+            let own = points.field.of_piece(number);
+            let piece = Piece::read_bits(&mut &bytes[..]).filter(|piece| piece.len() == own.len());
+            let piece = piece.ok_or_else(|| unlike(task))?;
+            take(piece.made(own.start, make))?;
+        }
+        Ok(())
+    }
+
+    /// Computes a stage of so many tasks on all threads, and gives their results in their order.
+    ///
+    /// # Errors
+    /// The first of a task, and an interruption.
+    pub fn each<R: Serialize + DeserializeOwned + Send>(
+        &self,
+        label: &str,
+        count: usize,
+        compute: impl Fn(usize) -> Result<R, Stopped> + Sync,
+    ) -> Result<Vec<R>, Stopped> {
+        let stage = self.next_stage();
+        let compute_all = |numbers: Vec<usize>, done: &(dyn Fn(usize, &R) -> Result<(), Stopped> + Sync)| {
+            let running = self.running(numbers.len(), label);
+            let one = |number: usize| {
+                if !self.goes_on() {
+                    return Err(Stopped::Interrupted);
+                }
+                let result = compute(number)?;
+                done(number, &result)?;
+                running.advance(1);
+                Ok(result)
+            };
+            let all: Vec<Result<R, Stopped>> = numbers.into_par_iter().with_max_len(1).map(one).collect();
+            all.into_iter().collect::<Result<Vec<R>, Stopped>>()
+        };
+        let Some(kept) = self.tasks.filter(|kept| !self.is_alone(*kept, stage, count)) else {
+            return compute_all((0..count).collect(), &|_, _| Ok(()));
+        };
+        let missing = self.missing(kept, stage, count)?;
+        compute_all(missing.own.clone(), &|number, result| {
+            let task = self.task(stage, number);
+            let bytes = postcard::to_stdvec(result).map_err(|e| Stopped::Unwritten(format!("error: {e}\n")))?;
+            kept.keep(task, &bytes)
+        })?;
+        missing.end()?;
+        let read = |number: usize| {
+            let task = self.task(stage, number);
+            postcard::from_bytes(&kept.read(task)?).map_err(|_| unlike(task))
+        };
+        (0..count).map(read).collect()
+    }
+
+    fn next_stage(&self) -> usize {
+        self.stage.fetch_add(1, Ordering::Relaxed)
+    }
+
+    fn task(&self, stage: usize, number: usize) -> Task<'_> {
+        Task {
+            analysis: self.name,
+            stage,
+            number,
+        }
+    }
+
+    /// Whether a stage is computed by this run alone: it completes what others have begun, and they have not done all of it.
+    fn is_alone(&self, kept: &dyn TaskResults, stage: usize, count: usize) -> bool {
+        kept.completes() && !(0..count).all(|number| kept.is_kept(self.task(stage, number)))
+    }
+
+    /// The tasks of a stage whose results are not there.
+    fn missing(&self, kept: &dyn TaskResults, stage: usize, count: usize) -> Result<Missing, Stopped> {
+        let missing = (0..count).filter(|number| !kept.is_kept(self.task(stage, *number)));
+        let (own, others): (Vec<usize>, Vec<usize>) =
+            missing.partition(|number| kept.is_own(self.task(stage, *number)));
+        if self.goes_on() {
+            Ok(Missing {
+                own,
+                others: others.len(),
+            })
+        } else {
+            Err(Stopped::Interrupted)
+        }
+    }
+
+    /// Solves pieces of given numbers.
+    fn evaluate<T: Send>(
+        &self,
+        built: &Built<'_>,
+        points: &Points,
+        numbers: &[usize],
+        make: &Make<'_, T>,
+        take: &mut dyn FnMut(Piece<T>) -> Result<(), Stopped>,
+    ) -> Result<(), Stopped> {
+        if numbers.is_empty() {
+            return Ok(());
+        }
         let count = points.field.len();
         let own = count * numbers.len() / points.field.pieces().max(1);
         let running = self.running(own, &built.name);
@@ -319,6 +460,37 @@ impl<'a> Context<'a> {
             "take fewer samples, values or points; a `map` over a grid takes more, piece by piece",
         ))
     }
+}
+
+/// Tasks of a stage whose results are not there.
+struct Missing {
+    /// Those of this run.
+    own: Vec<usize>,
+    /// How many are those of others.
+    others: usize,
+}
+
+impl Missing {
+    /// Ends the analysis where others have not done their part of the stage.
+    fn end(&self) -> Result<(), Stopped> {
+        if self.others == 0 {
+            Ok(())
+        } else {
+            Err(Stopped::Elsewhere)
+        }
+    }
+}
+
+/// A kept result is not that of its task.
+fn unlike(task: Task<'_>) -> Stopped {
+    let Task {
+        analysis,
+        stage,
+        number,
+    } = task;
+    Stopped::Unwritten(format!(
+        "error: result {number} of stage {stage} of `{analysis}` is not that of its task\n  = help: delete the folders of the shards and run them again\n"
+    ))
 }
 
 /// The gear state that an entry names, or the first.

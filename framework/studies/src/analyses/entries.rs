@@ -4,27 +4,9 @@ use super::Entry;
 use crate::register_entry;
 use crate::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
+    IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
     TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
 };
-
-impl Entry for MapEntry {
-    const TYPE: &'static str = "map";
-    const MEANING: &'static str = "Losses and efficiency over a grid.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("points", self.points.as_ref())
-                .with("measured", self.measured.as_ref())
-        }
-    }
-}
-
-register_entry!(MapEntry);
 
 impl Entry for CompareEntry {
     const TYPE: &'static str = "compare";

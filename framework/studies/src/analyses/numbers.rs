@@ -25,3 +25,11 @@ pub fn tidy(x: f64) -> f64 {
 pub fn word(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
+
+/// At most some of as many, spread evenly, both ends among them.
+pub fn spread_over(count: usize, most: usize) -> Vec<usize> {
+    if count <= most {
+        return (0..count).collect();
+    }
+    (0..most).map(|i| i * (count - 1) / (most - 1)).collect()
+}

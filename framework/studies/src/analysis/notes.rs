@@ -107,7 +107,7 @@ fn note(
 }
 
 /// A formula, default or catalogue value that a result rests on, with its grade.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct WeakPoint {
     /// Model, and the parameter where the grade is that of a default.
     pub what: String,

@@ -28,17 +28,3 @@ impl Write {
         vec![Self::Csv, Self::Json, Self::Svg]
     }
 }
-
-/// A table of losses for another program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Export {
-    /// Loss torque over input speed and torque as VECTO reads it, for engineering mode.
-    Vecto,
-    /// Efficiency and loss torque over torque, speed and, where several were computed, oil temperature, as a script with the
-    /// vectors of Simulink's gearbox blocks.
-    Matlab,
-    /// Efficiency and bearing friction over speed for `LossyGear` of the Modelica Standard Library: straight lines from the no-load
-    /// loss, a fit by relative deviation.
-    LossyGear,
-}

@@ -7,10 +7,11 @@ use gearloss_studies::study::{As, By, Write};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
-use super::super::map::{spread, tidy};
 use super::super::write::{cell, picture};
 use super::super::{Built, Runner};
 use crate::output::{Failure, Out, Table, number};
+use gearloss_report::text::spread;
+use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::shares::{Shares, together};
 
 /// What is stacked, in which unit, and what is written of it.

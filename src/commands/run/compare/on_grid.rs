@@ -7,10 +7,11 @@ use gearloss_studies::study::CompareEntry;
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
-use super::super::map::{spread, tidy};
 use super::super::write::{cell, head, picture, write};
 use super::super::{Runner, grid_axes};
 use crate::output::{Failure, Out, Table, fixed, number};
+use gearloss_report::text::spread;
+use gearloss_studies::analyses::numbers::tidy;
 
 pub fn run(
     runner: &Runner<'_>,

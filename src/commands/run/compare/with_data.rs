@@ -7,13 +7,13 @@ use gearloss_studies::study::{CompareEntry, Data, Difference};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
-use super::super::map::tidy;
 use super::super::write::{cell, head, picture, write};
 use super::super::{Built, Runner};
 use crate::commands::run::shown::in_file;
 use crate::output::{Failure, Out, Table, number};
 use gearloss_report::deviations::{self, Deviation};
 use gearloss_studies::analyses::measurable::{is_measurable, note};
+use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::rows::Solved;
 
 /// One measured point beside one model.

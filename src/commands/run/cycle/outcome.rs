@@ -7,10 +7,10 @@ use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
 use super::super::Built;
-use super::super::map::tidy;
 use super::super::write::cell;
 use super::bands::Band;
 use gearloss_studies::analyses::duties::{Read, nodes};
+use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::shares::Shares;
 
 /// A driven duty.

@@ -9,12 +9,12 @@ use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
-use super::super::map::tidy;
 use super::super::table::TableFile;
 use super::super::write::cell;
 use super::outcome::Outcome;
 use super::pictures::slug;
 use crate::output::{Failure, Out, Table, figures, fixed};
+use gearloss_studies::analyses::numbers::tidy;
 
 /// Rows that were held out, predicted.
 pub struct HeldOut<'a> {

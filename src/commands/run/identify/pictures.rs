@@ -7,7 +7,6 @@ use gearloss_studies::study::{Difference, IdentifyEntry, Quantity};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
-use super::super::map::tidy;
 use super::super::write::picture;
 use super::hold_out;
 use super::lines::Sheet;
@@ -16,6 +15,7 @@ use super::tables::losses_by;
 use crate::output::{Failure, fixed};
 use gearloss_report::deviations::histograms;
 use gearloss_report::deviations::{self, Deviation};
+use gearloss_studies::analyses::numbers::tidy;
 
 /// Correlation from which on the joint region of two parameters is drawn, and for how many pairs.
 const JOINT: (f64, usize) = (0.8, 4);

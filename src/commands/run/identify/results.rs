@@ -6,12 +6,12 @@ use gearloss_studies::study::{Difference, FoldsEntry, IdentifyEntry};
 use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
-use super::super::map::tidy;
 use super::hold_out;
 use super::outcome::Outcome;
 use super::posterior;
 use super::show::{RESOLVED, fold_name, fold_unit};
 use crate::commands::run::shown::in_file;
+use gearloss_studies::analyses::numbers::tidy;
 
 /// All that was found for one set.
 pub fn of(o: &Outcome<'_>, entry: &IdentifyEntry) -> Value {

@@ -8,7 +8,6 @@ use gearloss_studies::study::IdentifyEntry;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
-use super::super::map::tidy;
 use super::super::table::TableFile;
 use super::super::write::{cell, keep};
 use super::hold_out;
@@ -16,6 +15,7 @@ use super::outcome::Outcome;
 use super::posterior;
 use super::show::verdict;
 use crate::output::Failure;
+use gearloss_studies::analyses::numbers::tidy;
 
 fn header(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()

@@ -7,12 +7,12 @@ use gearloss_studies::study::RmsSurfaceEntry;
 use serde_json::{Value, json};
 
 use super::super::Runner;
-use super::super::map::spread;
 use super::super::write::picture;
 use super::least::Flat;
 use super::{Axis, Counted, Surface};
 use crate::commands::run::shown::in_file;
 use crate::output::{Failure, Out, Table, number};
+use gearloss_report::text::spread;
 
 /// Points that are named one by one.
 const NAMED: usize = 5;

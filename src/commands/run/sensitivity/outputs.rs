@@ -5,8 +5,8 @@ use gearloss_studies::analysis::PointResult;
 use gearloss_studies::study::By;
 
 use super::super::super::solve::RPM;
-use super::super::map::tidy;
 use crate::output::fixed;
+use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::shares::{Shares, together};
 use gearloss_studies::analyses::trial::why;
 

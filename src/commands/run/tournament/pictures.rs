@@ -8,11 +8,11 @@ use gearloss_studies::study::TournamentEntry;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
-use super::super::map::tidy;
 use super::super::write::picture;
 use super::rank::Outcome;
 use super::{Field, Measurements};
 use crate::output::{Failure, figures};
+use gearloss_studies::analyses::numbers::tidy;
 
 pub fn write_all(
     runner: &Runner<'_>,

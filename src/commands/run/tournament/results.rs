@@ -7,12 +7,12 @@ use serde_json::{Value, json};
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
-use super::super::map::tidy;
 use super::super::table::TableFile;
 use super::super::write::{cell, head, write};
 use super::rank::{Outcome, marks};
 use super::{Field, Measurements, json_of, unit};
 use crate::output::Failure;
+use gearloss_studies::analyses::numbers::tidy;
 
 pub fn write_all(
     runner: &Runner<'_>,

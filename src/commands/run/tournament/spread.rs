@@ -6,10 +6,10 @@ use serde_json::json;
 
 use super::super::super::solve::RPM;
 use super::super::Runner;
-use super::super::map::tidy;
 use super::super::write::{cell, head, picture, write};
 use super::{Field, json_of, unit};
 use crate::output::{Failure, Out, Table, number};
+use gearloss_studies::analyses::numbers::tidy;
 
 /// Of all combinations at one point, in the unit of errors about the set that the tournament starts from.
 struct Range {

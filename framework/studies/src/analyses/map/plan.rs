@@ -1,21 +1,31 @@
-//! Which points a map over a grid solves, told without solving any.
+//! Which points a map over a grid solves.
 
-use std::rc::Rc;
 use std::sync::Arc;
 
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_studies::analysis::{Field, Given, Points};
-use gearloss_studies::study::{Envelope, Grid, MapEntry};
 use serde_json::Value;
 
-use super::super::{Built, Runner, grid_axes};
-use super::Axes;
-use crate::output::Failure;
+use super::super::axes::grid_axes;
+use super::super::{Built, Context, Stopped};
+use super::MapEntry;
+use crate::analysis::{Field, Given, Points};
+use crate::study::{Envelope, Grid};
+
+/// Axes of a grid for one gearbox.
+#[derive(Debug, Clone)]
+pub struct Axes {
+    /// Torques. [Nm]
+    pub torques: Vec<f64>,
+    /// Speeds. [rad/s]
+    pub speeds: Vec<f64>,
+    /// Ratings of speed and torque where the axes count in shares of them.
+    pub shares: [Option<f64>; 2],
+}
 
 /// The points of one map over a grid.
 pub struct Planned<'a> {
     /// Maps that differ in their points only share a transmission.
-    pub built: Rc<Built<'a>>,
+    pub built: Arc<Built<'a>>,
     pub bound: Vec<(String, Value)>,
     pub axes: Axes,
     pub points: Points,
@@ -23,30 +33,29 @@ pub struct Planned<'a> {
 
 /// One map for each gear state, each set and each combination of bound values.
 pub fn on_grid<'s>(
-    runner: &'s Runner<'_>,
-    name: &str,
+    cx: &'s Context<'_>,
     entry: &'s MapEntry,
     grid_name: &str,
     gearbox: &'s Gearbox,
-) -> Result<Vec<Planned<'s>>, Failure> {
-    let grid = runner.study.grid(&format!("analyses.{name}"), grid_name)?;
+) -> Result<Vec<Planned<'s>>, Stopped> {
+    let grid = cx.study.grid(&cx.path(), grid_name)?;
     let path = format!("grids.{grid_name}");
     let combinations = grid.combinations().map_err(|bound| {
         let message = format!("`{bound}` has no list of values");
-        runner.wrong(&format!("{path}.bind"), message, "write `[60 ml, 90 ml]`, say")
+        cx.wrong(&format!("{path}.bind"), message, "write `[60 ml, 90 ml]`, say")
     })?;
     if let Some(Err(reason)) = grid.envelope.as_ref().map(Envelope::check) {
         let mend = "give as many torques as speeds, and speeds that rise";
-        return Err(runner.wrong(&format!("{path}.envelope"), reason, mend));
+        return Err(cx.wrong(&format!("{path}.envelope"), reason, mend));
     }
     let mut maps = Vec::new();
     for bound in combinations {
         let change = |(own, value): &(String, Value)| (own.clone(), value.clone(), format!("{path}.bind"));
         let changes: Vec<_> = bound.iter().map(change).collect();
-        for built in runner.built_with(gearbox, &entry.model_sets, &changes)? {
-            let built = Rc::new(built);
+        for built in cx.built_with(gearbox, &entry.model_sets, &changes)? {
+            let built = Arc::new(built);
             let t = &built.transmission;
-            let (torques, speeds) = grid_axes(runner, grid_name, grid, t)?;
+            let (torques, speeds) = grid_axes(cx, grid_name, grid, t)?;
             let axes = Axes {
                 torques,
                 speeds,
@@ -58,7 +67,7 @@ pub fn on_grid<'s>(
             let field = below(grid, &axes);
             if field.is_empty() {
                 let path = format!("{path}.envelope");
-                return Err(runner.wrong(
+                return Err(cx.wrong(
                     &path,
                     "no point of the grid lies below the envelope",
                     "correct one of them",
@@ -66,10 +75,10 @@ pub fn on_grid<'s>(
             }
             for gear in grid.gear.of(t) {
                 maps.push(Planned {
-                    built: Rc::clone(&built),
+                    built: Arc::clone(&built),
                     bound: bound.clone(),
                     axes: axes.clone(),
-                    points: runner.field(t, &gear, field.clone()),
+                    points: cx.field(t, &gear, field.clone()),
                 });
             }
         }

@@ -1,33 +1,38 @@
-//! What is kept of the points of a map once their rows are written.
+//! What is kept of the points of a map for pictures and texts, whatever becomes of its rows.
 
-use gearloss_studies::analysis::{Field, Numbered, PointResult};
-
+use super::super::numbers::spread_over;
 use super::Axes;
+use crate::analysis::{Field, Numbered, PointResult};
 
 /// Grids of more points are shown by some of their rows and columns.
 const MOST_SHOWN: usize = 65_536;
 
 /// Rows and columns of a larger grid that are shown at most: those of the table on the terminal, and 35 between each two.
-const LINES: usize = 36 * (super::SHOWN - 1) + 1;
+const LINES: usize = 36 * (SHOWN - 1) + 1;
+
+/// The most rows and columns of a table on the terminal.
+pub const SHOWN: usize = 8;
 
 /// One point as pictures and the terminal show it.
 #[derive(Debug, Clone, Copy)]
-pub struct Brief {
-    /// \[Nm\]
+pub struct ShownPoint {
+    /// Torque. \[Nm\]
     pub torque: f64,
-    /// \[rad/s\]
+    /// Speed. \[rad/s\]
     pub speed: f64,
-    /// \[degC\]
+    /// Temperature of the oil. \[degC\]
     pub oil: Option<f64>,
+    /// Power out over power in.
     pub efficiency: Option<f64>,
-    /// \[W\]
+    /// Sum of all losses. \[W\]
     pub loss: Option<f64>,
-    /// \[Nm\]
+    /// Loss over the speed of the reference port. \[Nm\]
     pub loss_torque: Option<f64>,
+    /// True where a model left its stated range.
     pub outside: bool,
 }
 
-impl From<&PointResult> for Brief {
+impl From<&PointResult> for ShownPoint {
     fn from(point: &PointResult) -> Self {
         Self {
             torque: point.torque,
@@ -42,24 +47,29 @@ impl From<&PointResult> for Brief {
 }
 
 /// A grid as it is shown: its axes, perhaps with gaps, and for each place the number of its point; absent beyond the envelope.
-pub struct Shown {
+#[derive(Debug, Clone)]
+pub struct ShownGrid {
+    /// The axes of what is shown.
     pub axes: Axes,
+    /// For each place the number of its point.
     pub places: Vec<Option<usize>>,
 }
 
 /// Points of a map that are shown, and the values of all of them where another program wants them.
-pub struct Kept {
+#[derive(Debug, Clone)]
+pub struct ShownMap {
     /// All points of a list; those of a grid that are shown.
-    pub points: Vec<Brief>,
-    pub grid: Option<Shown>,
+    pub points: Vec<ShownPoint>,
+    /// The grid; absent for a list.
+    pub grid: Option<ShownGrid>,
     /// Every torque and speed of a grid with all values, where they are asked for.
-    pub whole: Option<Whole>,
+    pub whole: Option<LossGrid>,
     /// Torques and speeds of the grid.
     size: Option<(usize, usize)>,
 }
 
 /// Which points are kept.
-pub struct Wanted {
+pub struct Selection {
     /// Whether the values of all places are.
     whole: bool,
     /// What is shown of a grid; absent for a list, of which all is.
@@ -77,19 +87,21 @@ struct Lines {
 /// What is kept of some points.
 pub struct Picked {
     /// Points that are shown, with the places where they are.
-    shown: Vec<(usize, Brief)>,
+    shown: Vec<(usize, ShownPoint)>,
     /// Efficiency and loss torque at the places of the grid.
     values: Vec<(usize, [Option<f64>; 2])>,
 }
 
-/// All values of a grid.
-pub struct Whole {
+/// Efficiency and loss torque at all places of a grid.
+#[derive(Debug, Clone)]
+pub struct LossGrid {
+    /// The axes.
     pub axes: Axes,
     /// Efficiency and loss torque; absent beyond the envelope.
     values: Vec<Option<[Option<f64>; 2]>>,
 }
 
-impl Whole {
+impl LossGrid {
     /// The efficiency at a place.
     pub fn efficiency(&self, torque: usize, speed: usize) -> Option<f64> {
         self.at(torque, speed)?[0]
@@ -110,7 +122,7 @@ impl Whole {
     }
 }
 
-impl Wanted {
+impl Selection {
     /// Of a grid with its axes, or of a list. `whole` keeps the values of all places.
     pub fn new(grid: Option<&Axes>, whole: bool) -> Self {
         let numbers = |lines: &[f64], shown: &[usize]| {
@@ -167,16 +179,16 @@ impl Axes {
     fn shown(&self) -> [Vec<usize>; 2] {
         let count = self.torques.len() * self.speeds.len();
         let most = if count > MOST_SHOWN { LINES } else { usize::MAX };
-        [&self.torques, &self.speeds].map(|axis| super::spread_over(axis.len(), most))
+        [&self.torques, &self.speeds].map(|axis| spread_over(axis.len(), most))
     }
 }
 
-impl Kept {
+impl ShownMap {
     /// Nothing yet of a map over a grid with its axes, or of a list. `whole` keeps the values of all places.
     pub fn new(grid: Option<&Axes>, whole: bool) -> Self {
         let shown = |axes: &Axes| {
             let [torques, speeds] = axes.shown();
-            Shown {
+            ShownGrid {
                 places: vec![None; torques.len() * speeds.len()],
                 axes: Axes {
                     torques: torques.iter().map(|i| axes.torques[*i]).collect(),
@@ -188,7 +200,7 @@ impl Kept {
         Self {
             points: Vec::new(),
             grid: grid.map(shown),
-            whole: grid.filter(|_| whole).map(|axes| Whole {
+            whole: grid.filter(|_| whole).map(|axes| LossGrid {
                 axes: axes.clone(),
                 values: vec![None; axes.torques.len() * axes.speeds.len()],
             }),
@@ -220,6 +232,12 @@ impl Kept {
     /// Torques and speeds of the grid; points of a list and one.
     pub fn size(&self) -> (usize, usize) {
         self.size.unwrap_or((self.points.len(), 1))
+    }
+
+    /// True for a grid of one torque without gaps.
+    pub fn is_line(&self) -> bool {
+        let grid = self.grid.as_ref();
+        grid.is_some_and(|shown| shown.axes.torques.len() == 1 && !shown.places.contains(&None))
     }
 
     /// Says where pictures show fewer points than there are.

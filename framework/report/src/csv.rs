@@ -1,0 +1,128 @@
+//! Tables as comma-separated values.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+use std::io;
+use std::ops::Range;
+
+use gearloss_studies::table::{Table, Values};
+use rayon::prelude::*;
+
+/// A table that is written some rows at a time.
+pub struct CsvTable<W: io::Write> {
+    to: W,
+}
+
+/// Rows whose lines one thread makes at a time.
+const ROWS: usize = 1024;
+
+impl<W: io::Write> CsvTable<W> {
+    /// A table with the names of its columns.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn new(mut to: W, header: &Table) -> io::Result<Self> {
+        let mut line = csv::Writer::from_writer(Vec::new());
+        line.write_record(header.columns.iter().map(|column| inert(&column.name).into_owned()))?;
+        to.write_all(&line.into_inner().map_err(csv::IntoInnerError::into_error)?)?;
+        Ok(Self { to })
+    }
+
+    /// Adds rows.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn rows(&mut self, rows: &Table) -> io::Result<()> {
+        let starts: Vec<usize> = (0..rows.len()).step_by(ROWS).collect();
+        let lines = |start: &usize| lines(rows, *start..(start + ROWS).min(rows.len()));
+        let all: Vec<io::Result<Vec<u8>>> = starts.par_iter().map(lines).collect();
+        all.into_iter().try_for_each(|lines| self.to.write_all(&lines?))
+    }
+
+    /// Ends the table.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}
+
+/// Some rows as lines: all digits of a number, nothing for a gap.
+fn lines(table: &Table, rows: Range<usize>) -> io::Result<Vec<u8>> {
+    let mut lines = csv::Writer::from_writer(Vec::new());
+    let mut digits = String::new();
+    for row in rows {
+        for column in &table.columns {
+            match &column.values {
+                Values::Numbers(numbers) => {
+                    digits.clear();
+                    if !numbers[row].is_nan() {
+                        let _ = write!(digits, "{}", numbers[row]);
+                    }
+                    lines.write_field(&digits)?;
+                }
+                Values::Texts(texts) => lines.write_field(inert(texts.get(row).unwrap_or_default()).as_ref())?,
+            }
+        }
+        lines.write_record(None::<&[u8]>)?;
+    }
+    lines.into_inner().map_err(csv::IntoInnerError::into_error)
+}
+
+/// A text as a spreadsheet takes for one: what would begin a formula there stands behind an apostrophe, which spreadsheets read
+/// as the sign of a text. Numbers keep their sign, and a sign alone, such as the unit `-`, is no formula.
+fn inert(text: &str) -> Cow<'_, str> {
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
+    if !is_formula || text.len() == 1 || text.parse().is_ok_and(f64::is_finite) {
+        Cow::Borrowed(text)
+    } else {
+        Cow::Owned(format!("'{text}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use gearloss_studies::cells;
+    use gearloss_studies::table::Column;
+
+    use super::*;
+
+    #[test]
+    fn texts_are_no_formulas_in_a_spreadsheet_and_numbers_keep_their_sign() {
+        for harmless in ["-5.5", "+1e-3", "12", "", "-0", "-"] {
+            assert_eq!(inert(harmless), harmless);
+        }
+        for text in [
+            "=1+1",
+            "+cmd|' /C calc'!A0",
+            "-2+3",
+            "@SUM(A1)",
+            "\t=1",
+            "\r=1",
+            "-inf",
+            "+NaN",
+        ] {
+            assert_eq!(inert(text), format!("'{text}"));
+        }
+        assert_eq!(inert("a=b"), "a=b");
+    }
+
+    #[test]
+    fn rows_are_lines_in_their_order_however_many_threads_make_them() {
+        let columns = [Column::text("gear", "Gear"), Column::number("loss_w", "W", "Loss")];
+        let mut table = Table::new("t", columns);
+        for i in 0..3 * ROWS {
+            table.push(cells!["first", (i != 1).then_some(i as f64 + 0.1)]);
+        }
+        let mut bytes = Vec::new();
+        let mut csv = CsvTable::new(&mut bytes, &table).expect("a vector takes all");
+        csv.rows(&table).expect("a vector takes all");
+        csv.finish().expect("a vector takes all");
+        let text = String::from_utf8(bytes).expect("text");
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[..3], ["gear,loss_w", "first,0.1", "first,"]);
+        assert_eq!(lines.last(), Some(&"first,3071.1"));
+        assert_eq!(lines.len(), 3 * ROWS + 1);
+    }
+}

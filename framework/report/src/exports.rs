@@ -1,0 +1,50 @@
+//! Tables of losses for other programs, one file for each gear state.
+//!
+//! A format implements [`ExportFormat`](gearloss_studies::analyses::map::ExportFormat) and registers itself with
+//! [`register_export!`](gearloss_studies::register_export), in any crate.
+
+mod lossy_gear;
+mod matlab;
+mod vecto;
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_studies::analyses::map::{ExportMap, MapOfSet, MapOutcome};
+
+use crate::page::Page;
+
+/// Adds the files that are asked for, with a line for each; the first refusal ends them.
+pub fn add(outcome: &MapOutcome, page: &mut Page) {
+    for (format, export) in outcome.exports.iter().enumerate() {
+        for (i, map) in outcome.maps.iter().enumerate() {
+            let Some(grid) = &map.shown.whole else { continue };
+            let same = |m: &&MapOfSet| m.model_set == map.model_set && m.gear == map.gear;
+            let own = ExportMap {
+                outcome,
+                map,
+                grid,
+                siblings: outcome.maps.iter().filter(same).collect(),
+                number: outcome.maps[..i].iter().filter(same).count() + 1,
+                further: map.export.further.get(format).map_or(&[], Vec::as_slice),
+            };
+            match export.format().file(&own) {
+                Ok(None) => {}
+                Ok(Some(file)) => {
+                    let missed = map.export.between.map_or_else(String::new, |(worst, rms)| {
+                        format!(
+                            "; between its points the table of the map misses the loss torque by {worst:.4} Nm at most, {rms:.4} Nm rms"
+                        )
+                    });
+                    page.line(format!(
+                        "{}: {}: {}{missed}",
+                        outcome.head.analysis, file.name, file.about
+                    ));
+                    page.file(file.name, file.bytes);
+                }
+                Err(refusal) => {
+                    let path = format!("analyses.{}.export", outcome.head.analysis);
+                    return page.fault(Diagnostic::error(path, refusal.message).mend(refusal.help));
+                }
+            }
+        }
+    }
+}

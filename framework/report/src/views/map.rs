@@ -1,0 +1,97 @@
+//! Maps: efficiency over torque and speed as a table, tables for other programs, pictures.
+
+mod over_bound;
+mod pictures;
+
+use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownGrid, ShownPoint};
+use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::analysis::OilTemperature;
+
+use crate::exports;
+use crate::page::Page;
+use crate::register_view;
+use crate::text::{TextTable, fixed, number, spread};
+
+register_view!(MapOutcome, show);
+
+fn show(outcome: &MapOutcome, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    for note in &outcome.about_points {
+        page.line(format!("{name}: {note}"));
+    }
+    match &outcome.notes_of_sets {
+        Some(sets) => over_bound::show(outcome, sets, page),
+        None => outcome.maps.iter().for_each(|map| show_map(name, map, page)),
+    }
+    exports::add(outcome, page);
+    for note in &outcome.about_measured {
+        page.line(format!("{name}: measured: {note}"));
+    }
+    if let Some(thinned) = outcome.maps.iter().find_map(|map| map.shown.thinned()) {
+        page.line(format!("{name}: {thinned}"));
+    }
+    pictures::draw(outcome, page);
+}
+
+/// A map as a table.
+fn show_map(name: &str, map: &MapOfSet, page: &mut Page) {
+    page.line(format!(
+        "{name}: efficiency in %, gear {}, models {}{}",
+        map.gear,
+        map.model_set,
+        map.bound_words()
+    ));
+    let percent = |p: &ShownPoint| p.efficiency.map(|e| 100.0 * e);
+    if let Some(grid) = &map.shown.grid {
+        page.lines(table(map, grid, &percent));
+        if map.oil == OilTemperature::Balance {
+            page.line("oil temperature in degC");
+            page.lines(table(map, grid, &|p| p.oil));
+        }
+    } else {
+        let mut table = TextTable::new(&["torque Nm", "speed rpm", "oil degC", "efficiency %", "loss W"]);
+        for i in spread(map.shown.points.len()) {
+            let p = &map.shown.points[i];
+            table.row(vec![
+                format!("{}", tidy(p.torque)),
+                fixed(p.speed * RPM, 0),
+                number(p.oil, 1),
+                number(percent(p), 2),
+                number(p.loss, 2),
+            ]);
+        }
+        page.lines(table.render());
+    }
+    if let Some(thinned) = thinned(map) {
+        page.line(thinned);
+    }
+    page.outside(&map.notes);
+    page.line("");
+}
+
+/// Says where the table shows fewer points than there are.
+fn thinned(map: &MapOfSet) -> Option<String> {
+    let (torques, speeds) = map.shown.size();
+    let shown = spread(torques).len() * spread(speeds).len();
+    (shown < torques * speeds).then(|| {
+        format!(
+            "shown: {shown} of {} points, both ends among them; the files hold all",
+            torques * speeds
+        )
+    })
+}
+
+fn table(map: &MapOfSet, grid: &ShownGrid, quantity: &dyn Fn(&ShownPoint) -> Option<f64>) -> String {
+    let ShownGrid { axes, places } = grid;
+    let shown = spread(axes.speeds.len());
+    let mut head = vec!["torque Nm".to_owned()];
+    head.extend(shown.iter().map(|i| format!("{} rpm", fixed(axes.speeds[*i] * RPM, 0))));
+    let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
+    for t in spread(axes.torques.len()) {
+        let mut row = vec![format!("{}", tidy(axes.torques[t]))];
+        let cell = |i: &usize| quantity(&map.shown.points[places[t * axes.speeds.len() + i]?]);
+        row.extend(shown.iter().map(|i| number(cell(i), 2)));
+        table.row(row);
+    }
+    table.render()
+}

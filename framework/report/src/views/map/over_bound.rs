@@ -1,0 +1,45 @@
+//! One table for maps over speed and the values of one bound path.
+
+use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, NotesOfSet, ShownPoint};
+use gearloss_studies::analyses::numbers::{RPM, word};
+use gearloss_studies::analysis::OilTemperature;
+
+use crate::page::Page;
+use crate::text::{TextTable, fixed, number, spread};
+
+/// A quantity in words, and how to read it.
+type Quantity = (&'static str, fn(&ShownPoint) -> Option<f64>);
+
+/// The loss, and with a balance the temperature, over speed and the values of the one bound path.
+pub fn show(outcome: &MapOutcome, sets: &[NotesOfSet], page: &mut Page) {
+    let name = &outcome.head.analysis;
+    for NotesOfSet { model_set, notes } in sets {
+        let own: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == *model_set).collect();
+        let points = &own[0].shown.points;
+        let shown = spread(points.len());
+        let mut quantities: Vec<Quantity> = vec![("loss in W", |p| p.loss)];
+        if own[0].oil == OilTemperature::Balance {
+            quantities.push(("oil temperature in degC", |p| p.oil));
+        }
+        for (words, quantity) in quantities {
+            page.line(format!(
+                "{name}: {words}, gear {}, {} Nm, models {model_set}",
+                own[0].gear, points[0].torque
+            ));
+            let mut head: Vec<String> = own[0].bound.keys().cloned().collect();
+            let speeds = shown
+                .iter()
+                .map(|i| format!("{} rpm", fixed(points[*i].speed * RPM, 0)));
+            head.extend(speeds);
+            let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
+            for map in &own {
+                let mut row: Vec<String> = map.bound.values().map(word).collect();
+                row.extend(shown.iter().map(|i| number(quantity(&map.shown.points[*i]), 2)));
+                table.row(row);
+            }
+            page.lines(table.render());
+        }
+        page.outside(notes);
+        page.line("");
+    }
+}

@@ -1,0 +1,212 @@
+//! Pictures of maps.
+
+use gearloss_studies::analyses::map::{Axes, MapOfSet, MapOutcome, Mark, ShownGrid, ShownPoint};
+use gearloss_studies::analyses::numbers::{RPM, tidy, word};
+use gearloss_studies::analysis::OilTemperature;
+
+use crate::page::Page;
+use crate::{Cloud, Figure, Map};
+
+/// A quantity of the pictures.
+struct Quantity {
+    /// In short, for the name of a file.
+    short: &'static str,
+    /// In words.
+    long: &'static str,
+    value: fn(&ShownPoint) -> Option<f64>,
+}
+
+/// Efficiency, loss, loss torque, and with a balance the temperature.
+fn quantities(outcome: &MapOutcome) -> Vec<Quantity> {
+    let quantity = |short, long, value| Quantity { short, long, value };
+    let mut all = vec![
+        quantity("efficiency", "efficiency in %", |p| p.efficiency.map(|e| 100.0 * e)),
+        quantity("loss", "loss in W", |p| p.loss),
+        quantity("loss-torque", "loss torque in Nm", |p| p.loss_torque),
+    ];
+    if outcome.maps.iter().any(|m| m.oil == OilTemperature::Balance) {
+        all.push(quantity("temperature", "oil temperature in degC", |p| p.oil));
+    }
+    all
+}
+
+/// Pictures over speed and torque; over speed and the bound values where there is one torque and one path is bound.
+pub fn draw(outcome: &MapOutcome, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    let axes = AxisNames::new(outcome);
+    for set in outcome.set_names() {
+        let own: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == set).collect();
+        for quantity in quantities(outcome) {
+            // Without load there is no efficiency to show.
+            let is_known = |m: &&MapOfSet| m.shown.points.iter().any(|p| (quantity.value)(p).is_some());
+            if !own.iter().any(is_known) {
+                continue;
+            }
+            // One scale for each quantity, so that maps can be compared by eye.
+            let values = outcome
+                .maps
+                .iter()
+                .flat_map(|m| m.shown.points.iter().filter_map(quantity.value));
+            let ends = values.fold(None, |ends: Option<(f64, f64)>, x| {
+                Some(ends.map_or((x, x), |(low, high)| (low.min(x), high.max(x))))
+            });
+            let file = format!("{name}-{set}-{}", quantity.short);
+            if let (true, Some(grid)) = (outcome.notes_of_sets.is_some(), &own[0].shown.grid) {
+                page.figure(file, over_bound(name, &quantity, &own, grid, &axes, ends));
+                continue;
+            }
+            for (i, map) in own.iter().enumerate() {
+                let number = if own.len() > 1 {
+                    format!("-{}", i + 1)
+                } else {
+                    String::new()
+                };
+                let oil = map
+                    .oil
+                    .given()
+                    .map_or_else(String::new, |oil| format!(", oil {oil} °C"));
+                let title = format!(
+                    "{name}: {}, models {set}, gear {}{oil}{}",
+                    quantity.long,
+                    map.gear,
+                    map.bound_words()
+                );
+                for (side, figure) in over_torque(map, &title, &quantity, &axes, &outcome.marks, ends) {
+                    page.figure(format!("{file}{number}{side}"), figure);
+                }
+            }
+        }
+    }
+}
+
+/// A quantity over speed and the values of the one bound path.
+fn over_bound(
+    name: &str,
+    quantity: &Quantity,
+    maps: &[&MapOfSet],
+    grid: &ShownGrid,
+    names: &AxisNames,
+    ends: Option<(f64, f64)>,
+) -> Figure {
+    let points = || maps.iter().flat_map(|m| &m.shown.points);
+    Figure::Map(Map {
+        title: format!(
+            "{name}: {}, models {}, gear {}, {} Nm",
+            quantity.long, maps[0].model_set, maps[0].gear, grid.axes.torques[0]
+        ),
+        x: over_speed(&grid.axes, names),
+        y: (
+            maps[0].bound.keys().next().cloned().unwrap_or_default(),
+            maps.iter().flat_map(|m| m.bound.values().map(word)).collect(),
+        ),
+        values: points().map(quantity.value).collect(),
+        hatched: points().map(|p| p.outside).collect(),
+        ends,
+        ..Map::default()
+    })
+}
+
+/// Names of the axes, with the ports at which torque and speed are given.
+struct AxisNames {
+    speed: String,
+    torque: String,
+}
+
+impl AxisNames {
+    fn new(outcome: &MapOutcome) -> Self {
+        let conditions = &outcome.head.conditions;
+        Self {
+            speed: format!("speed at {} in rpm", conditions.speed_at),
+            torque: format!("torque at {} in Nm", conditions.torque_at),
+        }
+    }
+}
+
+/// The pictures of one quantity of one map. Efficiency falls to zero at no torque from both sides, so each side has a picture
+/// of its own.
+fn over_torque(
+    map: &MapOfSet,
+    title: &str,
+    quantity: &Quantity,
+    names: &AxisNames,
+    marks: &[Mark],
+    ends: Option<(f64, f64)>,
+) -> Vec<(&'static str, Figure)> {
+    let value = quantity.value;
+    let Some(ShownGrid { axes, places }) = &map.shown.grid else {
+        let point = |p: &ShownPoint| Some((p.speed * RPM, p.torque, value(p)?));
+        let cloud = Cloud {
+            title: title.to_owned(),
+            axes: (names.speed.clone(), names.torque.clone()),
+            points: map.shown.points.iter().filter_map(point).collect(),
+            diverging: false,
+        };
+        return vec![("", Figure::Cloud(cloud))];
+    };
+    let both = axes.torques.iter().any(|t| *t > 0.0) && axes.torques.iter().any(|t| *t < 0.0);
+    let sides: &[(&str, &str, fn(f64) -> bool)] = if quantity.short == "efficiency" && both {
+        &[
+            ("-above", ", torque above zero", |t| t > 0.0),
+            ("-below", ", torque below zero", |t| t < 0.0),
+        ]
+    } else {
+        &[("", "", |_| true)]
+    };
+    let columns = axes.speeds.len();
+    let marks: Vec<(f64, f64)> = marks
+        .iter()
+        .filter(|m| m.gear.as_deref().is_none_or(|g| g == map.gear))
+        .map(|m| (speed(axes, m.speed), torque(axes, m.torque)))
+        .collect();
+    let picture = |(file, words, holds): &(&'static str, &str, fn(f64) -> bool)| {
+        let rows: Vec<usize> = (0..axes.torques.len()).filter(|t| holds(axes.torques[*t])).collect();
+        let cells = || rows.iter().flat_map(|t| &places[t * columns..(t + 1) * columns]);
+        let solved = |place: &Option<usize>| place.map(|i| &map.shown.points[i]);
+        let mut y = torque_axis(axes, names);
+        y.1 = rows.iter().map(|t| y.1[*t].clone()).collect();
+        let figure = Figure::Map(Map {
+            title: format!("{title}{words}"),
+            x: over_speed(axes, names),
+            y,
+            values: cells().map(|p| solved(p).and_then(value)).collect(),
+            hatched: cells().map(|p| solved(p).is_some_and(|p| p.outside)).collect(),
+            marks: marks.clone(),
+            ends,
+            ..Map::default()
+        });
+        (*file, figure)
+    };
+    sides.iter().map(picture).collect()
+}
+
+/// A speed as the axis counts it.
+fn speed(axes: &Axes, speed: f64) -> f64 {
+    tidy(axes.shares[0].map_or(speed * RPM, |rating| speed / rating))
+}
+
+/// A torque as the axis counts it.
+fn torque(axes: &Axes, torque: f64) -> f64 {
+    tidy(axes.shares[1].map_or(torque, |rating| torque / rating))
+}
+
+/// Name and values of the axis of speeds.
+fn over_speed(axes: &Axes, names: &AxisNames) -> (String, Vec<String>) {
+    let name = if axes.shares[0].is_some() {
+        "speed over rating"
+    } else {
+        &names.speed
+    };
+    let values = axes.speeds.iter().map(|w| format!("{}", speed(axes, *w)));
+    (name.to_owned(), values.collect())
+}
+
+/// Name and values of the axis of torques.
+fn torque_axis(axes: &Axes, names: &AxisNames) -> (String, Vec<String>) {
+    let name = if axes.shares[1].is_some() {
+        "torque over rating"
+    } else {
+        &names.torque
+    };
+    let values = axes.torques.iter().map(|t| format!("{}", torque(axes, *t)));
+    (name.to_owned(), values.collect())
+}

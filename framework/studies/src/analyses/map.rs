@@ -1,0 +1,568 @@
+//! Losses and efficiency over a grid, or at the points of a file.
+
+pub mod export;
+mod plan;
+mod points;
+mod shown;
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use gearloss_framework::description::Ordered;
+use gearloss_framework::loss::Extent;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
+pub use plan::Axes;
+pub use points::MapPoints;
+pub use shown::{LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};
+
+use self::export::ExportData;
+use self::plan::{Planned, on_grid};
+use self::points::{RowsOf, Taken, Taker, UndefinedLoss, columns};
+use self::shown::Selection;
+use super::numbers::word;
+use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
+use crate::analysis::{
+    Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, WeakPoint, evidence, merge, notes,
+};
+use crate::measured::Measured;
+use crate::register_analysis;
+use crate::study::{Data, Uses, Write};
+use crate::table::Table;
+
+/// Losses and efficiency over a grid.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct MapEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Grid; not with `points`.
+    pub grid: Option<String>,
+    /// File of points in place of a grid, as of measured data: torque, speed, and where it has them gear state and temperature
+    /// of the oil, which then holds for its point.
+    pub points: Option<Data>,
+    /// Columns of the points that change a value of the gearbox: column to resolved path.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// Gear state of the points where no column says it; absent, the first.
+    pub gear: Option<String>,
+    /// Measured points that are drawn into the pictures.
+    pub measured: Option<Data>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Formats to write; absent, CSV and JSON. Pictures show efficiency, loss and, with a balance, temperature.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+    /// Tables of losses for other programs, one file for each gear state; a grid is needed.
+    #[serde(default)]
+    pub export: Vec<ExportName>,
+    /// Largest share of the loss torque by which the straight lines of a `lossy_gear` table may miss it at a point of the grid;
+    /// above it the table is refused. [-]
+    #[serde(default = "quarter")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub lossy_gear_limit: f64,
+}
+
+/// About what sets of models differ by among themselves.
+fn quarter() -> f64 {
+    0.25
+}
+
+impl Entry for MapEntry {
+    const TYPE: &'static str = "map";
+    const MEANING: &'static str = "Losses and efficiency over a grid.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: self.grid.as_ref(),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+                .at(&self.gear)
+                .bind(&self.bind)
+                .with("points", self.points.as_ref())
+                .with("measured", self.measured.as_ref())
+        }
+    }
+}
+
+register_analysis!(MapEntry);
+
+/// The maps of an analysis.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct MapOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each gear state, each model set and each combination of bound values.
+    pub maps: Vec<MapOfSet>,
+    /// The points of all maps; without rows where these were handed over as they came ([`Context::sink`]).
+    #[serde(skip)]
+    pub table: Table,
+    /// What there is to say of the file of points.
+    #[serde(skip)]
+    pub about_points: Vec<String>,
+    /// What there is to say of the file of measured points.
+    #[serde(skip)]
+    pub about_measured: Vec<String>,
+    /// Measured points, to be drawn.
+    #[serde(skip)]
+    pub marks: Vec<Mark>,
+    /// Notes of all maps of a set together, where these make one table over a bound value.
+    #[serde(skip)]
+    pub notes_of_sets: Option<Vec<NotesOfSet>>,
+    /// Tables for other programs that are asked for.
+    #[serde(skip)]
+    pub exports: Vec<ExportName>,
+    /// Largest share by which straight lines of a `lossy_gear` table may miss the loss torque.
+    #[serde(skip)]
+    pub lossy_gear_limit: f64,
+}
+
+/// A map under one model set in one gear state with one combination of bound values.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct MapOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// Gear state.
+    pub gear: String,
+    /// Bound values: resolved path to value.
+    pub bound: serde_json::Map<String, Value>,
+    /// Temperature of the oil; absent, each point has its own. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// The sums of losses that each point has.
+    pub sums: Vec<SumMeaning>,
+    /// The parts whose losses each point has, in their order.
+    pub parts: Vec<PartModel>,
+    /// Passes over the loss models.
+    pub passes: usize,
+    /// What models noted.
+    pub notes: Vec<Note>,
+    /// What is weakly founded.
+    pub evidence: Vec<WeakPoint>,
+    /// The points.
+    #[schemars(with = "Vec<points::MapPoint<'static>>")]
+    pub points: MapPoints,
+    /// How the temperature of the oil is found.
+    #[serde(skip)]
+    pub oil: OilTemperature,
+    /// What pictures and texts show.
+    #[serde(skip)]
+    pub shown: ShownMap,
+    /// What tables for other programs need beside the points.
+    #[serde(skip)]
+    pub export: ExportData,
+}
+
+/// A sum of losses.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct SumMeaning {
+    /// Name.
+    pub sum: &'static str,
+    /// What it sums.
+    pub meaning: &'static str,
+}
+
+/// A part with losses.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct PartModel {
+    /// Path.
+    pub part: String,
+    /// Loss mechanism.
+    pub mechanism: &'static str,
+    /// Model.
+    pub model: &'static str,
+}
+
+/// A measured point, to be drawn.
+#[derive(Debug, Clone)]
+pub struct Mark {
+    /// Gear state; absent, any.
+    pub gear: Option<String>,
+    /// Torque. [Nm]
+    pub torque: f64,
+    /// Speed. [rad/s]
+    pub speed: f64,
+}
+
+/// Notes of all maps of a set.
+#[derive(Debug, Clone)]
+pub struct NotesOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// The notes.
+    pub notes: Vec<Note>,
+}
+
+impl Analysis for MapEntry {
+    type Outcome = MapOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<MapOutcome, Stopped> {
+        match &self.points {
+            Some(points) if self.grid.is_none() => self.over_list(cx, points),
+            _ => self.over_grid(cx),
+        }
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl MapEntry {
+    /// The maps over the grid.
+    fn over_grid(&self, cx: &Context<'_>) -> Result<MapOutcome, Stopped> {
+        let planned = self.planned(cx)?;
+        for plan in &planned {
+            cx.checked(&plan.built, &plan.points)?;
+        }
+        export::check(cx, &self.export, &planned)?;
+        if cx.only_checks {
+            self.measured(cx)?;
+            return Err(Stopped::Checked);
+        }
+        let bound: Vec<String> = planned.first().map_or_else(Vec::new, |first| {
+            first.bound.iter().map(|(path, _)| path.clone()).collect()
+        });
+        let all: Vec<&Built<'_>> = planned.iter().map(|plan| &*plan.built).collect();
+        let mut rows = Rows::new(cx, self, &bound, &all);
+        let whole = !self.export.is_empty();
+        let mut maps = Vec::new();
+        for plan in &planned {
+            let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, &rows);
+            map.shown = ShownMap::new(Some(&plan.axes), whole);
+            let taker = Taker {
+                field: &plan.points.field,
+                rows: RowsOf::new(&plan.built, &plan.points.gear, &plan.bound, &rows.parts),
+                selection: &Selection::new(Some(&plan.axes), whole),
+            };
+            let take = |points: &mut Numbered<'_>| taker.take(points);
+            cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
+                map.add(piece, &taker.rows, &mut rows)
+            })?;
+            map.notes = notes(&plan.built.transmission, &map.seen);
+            maps.push(map);
+        }
+        for map in &mut maps {
+            map.export = ExportData::solve(cx, &self.export, map)?;
+        }
+        self.outcome(cx, rows, maps, Vec::new())
+    }
+
+    /// The points of the maps over the grid that the entry names.
+    fn planned<'s>(&'s self, cx: &'s Context<'_>) -> Result<Vec<Planned<'s>>, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        match (&self.grid, &self.points) {
+            (Some(_), None) if !self.bind.is_empty() || self.gear.is_some() => {
+                Err(cx.wrong(&path, "`bind` and `gear` belong to `points`", "state them in the grid"))
+            }
+            (Some(grid), None) => on_grid(cx, self, grid, gearbox),
+            _ => {
+                let mend = "write `grid: NAME`, or `points: { file: ... }`";
+                Err(cx.wrong(&path, "a map needs either `grid` or `points`", mend))
+            }
+        }
+    }
+
+    /// One map for each set, each gear state and each combination of bound values that the rows of a file have.
+    fn over_list(&self, cx: &Context<'_>, points: &Data) -> Result<MapOutcome, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        if !self.export.is_empty() {
+            return Err(cx.wrong(
+                &format!("{path}.export"),
+                "a table for another program needs a grid",
+                "give `grid` in place of `points`",
+            ));
+        }
+        let bind: Vec<&str> = self.bind.ids().collect();
+        let listed = cx.read(&format!("{path}.points"), points, &bind)?;
+        let file = &cx.data(&path, points)?.file;
+        let about = listed.notes.iter().map(|note| format!("{file}: {note}")).collect();
+        let solved = cx.at_rows(
+            gearbox,
+            &self.model_sets,
+            &self.bind,
+            self.gear.as_deref(),
+            &listed,
+            false,
+        )?;
+        if cx.only_checks {
+            self.measured(cx)?;
+            return Err(Stopped::Checked);
+        }
+        let paths: Vec<String> = self.bind.iter().map(|(_, path)| path.clone()).collect();
+        let all: Vec<&Built<'_>> = solved.iter().flat_map(|solved| &solved.built).collect();
+        let mut rows = Rows::new(cx, self, &paths, &all);
+        let mut maps = Vec::new();
+        for solved in solved {
+            let mut keys: Vec<(usize, String)> = Vec::new();
+            for (place, gear, _) in &solved.rows {
+                if !keys.iter().any(|key| (key.0, &key.1) == (*place, gear)) {
+                    keys.push((*place, gear.clone()));
+                }
+            }
+            let built: Vec<Arc<Built<'_>>> = solved.built.into_iter().map(Arc::new).collect();
+            for (place, gear) in keys {
+                let own = solved
+                    .rows
+                    .iter()
+                    .zip(&listed.rows)
+                    .filter(|(row, _)| row.0 == place && row.1 == gear);
+                let bound: Vec<(String, Value)> = own.clone().next().map_or_else(Vec::new, |(_, row)| {
+                    let values = row.bound.iter().map(|v| Value::from(v.as_str()));
+                    paths.iter().cloned().zip(values).collect()
+                });
+                let points: Vec<PointResult> = own.map(|((_, _, point), _)| point.clone()).collect();
+                let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
+                let mut map = Map::new(&built[place], &bound, &gear, oil, &rows);
+                let taker = Taker {
+                    field: &Field::List(Vec::new()),
+                    rows: RowsOf::new(&built[place], &gear, &bound, &rows.parts),
+                    selection: &Selection::new(None, false),
+                };
+                let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
+                map.add(piece, &taker.rows, &mut rows)?;
+                map.notes.clone_from(&solved.notes);
+                maps.push(map);
+            }
+        }
+        self.outcome(cx, rows, maps, about)
+    }
+
+    /// Measured points that are to be drawn.
+    fn measured(&self, cx: &Context<'_>) -> Result<Measured, Stopped> {
+        match &self.measured {
+            Some(data) => cx.read_at_ports(&format!("{}.measured", cx.path()), data, &[]),
+            None => Ok(Measured::default()),
+        }
+    }
+
+    fn outcome(
+        &self,
+        cx: &Context<'_>,
+        rows: Rows<'_>,
+        maps: Vec<Map<'_>>,
+        about_points: Vec<String>,
+    ) -> Result<MapOutcome, Stopped> {
+        let head = cx.head(&maps.iter().map(|map| &*map.built).collect::<Vec<_>>());
+        let measured = self.measured(cx)?;
+        let mark = |row| Mark {
+            gear: crate::measured::Row::clone(row).gear,
+            torque: measured.value(row, "torque").unwrap_or(0.0),
+            speed: measured.value(row, "speed").unwrap_or(0.0),
+        };
+        Ok(MapOutcome {
+            head,
+            notes_of_sets: notes_of_sets(&maps),
+            maps: maps.into_iter().map(|map| map.outcome(&rows)).collect(),
+            about_points,
+            about_measured: measured.notes.clone(),
+            marks: measured.rows.iter().map(mark).collect(),
+            exports: self.export.clone(),
+            lossy_gear_limit: self.lossy_gear_limit,
+            table: rows.table,
+        })
+    }
+}
+
+/// The temperature that all points share; absent where they differ, or where it is found by balance.
+fn common(points: &[PointResult]) -> Option<f64> {
+    let first = points.first().filter(|p| p.balance.is_none())?.oil?;
+    points.iter().all(|p| p.oil == Some(first)).then_some(first)
+}
+
+/// The table of all maps as its rows come.
+struct Rows<'c> {
+    cx: &'c Context<'c>,
+    /// Paths of the parts that have a column; sets may differ in their parts, and each part has one.
+    parts: Vec<String>,
+    /// How many columns come before those of points.
+    constant: usize,
+    table: Table,
+    /// Whether the table holds its rows: where nobody takes them, and where JSON lists the points.
+    holds: bool,
+}
+
+impl<'c> Rows<'c> {
+    fn new(cx: &'c Context<'c>, entry: &MapEntry, bound: &[String], all: &[&Built<'_>]) -> Self {
+        let mut parts: Vec<String> = Vec::new();
+        for part in all.iter().flat_map(|built| built.transmission.parts()) {
+            if !parts.contains(&part.path) {
+                parts.push(part.path.clone());
+            }
+        }
+        Self {
+            table: Table::new(cx.name, columns(bound, &parts)),
+            holds: cx.sink.is_none() || entry.write.contains(&Write::Json),
+            constant: 2 + bound.len(),
+            parts,
+            cx,
+        }
+    }
+}
+
+/// A map as it is computed.
+struct Map<'a> {
+    built: Arc<Built<'a>>,
+    bound: Vec<(String, Value)>,
+    gear: String,
+    oil: OilTemperature,
+    shown: ShownMap,
+    seen: Vec<Extent>,
+    notes: Vec<Note>,
+    passes: usize,
+    undefined: Vec<UndefinedLoss>,
+    /// Its rows in the table, where that holds them.
+    rows: Range<usize>,
+    export: ExportData,
+}
+
+impl<'a> Map<'a> {
+    /// A map without points yet; its rows are those that the table gets next.
+    fn new(
+        built: &Arc<Built<'a>>,
+        bound: &[(String, Value)],
+        gear: &str,
+        oil: OilTemperature,
+        rows: &Rows<'_>,
+    ) -> Self {
+        Self {
+            built: Arc::clone(built),
+            bound: bound.to_vec(),
+            gear: gear.to_owned(),
+            oil,
+            shown: ShownMap::new(None, false),
+            seen: Vec::new(),
+            notes: Vec::new(),
+            passes: 0,
+            undefined: Vec::new(),
+            rows: rows.table.len()..rows.table.len(),
+            export: ExportData::default(),
+        }
+    }
+
+    /// Adds what was taken from a piece that follows.
+    fn add(&mut self, piece: Piece<Taken>, of_map: &RowsOf<'_>, rows: &mut Rows<'_>) -> Result<(), Stopped> {
+        merge(&mut self.seen, &piece.seen);
+        let order: Vec<(usize, Range<usize>)> = piece.runs().collect();
+        let (mut values, mut picked, mut undefined) = (Vec::new(), Vec::new(), Vec::new());
+        drop(piece.map(|taken| {
+            self.passes += taken.passes;
+            values.push(of_map.with_constants(taken.values));
+            picked.push(taken.picked);
+            undefined.extend(taken.undefined);
+        }));
+        self.shown.add(picked);
+        if rows.holds {
+            undefined.sort_by_key(|loss: &UndefinedLoss| loss.number);
+            self.undefined.extend(undefined);
+            rows.table.extend(&values, &order);
+            self.rows.end = rows.table.len();
+        } else if let Some(sink) = rows.cx.sink {
+            let mut own = rows.table.header();
+            own.extend(&values, &order);
+            sink.take(&own)?;
+        }
+        Ok(())
+    }
+
+    fn outcome(self, rows: &Rows<'_>) -> MapOfSet {
+        let (built, t) = (&self.built, &self.built.transmission);
+        let column = |path: &String| rows.parts.iter().position(|part| part == path).unwrap_or(0);
+        let columns: Vec<usize> = t.parts().iter().map(|part| column(&part.path)).collect();
+        MapOfSet {
+            points: MapPoints::new(&rows.table, rows.constant, columns, self.rows, self.undefined),
+            model_set: built.name.clone(),
+            gear: self.gear,
+            bound: self.bound.into_iter().collect(),
+            oil_temperature_degc: self.oil.given(),
+            sums: SUMS.iter().map(|(sum, meaning)| SumMeaning { sum, meaning }).collect(),
+            parts: t
+                .parts()
+                .iter()
+                .map(|part| PartModel {
+                    part: part.path.clone(),
+                    mechanism: part.mechanism,
+                    model: t.instances()[part.notes.instance()].entry.name,
+                })
+                .collect(),
+            passes: self.passes,
+            notes: self.notes,
+            evidence: evidence(t, &built.resolved, &|path| built.gearbox.places.is_written(path)),
+            oil: self.oil,
+            shown: self.shown,
+            export: self.export,
+        }
+    }
+}
+
+/// Notes of all maps of each set, where the maps make one table over a bound value: their transmissions differ in it only.
+fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
+    let first = maps.first()?;
+    let fits = |map: &Map<'_>| map.shown.is_line() && map.bound.len() == 1 && map.gear == first.gear;
+    if !maps.iter().all(fits) {
+        return None;
+    }
+    let mut names: Vec<&str> = Vec::new();
+    for map in maps {
+        if !names.contains(&map.built.name.as_str()) {
+            names.push(&map.built.name);
+        }
+    }
+    let of_set = |name: &str| {
+        let mut all = Vec::new();
+        let own = || maps.iter().filter(|map| map.built.name == name);
+        own().for_each(|map| merge(&mut all, &map.seen));
+        NotesOfSet {
+            model_set: name.to_owned(),
+            notes: own()
+                .next()
+                .map_or_else(Vec::new, |map| notes(&map.built.transmission, &all)),
+        }
+    };
+    Some(names.into_iter().map(of_set).collect())
+}
+
+impl MapOfSet {
+    /// The bound values, for a heading.
+    pub fn bound_words(&self) -> String {
+        let words = self
+            .bound
+            .iter()
+            .map(|(path, value)| format!(", {path} {}", word(value)));
+        words.collect()
+    }
+}
+
+impl MapOutcome {
+    /// Names of the sets in the order of the maps.
+    pub fn set_names(&self) -> Vec<&str> {
+        let mut sets: Vec<&str> = Vec::new();
+        for map in &self.maps {
+            if !sets.contains(&map.model_set.as_str()) {
+                sets.push(&map.model_set);
+            }
+        }
+        sets
+    }
+}
+
+impl Outcome for MapOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        vec![self.table.clone()]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        match &self.notes_of_sets {
+            Some(sets) => sets.iter().flat_map(|set| &set.notes).collect(),
+            None => self.maps.iter().flat_map(|map| &map.notes).collect(),
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Results of tasks in the folders of shards.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use gearloss_studies::analyses::Stopped;
+use gearloss_studies::analyses::head::fnv1a_64;
+use gearloss_studies::study::Study;
+use gearloss_studies::tasks::{Task, TaskResults};
+
+use super::folder::cannot;
+use super::shard::Shard;
+use super::task_file::TaskFile;
+use crate::output::Failure;
+
+/// What shards have computed, and where one keeps what it computes.
+pub struct ShardTasks {
+    /// The shard that computes; absent for a merge.
+    shard: Option<Shard>,
+    /// Its folder.
+    folder: PathBuf,
+    analyses: BTreeMap<String, Mutex<Files>>,
+}
+
+/// The files of one analysis.
+#[derive(Default)]
+struct Files {
+    /// That of the shard that computes, if it has one already.
+    own: Option<TaskFile>,
+    others: Vec<TaskFile>,
+    /// Results that were there before.
+    before: usize,
+    computed: usize,
+}
+
+/// The file of the tasks of an analysis.
+fn file(folder: &Path, analysis: &str) -> PathBuf {
+    folder.join(format!("{analysis}.tasks"))
+}
+
+impl ShardTasks {
+    /// Those of a shard, which goes on in its folder; what others have computed lies in other folders.
+    pub fn of_shard(study: &Study, shard: Shard, folder: &Path, others: &[PathBuf]) -> Result<Self, Failure> {
+        let tasks = Self {
+            shard: Some(shard),
+            folder: folder.to_owned(),
+            ..Self::of_merge(study, others)?
+        };
+        for (analysis, files) in &tasks.analyses {
+            let path = file(folder, analysis);
+            if path.symlink_metadata().is_ok() {
+                let own = TaskFile::reopen(&path).map_err(|e| cannot(&path, &e))?;
+                let mut files = locked(files);
+                files.before = own.len();
+                files.own = Some(own);
+            }
+        }
+        Ok(tasks)
+    }
+
+    /// Those of all shards, for a merge.
+    pub fn of_merge(study: &Study, folders: &[PathBuf]) -> Result<Self, Failure> {
+        let files = |analysis: &str| -> Result<Mutex<Files>, Failure> {
+            let files = folders.iter().map(|folder| file(folder, analysis));
+            // A shard that has no task of an analysis has no file for it.
+            let files = files.filter(|path| path.is_file());
+            let read = |path: PathBuf| TaskFile::read_only(&path).map_err(|e| cannot(&path, &e));
+            Ok(Mutex::new(Files {
+                others: files.map(read).collect::<Result<_, _>>()?,
+                ..Files::default()
+            }))
+        };
+        let analyses = study.entry.analyses.ids();
+        Ok(Self {
+            shard: None,
+            folder: PathBuf::new(),
+            analyses: analyses
+                .map(|name| Ok((name.to_owned(), files(name)?)))
+                .collect::<Result<_, Failure>>()?,
+        })
+    }
+
+    /// How many whole results a folder holds.
+    pub fn count(study: &Study, folder: &Path) -> usize {
+        let files = study.entry.analyses.ids().map(|name| file(folder, name));
+        files
+            .filter_map(|path| TaskFile::read_only(&path).ok())
+            .map(|file| file.len())
+            .sum()
+    }
+
+    /// How many results were computed, and how many were there before.
+    pub fn counts(&self) -> (usize, usize) {
+        let all = self.analyses.values().map(|files| {
+            let files = locked(files);
+            (files.computed, files.before)
+        });
+        all.fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1))
+    }
+
+    fn files(&self, task: Task<'_>) -> Option<MutexGuard<'_, Files>> {
+        self.analyses.get(task.analysis).map(locked)
+    }
+}
+
+fn locked(files: &Mutex<Files>) -> MutexGuard<'_, Files> {
+    files.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn unwritten(path: &Path, e: &dyn std::fmt::Display) -> Stopped {
+    Stopped::Unwritten(cannot(path, e).text().unwrap_or_default())
+}
+
+impl TaskResults for ShardTasks {
+    /// Tasks are dealt to the shards one after the other, each stage from another one on.
+    fn is_own(&self, task: Task<'_>) -> bool {
+        self.shard.is_none_or(|shard| {
+            let first = fnv1a_64(task.analysis.as_bytes()).wrapping_add(task.stage as u64);
+            let dealt = (first % shard.of as u64) as usize + task.number;
+            dealt % shard.of + 1 == shard.number
+        })
+    }
+
+    fn is_kept(&self, task: Task<'_>) -> bool {
+        self.files(task).is_some_and(|files| {
+            let mut all = files.own.iter().chain(&files.others);
+            all.any(|file| file.holds((task.stage, task.number)))
+        })
+    }
+
+    fn completes(&self) -> bool {
+        self.shard.is_none()
+    }
+
+    fn read(&self, task: Task<'_>) -> Result<Vec<u8>, Stopped> {
+        let own = (task.stage, task.number);
+        let result = self.files(task).map(|mut files| {
+            let Files { own: mine, others, .. } = &mut *files;
+            let mut all = mine.iter_mut().chain(others);
+            all.find(|file| file.holds(own)).map(|file| file.read(own))
+        });
+        let result = result
+            .flatten()
+            .unwrap_or_else(|| Err(std::io::ErrorKind::NotFound.into()));
+        result.map_err(|e| {
+            Stopped::Unwritten(format!(
+                "error: cannot read a result of `{}`: {e}\n  = mend: run its shard again, and merge then\n",
+                task.analysis
+            ))
+        })
+    }
+
+    fn keep(&self, task: Task<'_>, result: &[u8]) -> Result<(), Stopped> {
+        let Some(mut files) = self.files(task) else {
+            return Ok(());
+        };
+        let path = file(&self.folder, task.analysis);
+        if files.own.is_none() {
+            files.own = Some(TaskFile::reopen(&path).map_err(|e| unwritten(&path, &e))?);
+        }
+        let kept = files
+            .own
+            .as_mut()
+            .map(|own| own.append((task.stage, task.number), result));
+        kept.transpose().map_err(|e| unwritten(&path, &e))?;
+        files.computed += 1;
+        Ok(())
+    }
+}

@@ -1,0 +1,118 @@
+//! Results of tasks in a file, each behind its length and its hash, so that one that was cut off or changed is told from a whole
+//! one.
+
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+
+use gearloss_framework::files::{LONGEST_DATA, open_regular};
+use gearloss_studies::analyses::head::fnv1a_64;
+
+use super::folder::own;
+
+/// Length and hash of a result before its stage, its number and its bytes.
+const HEAD: usize = 16;
+
+/// Stage and number of a task, which stand before its bytes.
+const TASK: usize = 16;
+
+/// The results of one analysis.
+pub struct TaskFile {
+    file: File,
+    path: PathBuf,
+    end: u64,
+    /// Where the result of a task begins, by its stage and number.
+    places: BTreeMap<(usize, usize), u64>,
+}
+
+impl TaskFile {
+    /// A file to go on with; what follows its last whole result is overwritten.
+    pub fn reopen(path: &Path) -> io::Result<Self> {
+        own(path)?;
+        let mut options = OpenOptions::new();
+        let file = options.read(true).write(true).create(true).truncate(false).open(path)?;
+        let file = Self::scanned(file, path)?;
+        file.file.set_len(file.end)?;
+        Ok(file)
+    }
+
+    /// A file to read only.
+    pub fn read_only(path: &Path) -> io::Result<Self> {
+        Self::scanned(open_regular(path)?, path)
+    }
+
+    fn scanned(file: File, path: &Path) -> io::Result<Self> {
+        let mut own = Self {
+            file,
+            path: path.to_owned(),
+            end: 0,
+            places: BTreeMap::new(),
+        };
+        while let Some(bytes) = own.at(own.end)? {
+            let [stage, number] = [&bytes[..8], &bytes[8..TASK]].map(|half| little(half) as usize);
+            own.places.insert((stage, number), own.end);
+            own.end += (HEAD + bytes.len()) as u64;
+        }
+        Ok(own)
+    }
+
+    /// How many results it holds.
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Whether it holds the result of a task.
+    pub fn holds(&self, task: (usize, usize)) -> bool {
+        self.places.contains_key(&task)
+    }
+
+    /// Adds the result of a task.
+    pub fn append(&mut self, (stage, number): (usize, usize), result: &[u8]) -> io::Result<()> {
+        let mut bytes = vec![0; HEAD];
+        bytes.extend((stage as u64).to_le_bytes());
+        bytes.extend((number as u64).to_le_bytes());
+        bytes.extend_from_slice(result);
+        let (head, body) = bytes.split_at_mut(HEAD);
+        head[..8].copy_from_slice(&(body.len() as u64).to_le_bytes());
+        head[8..].copy_from_slice(&fnv1a_64(body).to_le_bytes());
+        self.file.seek(SeekFrom::Start(self.end))?;
+        self.file.write_all(&bytes)?;
+        self.places.insert((stage, number), self.end);
+        self.end += bytes.len() as u64;
+        Ok(())
+    }
+
+    /// The result of a task that it holds.
+    pub fn read(&mut self, task: (usize, usize)) -> io::Result<Vec<u8>> {
+        let place = self.places.get(&task).copied();
+        let changed = || io::Error::other(format!("{} was changed while it was read", self.path.display()));
+        let place = place.ok_or_else(changed)?;
+        let bytes = self.at(place)?;
+        let changed = || io::Error::other(format!("{} was changed while it was read", self.path.display()));
+        Ok(bytes.ok_or_else(changed)?.split_off(TASK))
+    }
+
+    /// Task and result at a place; absent where no whole one begins there.
+    fn at(&mut self, place: u64) -> io::Result<Option<Vec<u8>>> {
+        let whole = self.file.metadata()?.len();
+        if place + (HEAD + TASK) as u64 > whole {
+            return Ok(None);
+        }
+        let mut head = [0; HEAD];
+        self.file.seek(SeekFrom::Start(place))?;
+        self.file.read_exact(&mut head)?;
+        let [length, hash] = [&head[..8], &head[8..]].map(little);
+        if length < TASK as u64 || length > LONGEST_DATA.min(whole - place - HEAD as u64) {
+            return Ok(None);
+        }
+        let mut bytes = vec![0; length as usize];
+        self.file.read_exact(&mut bytes)?;
+        Ok(Some(bytes).filter(|bytes| fnv1a_64(bytes) == hash))
+    }
+}
+
+/// A number of eight bytes, the little end first.
+fn little(bytes: &[u8]) -> u64 {
+    u64::from_le_bytes(bytes.try_into().unwrap_or_default())
+}
