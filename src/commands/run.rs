@@ -17,7 +17,6 @@ mod pieces;
 mod report;
 mod rms_surface;
 mod runner;
-mod sensitivity;
 mod shard;
 mod shown;
 mod stated_ranges;

@@ -15,6 +15,7 @@ pub mod numbers;
 pub mod progress;
 pub mod ranges;
 pub mod rows;
+pub mod sensitivity;
 pub mod shares;
 pub mod trial;
 
@@ -87,6 +88,11 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
         Vec::new()
     }
 
+    /// Number of stated ranges that models left which [`Outcome::notes`] does not list; they count for `--deny extrapolation`.
+    fn unlisted(&self) -> usize {
+        0
+    }
+
     /// Values of the model set that the analysis leaves for later ones ([`Entry::then`]): resolved path to value.
     fn found(&self) -> Vec<(String, Value)> {
         Vec::new()
@@ -103,6 +109,8 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn notes(&self) -> Vec<&Note>;
     /// Stated ranges that samples left.
     fn left_at_samples(&self) -> Vec<(&str, &str)>;
+    /// Number of stated ranges that models left and that no note lists.
+    fn unlisted(&self) -> usize;
     /// Values of the model set that it leaves for later analyses.
     fn found(&self) -> Vec<(String, Value)>;
     /// For a downcast to its type.
@@ -126,6 +134,9 @@ impl<O: Outcome> AnyOutcome for O {
     }
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
         Outcome::left_at_samples(self)
+    }
+    fn unlisted(&self) -> usize {
+        Outcome::unlisted(self)
     }
     fn found(&self) -> Vec<(String, Value)> {
         Outcome::found(self)

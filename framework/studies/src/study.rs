@@ -14,7 +14,6 @@ mod operating_points;
 mod parameters;
 mod range;
 mod rms_surface;
-mod sensitivity;
 mod sweep;
 mod temperature;
 mod then;
@@ -40,9 +39,9 @@ pub use identify::{
 pub use map::MapEntry;
 pub use names::is_device;
 pub use operating_points::OperatingPointsEntry;
+pub(crate) use parameters::NameOr;
 pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
-pub use sensitivity::{Method, SensitivityEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{Find, ThermalLimitEntry};
 pub use then::Then;

@@ -14,7 +14,7 @@ use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stop
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
+    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, Study, SweepEntry,
     TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
@@ -22,7 +22,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::stated_ranges::StatedRanges;
 use super::{
     Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
-    rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+    rms_surface, sweep, thermal_limit, tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -182,7 +182,9 @@ impl Runner<'_> {
         }
         let notes: Vec<_> = outcome.notes().into_iter().filter(|note| note.outside > 0).collect();
         let samples = outcome.left_at_samples();
-        self.run.left.set(self.run.left.get() + notes.len() + samples.len());
+        self.run
+            .left
+            .set(self.run.left.get() + notes.len() + samples.len() + outcome.unlisted());
         for note in &notes {
             self.keep_outside(note);
         }
@@ -228,7 +230,6 @@ impl Runner<'_> {
             TournamentEntry => tournament::run,
             UncertaintyEntry => uncertainty::run,
             IdentifyEntry => identify::run,
-            SensitivityEntry => sensitivity::run,
             RmsSurfaceEntry => rms_surface::run,
             CycleAnalysisEntry => cycle::run,
             FluidSweepEntry => fluid_sweep::run,

@@ -4,8 +4,8 @@ use super::Entry;
 use crate::register_entry;
 use crate::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
-    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry,
+    Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -195,20 +195,6 @@ impl Entry for IdentifyEntry {
 }
 
 register_entry!(IdentifyEntry);
-
-impl Entry for SensitivityEntry {
-    const TYPE: &'static str = "sensitivity";
-    const MEANING: &'static str = "What the losses depend on: slopes, screening, shares of the variance.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: Some(&self.grid),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-        }
-    }
-}
-
-register_entry!(SensitivityEntry);
 
 impl Entry for RmsSurfaceEntry {
     const TYPE: &'static str = "rms_surface";
