@@ -17,6 +17,7 @@ pub mod ranges;
 pub mod rows;
 pub mod sensitivity;
 pub mod shares;
+pub mod tournament;
 pub mod trial;
 
 use std::any::Any;

@@ -17,7 +17,6 @@ mod rms_surface;
 mod sweep;
 mod temperature;
 mod then;
-mod tournament;
 mod uncertainty;
 mod write;
 
@@ -45,7 +44,6 @@ pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{Find, ThermalLimitEntry};
 pub use then::Then;
-pub use tournament::{CandidatesEntry, FactorsEntry, LossErrorsEntry, TournamentEntry};
 pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
 pub use write::{Export, Write};
 

@@ -15,14 +15,14 @@ use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, n
 use gearloss_studies::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
     IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, Study, SweepEntry,
-    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
+    TemperatureSweepEntry, ThermalLimitEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
     Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
-    rms_surface, sweep, thermal_limit, tournament, uncertainty, write,
+    rms_surface, sweep, thermal_limit, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -227,7 +227,6 @@ impl Runner<'_> {
             OperatingPointsEntry => operating_points::run,
             ThermalLimitEntry => thermal_limit::run,
             SweepEntry => sweep::run,
-            TournamentEntry => tournament::run,
             UncertaintyEntry => uncertainty::run,
             IdentifyEntry => identify::run,
             RmsSurfaceEntry => rms_surface::run,

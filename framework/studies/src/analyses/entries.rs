@@ -5,7 +5,7 @@ use crate::register_entry;
 use crate::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
     IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry,
-    Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    Then, ThermalLimitEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -139,22 +139,6 @@ impl Entry for SweepEntry {
 }
 
 register_entry!(SweepEntry);
-
-impl Entry for TournamentEntry {
-    const TYPE: &'static str = "tournament";
-    const MEANING: &'static str = "Every combination of models, ranked by a measurement.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_set)
-                .at(&self.gear)
-                .with("data", self.data.as_ref())
-        }
-    }
-}
-
-register_entry!(TournamentEntry);
 
 impl Entry for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
