@@ -13,7 +13,6 @@ mod operating_points;
 mod report;
 mod rms_surface;
 mod runner;
-mod sensitivity;
 mod shard;
 mod shard_tasks;
 mod shown;
@@ -22,7 +21,6 @@ mod sweep;
 mod table;
 mod task_file;
 mod thermal_limit;
-mod tournament;
 mod uncertainty;
 mod write;
 

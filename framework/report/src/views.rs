@@ -2,3 +2,5 @@
 
 pub mod balance;
 pub mod map;
+pub mod sensitivity;
+pub mod tournament;

@@ -16,7 +16,9 @@ pub mod numbers;
 pub mod progress;
 pub mod ranges;
 pub mod rows;
+pub mod sensitivity;
 pub mod shares;
+pub mod tournament;
 pub mod trial;
 
 use std::any::Any;
@@ -88,6 +90,11 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
         Vec::new()
     }
 
+    /// Number of stated ranges that models left which [`Outcome::notes`] does not list; they count for `--deny extrapolation`.
+    fn unlisted(&self) -> usize {
+        0
+    }
+
     /// Values of the model set that the analysis leaves for later ones ([`Entry::then`]): resolved path to value.
     fn found(&self) -> Vec<(String, Value)> {
         Vec::new()
@@ -104,6 +111,8 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn notes(&self) -> Vec<&Note>;
     /// Stated ranges that samples left.
     fn left_at_samples(&self) -> Vec<(&str, &str)>;
+    /// Number of stated ranges that models left and that no note lists.
+    fn unlisted(&self) -> usize;
     /// Values of the model set that it leaves for later analyses.
     fn found(&self) -> Vec<(String, Value)>;
     /// For a downcast to its type.
@@ -127,6 +136,9 @@ impl<O: Outcome> AnyOutcome for O {
     }
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
         Outcome::left_at_samples(self)
+    }
+    fn unlisted(&self) -> usize {
+        Outcome::unlisted(self)
     }
     fn found(&self) -> Vec<(String, Value)> {
         Outcome::found(self)

@@ -13,11 +13,9 @@ mod operating_points;
 mod parameters;
 mod range;
 mod rms_surface;
-mod sensitivity;
 mod sweep;
 mod temperature;
 mod then;
-mod tournament;
 mod uncertainty;
 mod write;
 
@@ -38,13 +36,12 @@ pub use identify::{
 };
 pub use names::is_device;
 pub use operating_points::OperatingPointsEntry;
+pub(crate) use parameters::NameOr;
 pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
-pub use sensitivity::{Method, SensitivityEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{Find, ThermalLimitEntry};
 pub use then::Then;
-pub use tournament::{CandidatesEntry, FactorsEntry, LossErrorsEntry, TournamentEntry};
 pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
 pub use write::Write;
 

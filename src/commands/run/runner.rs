@@ -14,8 +14,7 @@ use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stop
 use gearloss_studies::analysis::{GridResult, Points, notes};
 use gearloss_studies::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
-    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Write,
+    IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry, UncertaintyEntry, Write,
 };
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -24,8 +23,7 @@ use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
 use super::{
-    breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, operating_points, rms_surface,
-    sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+    breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, operating_points, rms_surface, sweep, thermal_limit, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -187,7 +185,9 @@ impl Runner<'_> {
         }
         let notes: Vec<_> = outcome.notes().into_iter().filter(|note| note.outside > 0).collect();
         let samples = outcome.left_at_samples();
-        self.run.left.set(self.run.left.get() + notes.len() + samples.len());
+        self.run
+            .left
+            .set(self.run.left.get() + notes.len() + samples.len() + outcome.unlisted());
         for note in &notes {
             self.keep_outside(note);
         }
@@ -238,10 +238,8 @@ impl Runner<'_> {
             OperatingPointsEntry => operating_points::run,
             ThermalLimitEntry => thermal_limit::run,
             SweepEntry => sweep::run,
-            TournamentEntry => tournament::run,
             UncertaintyEntry => uncertainty::run,
             IdentifyEntry => identify::run,
-            SensitivityEntry => sensitivity::run,
             RmsSurfaceEntry => rms_surface::run,
             CycleAnalysisEntry => cycle::run,
             FluidSweepEntry => fluid_sweep::run,

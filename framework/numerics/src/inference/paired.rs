@@ -12,13 +12,17 @@
 //! bands differ more than the shared points make them alike, and the correction would halve the decisions that are right. So
 //! it is not used.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::probability::student_quantile;
 
 /// Confidence of the interval of a ratio.
 const CONFIDENCE: f64 = 0.95;
 
 /// What the points say of two models.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Decision {
     /// The first predicts better than the second.
     Better,

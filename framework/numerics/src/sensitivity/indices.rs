@@ -6,6 +6,8 @@
 //! S_i = 1 - mean((f(B) - f(A_B,i))^2)/(2V), S_Ti = mean((f(A) - f(A_B,i))^2)/(2V).
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::run::outputs;
 use crate::sampling::{Generator, Sobol};
@@ -17,11 +19,11 @@ const ALONE: f64 = 0.9;
 const ROUNDING: f64 = 1e-13;
 
 /// A share with the ends of its 95 % interval by resampling the rows.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Estimate {
-    /// The share. A small one may come out slightly negative; it is left as it is.
+    /// The share. A small one may come out slightly negative; it is left as it is. [-]
     pub value: f64,
-    /// Quantiles 2.5 and 97.5 % of the resamples.
+    /// Quantiles 2.5 and 97.5 % of the resamples. [-]
     pub interval: [f64; 2],
 }
 

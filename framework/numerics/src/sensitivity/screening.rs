@@ -5,6 +5,9 @@
 //! coordinate after the other by two levels. Starts and orders come from Sobol points instead of a random source, so that a
 //! screening is the same every time.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::run::outputs;
 use crate::sampling::Sobol;
 
@@ -27,7 +30,8 @@ pub struct Effect {
 }
 
 /// What a screening says of one parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Influence {
     /// Its effect is below 5 % of the greatest.
     None,
@@ -38,6 +42,15 @@ pub enum Influence {
 }
 
 impl Influence {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::NonlinearOrInteracting => "nonlinear_or_interacting",
+            Self::Steady => "steady",
+        }
+    }
+
     /// In words.
     pub fn words(self) -> &'static str {
         match self {

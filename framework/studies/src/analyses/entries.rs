@@ -4,8 +4,7 @@ use super::Entry;
 use crate::register_entry;
 use crate::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
-    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for CompareEntry {
@@ -122,22 +121,6 @@ impl Entry for SweepEntry {
 
 register_entry!(SweepEntry);
 
-impl Entry for TournamentEntry {
-    const TYPE: &'static str = "tournament";
-    const MEANING: &'static str = "Every combination of models, ranked by a measurement.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_set)
-                .at(&self.gear)
-                .with("data", self.data.as_ref())
-        }
-    }
-}
-
-register_entry!(TournamentEntry);
-
 impl Entry for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
     const MEANING: &'static str = "Bands of efficiency, loss and temperature from uncertain inputs.";
@@ -177,20 +160,6 @@ impl Entry for IdentifyEntry {
 }
 
 register_entry!(IdentifyEntry);
-
-impl Entry for SensitivityEntry {
-    const TYPE: &'static str = "sensitivity";
-    const MEANING: &'static str = "What the losses depend on: slopes, screening, shares of the variance.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: Some(&self.grid),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-        }
-    }
-}
-
-register_entry!(SensitivityEntry);
 
 impl Entry for RmsSurfaceEntry {
     const TYPE: &'static str = "rms_surface";

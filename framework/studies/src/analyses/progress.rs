@@ -52,4 +52,9 @@ impl<'a> Running<'a> {
         self.steps.advance(count);
         self.progress.goes_on()
     }
+
+    /// False where the work shall break off.
+    pub fn goes_on(&self) -> bool {
+        self.progress.goes_on()
+    }
 }

@@ -2,9 +2,9 @@
 
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::{STATIC_SAFETY, notes};
 
-use crate::output::{beyond, significant};
+use super::super::numbers::{beyond, significant};
+use crate::analysis::{Note, STATIC_SAFETY, notes};
 
 /// A quantity of a model that left its stated range.
 pub struct Mark {
@@ -23,7 +23,7 @@ pub fn marks(transmission: &Transmission, seen: &[Extent], paths: &[String]) -> 
         };
         paths.iter().any(below)
     };
-    let mut groups: Vec<gearloss_studies::analysis::Note> = Vec::new();
+    let mut groups: Vec<Note> = Vec::new();
     for note in notes(transmission, seen) {
         if note.outside == 0 || note.name == STATIC_SAFETY || !own(&note.path) {
             continue;
@@ -41,7 +41,7 @@ pub fn marks(transmission: &Transmission, seen: &[Extent], paths: &[String]) -> 
             None => groups.push(note),
         }
     }
-    let mark = |note: gearloss_studies::analysis::Note| {
+    let mark = |note: Note| {
         let range = note.range?;
         let unit = if note.unit == "-" {
             String::new()

@@ -1,63 +1,58 @@
 //! Bars of effects, effects over their scatter, stacks of shares.
 
-use gearloss_report::Figure;
-use gearloss_report::plot::{Bar, Line, Stroke};
-use gearloss_studies::study::Write;
+use gearloss_studies::analyses::sensitivity::{OutputKind, OutputSensitivity, SensitivityOfSet};
 
-use super::super::Runner;
-use super::super::write::picture;
-use super::Found;
-use super::outputs::Kind;
-use super::show::descending;
-use crate::output::Failure;
+use super::descending;
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::{Bar, Line, Stroke};
 
 /// Letters of a name in a legend, and of a line below a bar.
 const NAME: usize = 21;
 const LINE: usize = 14;
 
-pub fn draw(runner: &Runner<'_>, name: &str, f: &Found<'_>, formats: &[Write]) -> Result<(), Failure> {
-    let file = |what: &str| format!("{name}-{}-{what}", f.built.name);
+pub fn draw(name: &str, set: &SensitivityOfSet, page: &mut Page) {
     let list = [
-        (file("effects"), effects(name, f)),
-        (file("morris"), morris(name, f)),
-        (file("shares"), shares(name, f)),
+        ("effects", effects(name, set)),
+        ("morris", morris(name, set)),
+        ("shares", shares(name, set)),
     ];
-    for (file, figure) in list {
+    for (what, figure) in list {
         if let Some(figure) = figure {
-            picture(runner, &file, figure, formats)?;
+            page.figure(format!("{name}-{}-{what}", set.model_set), figure);
         }
     }
-    Ok(())
 }
 
 /// A bar for each parameter, the greatest first: change of the mean loss, else its share of the variance, else the slope.
-fn effects(name: &str, f: &Found<'_>) -> Option<Figure> {
-    let (values, height): (Vec<f64>, &str) = match (&f.morris, &f.sobol, &f.local) {
-        (Some(morris), ..) => (
-            morris.effects[0].iter().map(|e| e.magnitude).collect(),
+fn effects(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
+    let loss = set.outputs.first()?;
+    let (values, height): (Vec<f64>, &str) = match (&loss.morris, &loss.sobol, &loss.local) {
+        (Some(effects), ..) => (
+            effects.iter().map(|effect| effect.mu_star).collect(),
             "mu* of the mean loss in W",
         ),
-        (None, Some(sobol), _) => (
-            sobol[0].total.iter().map(|e| e.value.max(0.0)).collect(),
+        (None, Some(shares), _) => (
+            shares.total.iter().map(|share| share.value.max(0.0)).collect(),
             "share of the variance, with others",
         ),
-        (None, None, Some(local)) => (
-            local[0]
+        (None, None, Some(slopes)) => (
+            slopes
                 .iter()
-                .map(|l| l.scaled.map_or(0.0, |s| 100.0 * s.abs()))
+                .map(|slope| slope.scaled.map_or(0.0, |s| 100.0 * s.abs()))
                 .collect(),
             "slope times range in % of the loss",
         ),
         (None, None, None) => return None,
     };
     let bar = |k: &usize| Bar {
-        label: folded(&f.ranges[*k].varied.pattern),
+        label: folded(&set.parameters[*k].path),
         shares: vec![values[*k]],
         above: format!("{:.3}", values[*k]),
         ..Bar::default()
     };
     Some(Figure::Bars {
-        title: format!("{name}: what the mean loss depends on, models {}", f.built.name),
+        title: format!("{name}: what the mean loss depends on, models {}", set.model_set),
         over: String::new(),
         height: height.to_owned(),
         names: vec!["mean loss".to_owned()],
@@ -66,21 +61,17 @@ fn effects(name: &str, f: &Found<'_>) -> Option<Figure> {
 }
 
 /// The size of the effect of each parameter and how it varies; above the line it varies by more than its size.
-fn morris(name: &str, f: &Found<'_>) -> Option<Figure> {
-    let effects = &f.morris.as_ref()?.effects[0];
-    let mut lines: Vec<Line> = f
-        .ranges
-        .iter()
-        .zip(effects)
-        .map(|(range, e)| Line {
-            name: short(&range.varied.pattern),
-            points: vec![Some((e.magnitude, e.deviation))],
-            stroke: Stroke::Dots,
-        })
-        .collect();
+fn morris(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
+    let effects = set.outputs.first()?.morris.as_ref()?;
+    let effect = set.parameters.iter().zip(effects).map(|(parameter, effect)| Line {
+        name: short(&parameter.path),
+        points: vec![Some((effect.mu_star, effect.sigma))],
+        stroke: Stroke::Dots,
+    });
+    let mut lines: Vec<Line> = effect.collect();
     let most = effects
         .iter()
-        .fold(0.0, |most: f64, e| most.max(e.magnitude.min(e.deviation)));
+        .fold(0.0, |most: f64, effect| most.max(effect.mu_star.min(effect.sigma)));
     lines.push(Line {
         name: "sigma = mu*".to_owned(),
         points: vec![Some((0.0, 0.0)), Some((most, most))],
@@ -89,7 +80,7 @@ fn morris(name: &str, f: &Found<'_>) -> Option<Figure> {
     Some(Figure::Lines {
         title: format!(
             "{name}: effects on the mean loss and how they vary, models {}",
-            f.built.name
+            set.model_set
         ),
         x: "mu* in W".to_owned(),
         y: "sigma in W".to_owned(),
@@ -99,25 +90,23 @@ fn morris(name: &str, f: &Found<'_>) -> Option<Figure> {
 
 /// What the parameters explain alone of the variance of the loss, of each mechanism and of the efficiency; the rest is due to
 /// their interactions.
-fn shares(name: &str, f: &Found<'_>) -> Option<Figure> {
-    let sobol = f.sobol.as_ref()?;
-    let shown = f.outputs.list.iter().zip(sobol);
-    let shown = shown.filter(|(output, shares)| output.kind != Kind::Term && shares.variance > 0.0);
-    let bars: Vec<Bar> = shown
-        .map(|(output, shares)| {
-            let mut stack: Vec<f64> = shares.first.iter().map(|e| e.value.max(0.0)).collect();
-            stack.push((1.0 - stack.iter().sum::<f64>()).max(0.0));
-            Bar {
-                label: folded(&output.name.replace('_', "_.").replace("_.", "_\n")),
-                shares: stack,
-                ..Bar::default()
-            }
+fn shares(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
+    let bar = |output: &OutputSensitivity| {
+        let shares = output.sobol.as_ref().filter(|shares| shares.variance > 0.0)?;
+        let mut stack: Vec<f64> = shares.first.iter().map(|share| share.value.max(0.0)).collect();
+        stack.push((1.0 - stack.iter().sum::<f64>()).max(0.0));
+        Some(Bar {
+            label: folded(&output.output.replace('_', "_.").replace("_.", "_\n")),
+            shares: stack,
+            ..Bar::default()
         })
-        .collect();
-    let mut names: Vec<String> = f.ranges.iter().map(|range| short(&range.varied.pattern)).collect();
+    };
+    let shown = set.outputs.iter().filter(|output| output.kind != OutputKind::Term);
+    let bars: Vec<Bar> = shown.filter_map(bar).collect();
+    let mut names: Vec<String> = set.parameters.iter().map(|parameter| short(&parameter.path)).collect();
     names.push("interactions".to_owned());
     (!bars.is_empty()).then(|| Figure::Bars {
-        title: format!("{name}: shares of the variance, models {}", f.built.name),
+        title: format!("{name}: shares of the variance, models {}", set.model_set),
         over: String::new(),
         height: "share of the variance".to_owned(),
         names,

@@ -1,18 +1,19 @@
 //! What depends: means over the points of a grid, and how far the loss moves at single points.
 
-use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::PointResult;
-use gearloss_studies::study::By;
+use gearloss_framework::transmission::{PartInfo, Transmission};
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use super::super::super::solve::RPM;
-use crate::output::fixed;
-use gearloss_studies::analyses::numbers::tidy;
-use gearloss_studies::analyses::shares::{Shares, together};
-use gearloss_studies::analyses::trial::why;
+use super::super::numbers::{RPM, tidy};
+use super::super::shares::{Shares, together};
+use super::super::trial::why;
+use crate::analysis::PointResult;
+use crate::study::By;
 
 /// What an output is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OutputKind {
     /// All losses.
     Loss,
     /// Those of a mechanism.
@@ -26,7 +27,7 @@ pub enum Kind {
     RelativeLoss,
 }
 
-impl Kind {
+impl OutputKind {
     /// Name in results.
     pub fn name(self) -> &'static str {
         match self {
@@ -41,7 +42,7 @@ impl Kind {
 
 /// One output.
 pub struct Output {
-    pub kind: Kind,
+    pub kind: OutputKind,
     /// `loss`, a mechanism, a mechanism and its term, `efficiency`, or `relative_loss`.
     pub name: String,
     /// Whether a term vanishes with the load; absent for what is no term, and where models of a mechanism differ in it.
@@ -52,8 +53,8 @@ impl Output {
     /// Unit in results.
     pub fn unit(&self) -> &'static str {
         match self.kind {
-            Kind::Efficiency | Kind::RelativeLoss => "-",
-            Kind::Loss | Kind::Mechanism | Kind::Term => "w",
+            OutputKind::Efficiency | OutputKind::RelativeLoss => "-",
+            OutputKind::Loss | OutputKind::Mechanism | OutputKind::Term => "w",
         }
     }
 }
@@ -73,20 +74,20 @@ pub struct Outputs {
 impl Outputs {
     /// With the points at the values of the gearbox; `relative` asks for the relative change of the loss over the points, which has no
     /// slope there.
-    pub fn of(t: &Transmission, nominal: &[PointResult], relative: bool) -> Self {
+    pub fn new(t: &Transmission, nominal: &[PointResult], relative: bool) -> Self {
         let [mechanisms, terms] = [By::Mechanism, By::Term].map(|by| together(std::iter::once(t), by));
         let has = |(i, p): (usize, &PointResult)| p.efficiency.map(|_| i);
         let efficient: Vec<usize> = nominal.iter().enumerate().filter_map(has).collect();
-        let output = |kind: Kind, name: &str| Output {
+        let output = |kind: OutputKind, name: &str| Output {
             kind,
             name: name.to_owned(),
-            load_dependent: (kind == Kind::Term).then(|| load_dependent(t, name)).flatten(),
+            load_dependent: (kind == OutputKind::Term).then(|| load_dependent(t, name)).flatten(),
         };
-        let mut list = vec![output(Kind::Loss, "loss")];
-        list.extend(mechanisms.iter().map(|name| output(Kind::Mechanism, name)));
-        list.extend(terms.iter().map(|name| output(Kind::Term, name)));
+        let mut list = vec![output(OutputKind::Loss, "loss")];
+        list.extend(mechanisms.iter().map(|name| output(OutputKind::Mechanism, name)));
+        list.extend(terms.iter().map(|name| output(OutputKind::Term, name)));
         if !efficient.is_empty() {
-            list.push(output(Kind::Efficiency, "efficiency"));
+            list.push(output(OutputKind::Efficiency, "efficiency"));
         }
         let loses = |(i, p): (usize, &PointResult)| p.loss.filter(|loss| *loss > 0.0).map(|loss| (i, loss));
         let nominal: Vec<(usize, f64)> = if relative {
@@ -95,7 +96,7 @@ impl Outputs {
             Vec::new()
         };
         if !nominal.is_empty() {
-            list.push(output(Kind::RelativeLoss, "relative_loss"));
+            list.push(output(OutputKind::RelativeLoss, "relative_loss"));
         }
         Self {
             list,
@@ -151,7 +152,7 @@ impl Outputs {
 
 /// Whether the terms of a name vanish with the load; absent where models differ.
 fn load_dependent(t: &Transmission, name: &str) -> Option<bool> {
-    let of = |part: &gearloss_framework::transmission::PartInfo| {
+    let of = |part: &PartInfo| {
         let terms = t.instances()[part.notes.instance()].entry.terms;
         let own = terms
             .iter()
@@ -164,5 +165,5 @@ fn load_dependent(t: &Transmission, name: &str) -> Option<bool> {
 }
 
 fn place(p: &PointResult) -> String {
-    format!("{} Nm, {} rpm", tidy(p.torque), fixed(p.speed * RPM, 0))
+    format!("{} Nm, {:.0} rpm", tidy(p.torque), p.speed * RPM)
 }

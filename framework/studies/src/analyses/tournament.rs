@@ -1,11 +1,31 @@
-//! Every combination of models, ranked by a measurement, or the spread that they leave.
+//! Every combination of the models of some mechanisms: ranked by a measurement, or the spread that they leave.
 
+mod candidates;
+mod field;
+mod marks;
+mod measurements;
+mod outcome;
+mod ranking;
+mod slot;
+mod spread;
+mod tables;
+
+use gearloss_framework::description::Ordered;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::{Data, Quantity, Write};
-use gearloss_framework::description::Ordered;
+pub use outcome::{
+    CandidateOfTournament, Comparison, ComparisonOfGroups, MechanismOfTournament, RankedCombination, RankedPoint,
+    Ranking, ShareOfSpread, Spread, SpreadPoint, Tournament, TournamentOutcome,
+};
+
+use super::{Analysis, Context, Entry, Stopped};
+use crate::register_analysis;
+use crate::study::{Data, Difference, Quantity, Uses, Write};
+
+/// The most combinations.
+const MOST: usize = 200_000;
 
 /// Every combination of the models of some mechanisms. The loss of each is evaluated once and added; against measured points
 /// combinations are ranked by their cross-validated error over the accuracy of the measured loss, without them their spread is the
@@ -93,4 +113,83 @@ pub struct FactorsEntry {
     /// Greatest factor. [-]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub greatest: f64,
+}
+
+impl Entry for TournamentEntry {
+    const TYPE: &'static str = "tournament";
+    const MEANING: &'static str = "Every combination of models, ranked by a measurement.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: self.grid.as_ref(),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_set)
+                .at(&self.gear)
+                .with("data", self.data.as_ref())
+        }
+    }
+}
+
+register_analysis!(TournamentEntry);
+
+impl Analysis for TournamentEntry {
+    type Outcome = TournamentOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<TournamentOutcome, Stopped> {
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        self.check(cx)?;
+        let built = cx.built(gearbox, self.model_set.as_slice())?;
+        let base = &built[0];
+        let tournament = match (&self.grid, &self.data) {
+            (Some(grid), None) => Tournament::Spread(Box::new(self.spread(cx, grid, base)?)),
+            (None, Some(data)) => Tournament::Ranking(Box::new(self.ranking(cx, data, base)?)),
+            _ => {
+                return Err(cx.wrong(
+                    &cx.path(),
+                    "a tournament needs either `data` or `grid`",
+                    "give measured points under `data`, or a `grid` for the spread of the models",
+                ));
+            }
+        };
+        let head = cx.head(&[base]);
+        Ok(TournamentOutcome { head, tournament })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl TournamentEntry {
+    /// Refuses what fits no tournament, whatever it takes.
+    fn check(&self, cx: &Context<'_>) -> Result<(), Stopped> {
+        let path = cx.path();
+        if self.quantity == Quantity::Temperature {
+            let message = "combinations are ranked by losses, not by temperature";
+            return Err(cx.wrong(&format!("{path}.quantity"), message, "write `quantity: loss`"));
+        }
+        if let Some(errors) = self.errors {
+            let both = [errors.percent, errors.absolute];
+            if both.iter().all(Option::is_none) || both.iter().flatten().any(|x| *x <= 0.0) {
+                let message = "accuracies of losses are above zero, and one at least is stated";
+                let help = "write `{ percent: 2, absolute: 5 W }`, or one of the two";
+                return Err(cx.wrong(&format!("{path}.errors"), message, help));
+            }
+        }
+        if let Some(f) = self.factors.filter(|f| f.least >= f.greatest) {
+            let message = format!("factors from {} to {} leave no room", f.least, f.greatest);
+            let help = "write `{ least: 0.5, greatest: 2 }`";
+            return Err(cx.wrong(&format!("{path}.factors"), message, help));
+        }
+        Ok(())
+    }
+
+    /// Unit of errors in words.
+    fn unit_in_words(&self) -> &'static str {
+        self.quantity.words(Difference::Points).1
+    }
+
+    /// Unit of errors in results.
+    fn unit(&self) -> &'static str {
+        self.quantity.unit(Difference::Points)
+    }
 }

@@ -1,0 +1,67 @@
+//! A tournament: the models that take part; the ranking and what follows from it, or the spread.
+
+mod pictures;
+mod ranking;
+mod spread;
+mod verdict;
+
+use gearloss_studies::analyses::tournament::{MechanismOfTournament, Tournament, TournamentOutcome};
+
+use crate::page::Page;
+use crate::register_view;
+use crate::text::{TextTable, number};
+
+register_view!(TournamentOutcome, show);
+
+fn show(outcome: &TournamentOutcome, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    match &outcome.tournament {
+        Tournament::Ranking(found) => {
+            for note in &found.notes_on_file {
+                page.line(format!("{name}: {note}"));
+            }
+            if found.points_of_other_gears > 0 {
+                page.line(format!(
+                    "{} points of other gear states are left out",
+                    found.points_of_other_gears
+                ));
+            }
+            candidates(name, &found.mechanisms, &found.left_out, page);
+            ranking::show(name, found, page);
+            pictures::draw(name, found, page);
+        }
+        Tournament::Spread(found) => {
+            candidates(name, &found.mechanisms, &found.left_out, page);
+            spread::show(name, found, page);
+        }
+    }
+}
+
+/// The models that take part, with their mean loss and their time, and why others do not.
+fn candidates(name: &str, mechanisms: &[MechanismOfTournament], left_out: &[String], page: &mut Page) {
+    let counts = mechanisms
+        .iter()
+        .map(|m| format!("{} {}", m.candidates.len(), m.mechanism));
+    let combinations: usize = mechanisms.iter().map(|m| m.candidates.len()).product();
+    page.line(format!(
+        "{name}: {} = {combinations} combinations",
+        counts.collect::<Vec<_>>().join(" x ")
+    ));
+    for line in left_out {
+        page.line(format!("left out: {line}"));
+    }
+    let mut table = TextTable::new(&["mechanism", "model", "mean loss W", "time over that of the set"]);
+    for mechanism in mechanisms {
+        for candidate in &mechanism.candidates {
+            let losses = &candidate.losses_w;
+            table.row(vec![
+                mechanism.mechanism.clone(),
+                candidate.name.clone(),
+                number(Some(losses.iter().sum::<f64>() / losses.len() as f64), 3),
+                number(Some(candidate.time), 2),
+            ]);
+        }
+    }
+    page.lines(table.render());
+    page.line("");
+}

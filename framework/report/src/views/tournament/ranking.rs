@@ -1,0 +1,149 @@
+//! A ranking as text: the first combinations, and what follows.
+
+use gearloss_numerics::inference::VISIBLE;
+use gearloss_studies::analyses::tournament::{RankedCombination, RankedPoint, Ranking};
+use gearloss_studies::analysis::Statistics;
+
+use super::verdict::{short_marks, verdict};
+use crate::page::Page;
+use crate::text::{TextTable, number};
+
+pub fn show(name: &str, ranking: &Ranking, page: &mut Page) {
+    for note in &ranking.notes {
+        page.line(format!("{name}: {note}"));
+    }
+    if ranking.unranked > 0 {
+        page.line(format!(
+            "{} combinations could not be fitted, or have no point that counts",
+            ranking.unranked
+        ));
+    }
+    table(name, ranking, page);
+    summary(name, ranking, page);
+    shortlist(name, ranking, page);
+    page.line(format!(
+        "losses are added, each mechanism at the torques of the set: for the best combination that is {:.3} % of the loss off at most",
+        ranking.gap_of_sum
+    ));
+    page.line("");
+}
+
+/// The combinations with the smallest errors, and the winner wherever it is.
+fn table(name: &str, ranking: &Ranking, page: &mut Page) {
+    page.line(format!(
+        "{name}: the combinations with the smallest errors; * the winner, = not distinguishable from it; errors in {}",
+        ranking.unit_in_words
+    ));
+    let mut head = vec!["rank"];
+    head.extend(ranking.mechanisms.iter().map(|m| m.mechanism.as_str()));
+    head.extend([
+        "over accuracy",
+        "predicted rms",
+        "worst group",
+        "fitted rms",
+        "mean",
+        "time",
+    ]);
+    if ranking.fits_factors {
+        head.push("factors");
+    }
+    head.extend(["weight", "marks"]);
+    let mut table = TextTable::new(&head);
+    let mut shown: Vec<usize> = (0..ranking.ranking.len().min(ranking.shown)).collect();
+    if !shown.contains(&ranking.winner) {
+        shown.push(ranking.winner);
+    }
+    let mut marks: Vec<&String> = Vec::new();
+    for i in shown {
+        table.row(row(ranking, i));
+        for line in &ranking.ranking[i].marks {
+            if !marks.contains(&line) {
+                marks.push(line);
+            }
+        }
+    }
+    page.lines(table.render());
+    for line in marks {
+        page.line(format!("mark: {line}"));
+    }
+}
+
+fn row(ranking: &Ranking, i: usize) -> Vec<String> {
+    let c = &ranking.ranking[i];
+    let sign = match () {
+        () if i == ranking.winner => "*",
+        () if ranking.is_alike(i) => "=",
+        () => "",
+    };
+    let mut row = vec![format!("{}{sign}", i + 1)];
+    row.extend(c.models.iter().cloned());
+    row.push(number(Some(c.predicted_over_accuracy), 2));
+    row.extend([c.predicted_rms, c.worst_group_rms, c.fitted_rms, c.mean].map(|x| number(x, 3)));
+    row.push(number(Some(time(ranking, c)), 2));
+    if ranking.fits_factors {
+        let factors = c.factors.iter().map(|f| format!("{f:.2}"));
+        row.push(factors.collect::<Vec<_>>().join(" "));
+    }
+    row.push(number(c.weight, 2));
+    row.push(short_marks(ranking, c));
+    row
+}
+
+/// Relative time of a combination: that of the set, with what each candidate adds to it.
+fn time(ranking: &Ranking, c: &RankedCombination) -> f64 {
+    let chosen = ranking.mechanisms.iter().zip(&c.places);
+    let more: f64 = chosen
+        .map(|(mechanism, place)| mechanism.candidates[*place].time - 1.0)
+        .sum();
+    (1.0 + more).max(0.0)
+}
+
+/// What follows from the ranking.
+fn summary(name: &str, ranking: &Ranking, page: &mut Page) {
+    page.line(format!(
+        "{name}: {} points in {} groups of neighbouring torques; errors over the accuracy of the loss, and in {}: the ranking is the \
+         same in every unit",
+        ranking.points.len(),
+        ranking.groups,
+        ranking.unit_in_words
+    ));
+    let how = if ranking.correlation_estimated {
+        "estimated from the residuals of the best"
+    } else {
+        "stated"
+    };
+    page.line(format!(
+        "{name}: correlation of the errors of any two points {:.2} ({how}), variance {:.2} times the stated one; the set of points sees \
+         predictions that are {:.1} standard deviations of the set apart",
+        ranking.correlation,
+        ranking.variance_over_stated,
+        VISIBLE.sqrt()
+    ));
+    page.verdict(format!("{name}: {}", verdict(ranking)));
+}
+
+/// How far the combinations spread that are not distinguishable from the winner.
+fn shortlist(name: &str, ranking: &Ranking, page: &mut Page) {
+    let members = ranking.ranking.iter().filter_map(|c| Some((c.weight?, c)));
+    let mut members: Vec<(f64, &RankedCombination)> = members.collect();
+    if members.len() < 2 {
+        return;
+    }
+    members.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let largest = members.iter().take(3);
+    let largest: Vec<String> = largest
+        .map(|(weight, c)| format!("{weight:.2} {}", c.models.join(", ")))
+        .collect();
+    let rms = |percent: fn(&RankedPoint) -> f64| {
+        let all = ranking.points.iter().map(percent).filter(|x| x.is_finite());
+        Statistics::of(all).map(|s| s.rms)
+    };
+    page.verdict(format!(
+        "{name}: the shortlist of {} spreads by {} % of the loss (weighted standard deviation, root mean square over the points; half of \
+         the distance between its extremes {} %); largest weights: {}",
+        members.len(),
+        number(rms(|p| 100.0 * p.deviation_w / p.mean_loss_w), 2),
+        number(rms(|p| 50.0 * (p.greatest_loss_w - p.least_loss_w) / p.mean_loss_w), 2),
+        largest.join("; ")
+    ));
+}

@@ -1,0 +1,52 @@
+//! The spread of all combinations over a grid.
+
+use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::analyses::tournament::Spread;
+
+use crate::page::Page;
+use crate::text::{TextTable, number};
+use crate::{Figure, Map};
+
+pub fn show(name: &str, spread: &Spread, page: &mut Page) {
+    let mut table = TextTable::new(&["mechanism", "models", "share of the spread %"]);
+    for (mechanism, own) in spread.mechanisms.iter().zip(&spread.shares_of_spread) {
+        table.row(vec![
+            mechanism.mechanism.clone(),
+            mechanism.candidates.len().to_string(),
+            number(own.share.map(|share| 100.0 * share), 1),
+        ]);
+    }
+    page.lines(table.render());
+    let halves = spread
+        .points
+        .iter()
+        .map(|p| 0.5 * (p.greatest_loss_w - p.least_loss_w) * p.scale);
+    page.verdict(format!(
+        "half of the distance between the extremes: {:.3} to {:.3} {}; standard deviation {:.3} in the root mean square",
+        halves.clone().fold(f64::INFINITY, f64::min),
+        halves.fold(0.0, f64::max),
+        spread.unit_in_words,
+        spread.deviation_rms
+    ));
+    page.line("");
+    if spread.torques.len() < 2 || spread.speeds.len() < 2 {
+        return;
+    }
+    let figure = Figure::Map(Map {
+        title: format!(
+            "{name}: standard deviation over {} combinations in {}",
+            spread.combinations, spread.unit_in_words
+        ),
+        x: (
+            "speed rpm".to_owned(),
+            spread.speeds.iter().map(|w| format!("{}", tidy(w * RPM))).collect(),
+        ),
+        y: (
+            "torque Nm".to_owned(),
+            spread.torques.iter().map(|t| format!("{}", tidy(*t))).collect(),
+        ),
+        values: spread.points.iter().map(|p| Some(p.deviation_w * p.scale)).collect(),
+        ..Map::default()
+    });
+    page.figure(format!("{name}-spread"), figure);
+}

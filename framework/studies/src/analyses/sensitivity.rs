@@ -1,0 +1,356 @@
+//! What the losses over a grid depend on: slopes, screening, shares of the variance.
+
+mod outcome;
+mod outputs;
+
+use std::sync::Mutex;
+
+use gearloss_numerics::inference::{Parameter, Scale};
+use gearloss_numerics::sensitivity::{Local, Screening, VarianceShares, local, screening, variance_shares};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use outcome::{
+    EffectOfParameter, OutputSensitivity, RunsOfMethods, SensitivityOfSet, SensitivityOutcome, SharesOfVariance,
+    SlopeOfOutput, VariedParameter,
+};
+pub use outputs::OutputKind;
+
+use self::outputs::Outputs;
+use super::axes::grid_axes;
+use super::progress::Running;
+use super::ranges::{Range, once};
+use super::trial::{Left, Trial, left};
+use super::{Analysis, Built, Context, Entry, Stopped};
+use crate::analysis::{Points, notes};
+use crate::register_analysis;
+use crate::study::{Grid, NameOr, RangeEntry, Uses, Write};
+
+/// Relative noise of a mean loss. A point is solved until what is left to change is below 1e-9 of its power.
+const NOISE: f64 = 1e-9;
+/// Resamples for the intervals of shares.
+const RESAMPLES: usize = 200;
+
+/// What the losses over a grid depend on: the mean loss, that of every mechanism and term, the mean efficiency, and the relative change of
+/// the loss at the points (`relative_loss`: root of its mean square from the values of the gearbox, not for `local`).
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct SensitivityEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Grid, of one gear state.
+    pub grid: String,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// The quantities that are varied. `local` starts from the value of the gearbox: of the first where a path meets several
+    /// that differ. A name takes over a parameter of the study.
+    #[schemars(length(min = 1, max = 32), with = "Vec<NameOr<RangeEntry>>")]
+    pub parameters: Vec<RangeEntry>,
+    /// What is done; absent, all.
+    #[serde(default = "Method::all")]
+    #[schemars(length(min = 1))]
+    pub methods: Vec<Method>,
+    /// Number of trajectories of `morris`; each costs one run more than there are parameters. [-]
+    #[serde(default = "trajectories")]
+    #[schemars(range(min = 2, max = 10000))]
+    pub trajectories: u32,
+    /// Number of samples of `sobol`, a power of two; each costs two runs more than there are parameters. [-]
+    #[serde(default = "samples")]
+    #[schemars(range(min = 8, max = 65536))]
+    pub samples: u32,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+fn trajectories() -> u32 {
+    20
+}
+
+fn samples() -> u32 {
+    1024
+}
+
+/// How a dependence is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// Slopes at the values of the gearbox.
+    Local,
+    /// Changes along trajectories through the ranges: which parameters matter at all, from few runs.
+    Morris,
+    /// Shares of the variance over the ranges, of each parameter alone and with all others.
+    Sobol,
+}
+
+impl Method {
+    fn all() -> Vec<Self> {
+        vec![Self::Local, Self::Morris, Self::Sobol]
+    }
+}
+
+impl Entry for SensitivityEntry {
+    const TYPE: &'static str = "sensitivity";
+    const MEANING: &'static str = "What the losses depend on: slopes, screening, shares of the variance.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: Some(&self.grid),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+        }
+    }
+}
+
+register_analysis!(SensitivityEntry);
+
+impl Analysis for SensitivityEntry {
+    type Outcome = SensitivityOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<SensitivityOutcome, Stopped> {
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        let grid = self.checked_grid(cx)?;
+        let built = cx.built(gearbox, &self.model_sets)?;
+        let mut sensitivities = Vec::new();
+        for b in &built {
+            let gear = cx.one_gear(&cx.path(), grid, &b.transmission)?;
+            let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
+            let mut points = cx.points(&b.transmission, &gear, torques, speeds);
+            points.terms = true;
+            sensitivities.extend(self.under_set(cx, b, &points)?);
+        }
+        cx.begin()?;
+        let head = cx.head(&built.iter().collect::<Vec<_>>());
+        Ok(SensitivityOutcome { head, sensitivities })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+/// What the methods found.
+struct Found {
+    /// By output, then by parameter.
+    local: Option<Vec<Vec<Local>>>,
+    morris: Option<Screening>,
+    /// By output.
+    sobol: Option<Vec<VarianceShares>>,
+}
+
+/// What each evaluation needs; on any thread.
+struct Evaluations<'a> {
+    trial: Trial<'a>,
+    points: &'a Points,
+    ranges: &'a [Range],
+    outputs: &'a Outputs,
+    running: Running<'a>,
+    left: Mutex<Left>,
+}
+
+impl Evaluations<'_> {
+    /// The outputs at values of the parameters.
+    fn at_values(&self, values: &[f64]) -> Result<Vec<f64>, String> {
+        if !self.running.goes_on() {
+            return Err("interrupted".to_owned());
+        }
+        let found = self
+            .solved(values)
+            .map_err(|reason| format!("{}: {reason}", words(self.ranges, values)));
+        self.running.advance(1);
+        found
+    }
+
+    /// The same at shares of their ranges.
+    fn at_shares(&self, shares: &[f64]) -> Result<Vec<f64>, String> {
+        let places = self.ranges.iter().zip(shares);
+        let values: Vec<f64> = places.map(|(range, share)| range.at(*share)).collect();
+        self.at_values(&values)
+    }
+
+    fn solved(&self, values: &[f64]) -> Result<Vec<f64>, String> {
+        let changes = self.ranges.iter().zip(values);
+        let changes = changes.flat_map(|(range, value)| range.varied.overrides(*value));
+        let transmission = self.trial.build(changes)?;
+        let solved = self.trial.solve(&transmission, self.points)?;
+        if let Ok(mut seen) = self.left.lock() {
+            seen.extend(left(&transmission, &solved.seen));
+        }
+        self.outputs.values(&transmission, &solved.points)
+    }
+}
+
+impl SensitivityEntry {
+    fn does(&self, method: Method) -> bool {
+        self.methods.contains(&method)
+    }
+
+    /// The grid, which has to be a plain one; refuses a number of samples that does not fill the ranges evenly.
+    fn checked_grid<'s>(&self, cx: &Context<'s>) -> Result<&'s Grid, Stopped> {
+        let path = cx.path();
+        let grid = cx.study.grid(&path, &self.grid)?;
+        if !grid.bind.is_empty() || grid.envelope.is_some() {
+            let message = "a sensitivity takes a grid without bound values and envelope";
+            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+        }
+        if !self.samples.is_power_of_two() {
+            let message = format!(
+                "{} samples are no power of two, and only those fill the ranges evenly",
+                self.samples
+            );
+            let help = format!("write `samples: {}`", self.samples.next_power_of_two());
+            return Err(cx.wrong(&format!("{path}.samples"), message, &help));
+        }
+        Ok(grid)
+    }
+
+    /// The parameters, each quantity once.
+    fn ranges(&self, cx: &Context<'_>, built: &Built<'_>) -> Result<Vec<Range>, Stopped> {
+        let mut ranges = Vec::new();
+        for (i, parameter) in self.parameters.iter().enumerate() {
+            let range = Range::new(cx, &place(cx, i), parameter, built)?;
+            range.inside(cx, &place(cx, i))?;
+            ranges.push(range);
+        }
+        let varied: Vec<_> = ranges.iter().map(|range| &range.varied).collect();
+        once(cx, &format!("{}.parameters", cx.path()), &varied)?;
+        Ok(ranges)
+    }
+
+    /// Number of evaluations of each method that is wanted.
+    fn runs(&self, parameters: usize) -> RunsOfMethods {
+        let (trajectories, samples) = (self.trajectories as usize, self.samples as usize);
+        let runs = |method: Method, count: usize| self.does(method).then_some(count);
+        RunsOfMethods {
+            local: runs(Method::Local, 1 + 2 * parameters),
+            morris: runs(Method::Morris, trajectories * (parameters + 1)),
+            sobol: runs(Method::Sobol, samples * (parameters + 2)),
+        }
+    }
+
+    /// Everything of one set; nothing where it is only checked.
+    fn under_set(
+        &self,
+        cx: &Context<'_>,
+        built: &Built<'_>,
+        points: &Points,
+    ) -> Result<Option<SensitivityOfSet>, Stopped> {
+        let ranges = self.ranges(cx, built)?;
+        let starts = if self.does(Method::Local) {
+            starts(cx, &ranges)?
+        } else {
+            Vec::new()
+        };
+        let runs = self.runs(ranges.len());
+        let count: usize = [runs.local, runs.morris, runs.sobol].into_iter().flatten().sum();
+        cx.holds(&cx.path(), points.field.len(), count)?;
+        if cx.checked(built, points)? {
+            return Ok(None);
+        }
+        let no_value = |reason: String| {
+            let message = format!("models {}: {}", built.name, without_coordinates(&reason));
+            let help = "narrow the ranges, or leave points without a value out of the grid";
+            cx.wrong(&cx.path(), message, help)
+        };
+        let t = &built.transmission;
+        let nominal = cx.solve(built, points)?;
+        let relative = self.does(Method::Morris) || self.does(Method::Sobol);
+        let outputs = Outputs::new(t, &nominal.points, relative);
+        let means = outputs.values(t, &nominal.points).map_err(no_value)?;
+        let evaluations = Evaluations {
+            trial: Trial::new(cx, built),
+            points,
+            ranges: &ranges,
+            outputs: &outputs,
+            running: cx.running(count, &built.name),
+            left: Mutex::default(),
+        };
+        let found = self.found(&starts, &evaluations);
+        if !cx.goes_on() {
+            return Err(Stopped::Interrupted);
+        }
+        let found = found.map_err(no_value)?;
+        let left_at_samples = evaluations.left.into_inner().unwrap_or_default();
+        Ok(Some(SensitivityOfSet {
+            model_set: built.name.clone(),
+            gear: points.gear.clone(),
+            points: points.field.len(),
+            runs: RunsOfMethods {
+                morris: found.morris.as_ref().map(|morris| morris.runs),
+                ..runs
+            },
+            outputs: outcome::outputs(&outputs.list, &means, &ranges, &found),
+            parameters: ranges.iter().map(VariedParameter::new).collect(),
+            samples: self.samples as usize,
+            left_at_start: notes(t, &nominal.seen).iter().filter(|note| note.outside > 0).count(),
+            left_at_samples,
+        }))
+    }
+
+    /// What the methods that are wanted find.
+    fn found(&self, starts: &[Parameter], evaluations: &Evaluations<'_>) -> Result<Found, String> {
+        let parameters = evaluations.ranges.len();
+        let (trajectories, samples) = (self.trajectories as usize, self.samples as usize);
+        let values = |values: &[f64]| evaluations.at_values(values);
+        let shares = |shares: &[f64]| evaluations.at_shares(shares);
+        let slopes = self.does(Method::Local).then(|| local(starts, NOISE, values));
+        let slopes = slopes.transpose()?;
+        let morris = self
+            .does(Method::Morris)
+            .then(|| screening(parameters, trajectories, shares));
+        let morris = morris.transpose()?;
+        let sobol = self
+            .does(Method::Sobol)
+            .then(|| variance_shares(parameters, samples, RESAMPLES, shares));
+        Ok(Found {
+            local: slopes,
+            morris,
+            sobol: sobol.transpose()?,
+        })
+    }
+}
+
+/// Place of a parameter in the study.
+fn place(cx: &Context<'_>, number: usize) -> String {
+    format!("{}.parameters.{number}", cx.path())
+}
+
+/// The parameters at the values of the gearbox, which have to lie in their ranges.
+fn starts(cx: &Context<'_>, ranges: &[Range]) -> Result<Vec<Parameter>, Stopped> {
+    let start = |(i, range): (usize, &Range)| {
+        let wrong = |message: String, help: &str| {
+            let message = format!("{}: {message}", range.varied.pattern);
+            cx.wrong(&place(cx, i), message, help)
+        };
+        let without = "the gearbox states no value at which `local` could stand";
+        let Some(own) = range.varied.start() else {
+            let help = "state one, or leave `local` out: `methods: [morris, sobol]`";
+            return Err(wrong(without.to_owned(), help));
+        };
+        Parameter::new(&range.varied.pattern, Scale::Linear, own, range.ends).map_err(|_| {
+            let [low, high] = range.ends.map(|end| range.varied.words(end));
+            let message = format!(
+                "`local` stands at {}, which is not in {low} to {high}",
+                range.varied.words(own)
+            );
+            wrong(
+                message,
+                "widen the range, or leave `local` out: `methods: [morris, sobol]`",
+            )
+        })
+    };
+    ranges.iter().enumerate().map(start).collect()
+}
+
+/// Values of the parameters in words.
+fn words(ranges: &[Range], values: &[f64]) -> String {
+    let word = |(range, value): (&Range, &f64)| format!("{} = {}", range.varied.pattern, range.varied.words(*value));
+    ranges.iter().zip(values).map(word).collect::<Vec<_>>().join(", ")
+}
+
+/// A fault of an evaluation says where it was, in coordinates of the method, and then in the user's own words: these do.
+fn without_coordinates(reason: &str) -> &str {
+    match reason.split_once("): ") {
+        Some((at, rest)) if at.starts_with("at (") => rest,
+        _ => reason,
+    }
+}

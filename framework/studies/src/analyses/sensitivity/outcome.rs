@@ -1,0 +1,311 @@
+//! What was found of what the losses depend on, as records and columns.
+
+use gearloss_numerics::sensitivity::{Estimate, Influence};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::super::ranges::Range;
+use super::super::trial::Left;
+use super::super::{Head, Outcome};
+use super::Found;
+use super::outputs::{Output, OutputKind};
+use crate::analysis::Note;
+use crate::cells;
+use crate::table::{Cell, Column, Table};
+use crate::varied::Varied;
+
+/// What the losses over a grid depend on, under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SensitivityOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set.
+    pub sensitivities: Vec<SensitivityOfSet>,
+}
+
+/// What the losses depend on under one model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SensitivityOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// Gear state.
+    pub gear: String,
+    /// Number of points of the grid. [-]
+    pub points: usize,
+    /// Number of evaluations of each method.
+    pub runs: RunsOfMethods,
+    /// The quantities that were varied.
+    pub parameters: Vec<VariedParameter>,
+    /// The outputs, the mean loss first.
+    pub outputs: Vec<OutputSensitivity>,
+    /// Samples of the shares of the variance. [-]
+    #[serde(skip)]
+    pub samples: usize,
+    /// Number of stated ranges that were left at the values of the gearbox. [-]
+    #[serde(skip)]
+    pub left_at_start: usize,
+    /// Stated ranges that some evaluations left.
+    #[serde(skip)]
+    pub left_at_samples: Left,
+}
+
+/// Number of evaluations of each method; absent for methods that were not wanted.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct RunsOfMethods {
+    /// Slopes at the values of the gearbox. [-]
+    pub local: Option<usize>,
+    /// Screening. [-]
+    pub morris: Option<usize>,
+    /// Shares of the variance. [-]
+    pub sobol: Option<usize>,
+}
+
+/// A quantity that was varied, and its range.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct VariedParameter {
+    /// Path as in the study.
+    pub path: String,
+    /// Resolved paths that it matches.
+    pub paths: Vec<String>,
+    /// Unit of its values.
+    pub unit: &'static str,
+    /// Value of the gearbox; one for a factor, absent where the gearbox states none. [unit]
+    pub start: Option<f64>,
+    /// Lower end of the range. [unit]
+    pub from: f64,
+    /// Upper end of the range. [unit]
+    pub to: f64,
+    /// The quantity.
+    #[serde(skip)]
+    pub varied: Varied,
+}
+
+/// What one output depends on.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OutputSensitivity {
+    /// `loss`, a mechanism, a mechanism and its term, `efficiency`, or `relative_loss`.
+    pub output: String,
+    /// What it is.
+    pub kind: OutputKind,
+    /// Its unit: `w` or `-`.
+    pub unit: &'static str,
+    /// Whether a term vanishes with the load; absent for what is no term, and where models of a mechanism differ in it.
+    pub load_dependent: Option<bool>,
+    /// Mean over the points at the values of the gearbox. [unit]
+    pub mean: f64,
+    /// Slopes over each parameter; absent where they were not wanted, and for `relative_loss`, which has a kink there.
+    pub local: Option<Vec<SlopeOfOutput>>,
+    /// Effect of each parameter; absent where they were not wanted.
+    pub morris: Option<Vec<EffectOfParameter>>,
+    /// Shares of the variance; absent where they were not wanted.
+    pub sobol: Option<SharesOfVariance>,
+}
+
+/// Slope of an output over one parameter at the values of the gearbox.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct SlopeOfOutput {
+    /// Change of the output over the change of the parameter. [unit of the output over unit of the parameter]
+    pub slope: f64,
+    /// Slope times the range of the parameter over the output; absent where the output is zero. [-]
+    pub scaled: Option<f64>,
+    /// Relative change of the output over the relative change of the parameter; absent where one of the two is zero. [-]
+    pub elasticity: Option<f64>,
+}
+
+/// Changes of an output over the whole range of one parameter, along trajectories.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct EffectOfParameter {
+    /// Mean. [unit of the output]
+    pub mu: f64,
+    /// Mean of the magnitudes. [unit of the output]
+    pub mu_star: f64,
+    /// Standard deviation. [unit of the output]
+    pub sigma: f64,
+    /// Whether the output depends on the parameter, and how.
+    pub influence: Influence,
+}
+
+/// How the parameters share the variance of an output.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SharesOfVariance {
+    /// Mean over the ranges. [unit of the output]
+    pub mean: f64,
+    /// Variance over the ranges. [unit of the output squared]
+    pub variance: f64,
+    /// Whether parameters act together: the shares alone add up to less than 90 %.
+    pub interactions: bool,
+    /// Share that each parameter explains alone. [-]
+    pub first: Vec<Estimate>,
+    /// Share of each parameter with all its interactions. [-]
+    pub total: Vec<Estimate>,
+}
+
+impl VariedParameter {
+    pub(super) fn new(range: &Range) -> Self {
+        let varied = range.varied.clone();
+        Self {
+            path: varied.pattern.clone(),
+            paths: varied.paths.clone(),
+            unit: varied.unit.symbol,
+            start: varied.start(),
+            from: range.ends[0],
+            to: range.ends[1],
+            varied,
+        }
+    }
+}
+
+/// What every method found of each output.
+pub(super) fn outputs(list: &[Output], means: &[f64], ranges: &[Range], found: &Found) -> Vec<OutputSensitivity> {
+    let output = |(i, (output, mean)): (usize, (&Output, &f64))| OutputSensitivity {
+        output: output.name.clone(),
+        kind: output.kind,
+        unit: output.unit(),
+        load_dependent: output.load_dependent,
+        mean: *mean,
+        local: slopes(output.kind, i, ranges, found),
+        morris: effects(i, found),
+        sobol: found.sobol.as_ref().map(|sobol| {
+            let shares = &sobol[i];
+            SharesOfVariance {
+                mean: shares.mean,
+                variance: shares.variance,
+                interactions: shares.interact(),
+                first: shares.first.clone(),
+                total: shares.total.clone(),
+            }
+        }),
+    };
+    list.iter().zip(means).enumerate().map(output).collect()
+}
+
+/// Slopes of an output over the parameters, without an elasticity where a parameter is zero: it has no relative change. None of the
+/// relative change over the points, which is least at the values of the gearbox and has a kink there.
+fn slopes(kind: OutputKind, output: usize, ranges: &[Range], found: &Found) -> Option<Vec<SlopeOfOutput>> {
+    let local = found.local.as_ref().filter(|_| kind != OutputKind::RelativeLoss)?;
+    let slopes = local[output].iter().zip(ranges).map(|(local, range)| {
+        let zero = range.varied.start() == Some(0.0);
+        SlopeOfOutput {
+            slope: local.slope,
+            scaled: local.scaled,
+            elasticity: local.elasticity.filter(|_| !zero),
+        }
+    });
+    Some(slopes.collect())
+}
+
+fn effects(output: usize, found: &Found) -> Option<Vec<EffectOfParameter>> {
+    let morris = found.morris.as_ref()?;
+    let effects = morris.effects[output].iter().zip(morris.influences(output));
+    let effects = effects.map(|(effect, influence)| EffectOfParameter {
+        mu: effect.mean,
+        mu_star: effect.magnitude,
+        sigma: effect.deviation,
+        influence,
+    });
+    Some(effects.collect())
+}
+
+/// Columns of the table.
+fn columns() -> [Column; 20] {
+    let of_output = "unit of the output";
+    [
+        Column::text("model_set", "Model set"),
+        Column::text("gear", "Gear state"),
+        Column::text("output", "Output"),
+        Column::text("kind", "What the output is"),
+        Column::text("unit", "Unit of the output"),
+        Column::text("parameter", "Path of the parameter"),
+        Column::text("parameter_unit", "Unit of the parameter"),
+        Column::number(
+            "local_slope",
+            "unit of the output over unit of the parameter",
+            "Slope at the values of the gearbox",
+        ),
+        Column::number("local_scaled", "-", "Slope times the range over the output"),
+        Column::number("local_elasticity", "-", "Relative change over relative change"),
+        Column::number("morris_mu", of_output, "Mean change over the whole range"),
+        Column::number(
+            "morris_mu_star",
+            of_output,
+            "Mean magnitude of the change over the whole range",
+        ),
+        Column::number("morris_sigma", of_output, "Standard deviation of the change"),
+        Column::text("morris_influence", "Whether the output depends on the parameter"),
+        Column::number("sobol_first", "-", "Share of the variance, alone"),
+        Column::number("sobol_first_low", "-", "Lower end of its 95 % interval"),
+        Column::number("sobol_first_high", "-", "Upper end of its 95 % interval"),
+        Column::number("sobol_total", "-", "Share of the variance, with others"),
+        Column::number("sobol_total_low", "-", "Lower end of its 95 % interval"),
+        Column::number("sobol_total_high", "-", "Upper end of its 95 % interval"),
+    ]
+}
+
+/// Cells of a share and its interval.
+fn share_cells(share: Option<Estimate>) -> [Cell<'static>; 3] {
+    cells![
+        share.map(|share| share.value),
+        share.map(|share| share.interval[0]),
+        share.map(|share| share.interval[1]),
+    ]
+}
+
+impl SensitivityOfSet {
+    /// A row for each output and parameter.
+    fn rows(&self, table: &mut Table) {
+        for output in &self.outputs {
+            for (k, parameter) in self.parameters.iter().enumerate() {
+                let local = output.local.as_ref().and_then(|slopes| slopes.get(k));
+                let effect = output.morris.as_ref().map(|effects| effects[k]);
+                let shares = output.sobol.as_ref();
+                let own = cells![
+                    &self.model_set,
+                    &self.gear,
+                    &output.output,
+                    output.kind.name(),
+                    output.unit,
+                    &parameter.path,
+                    parameter.unit,
+                    local.map(|slope| slope.slope),
+                    local.and_then(|slope| slope.scaled),
+                    local.and_then(|slope| slope.elasticity),
+                    effect.map(|effect| effect.mu),
+                    effect.map(|effect| effect.mu_star),
+                    effect.map(|effect| effect.sigma),
+                    effect.map_or("", |effect| effect.influence.name()),
+                ];
+                let first = share_cells(shares.map(|shares| shares.first[k]));
+                let total = share_cells(shares.map(|shares| shares.total[k]));
+                table.push(own.into_iter().chain(first).chain(total));
+            }
+        }
+    }
+}
+
+impl Outcome for SensitivityOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut table = Table::new(&self.head.analysis, columns());
+        for of_set in &self.sensitivities {
+            of_set.rows(&mut table);
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        Vec::new()
+    }
+
+    fn left_at_samples(&self) -> Vec<(&str, &str)> {
+        let all = self.sensitivities.iter().flat_map(|of_set| &of_set.left_at_samples);
+        all.map(|(path, name)| (path.as_str(), *name)).collect()
+    }
+
+    fn unlisted(&self) -> usize {
+        self.sensitivities.iter().map(|of_set| of_set.left_at_start).sum()
+    }
+}

@@ -1,0 +1,161 @@
+//! Points, what everything else loses there, and what each candidate loses.
+
+use gearloss_framework::description::ThermalMode;
+use gearloss_numerics::selection::{Combination, Losses};
+
+use super::super::numbers::RPM;
+use super::super::{Built, Context, Stopped};
+use super::candidates::{Gathering, left};
+use super::outcome::{CandidateOfTournament, MechanismOfTournament};
+use super::slot::{Candidate, Slot};
+use super::{MOST, TournamentEntry};
+use crate::analysis::{Field as Given, Given as GivenPoint, PointResult, Points};
+use crate::study::Quantity;
+
+/// Points, what everything else loses there, and what each candidate loses.
+pub struct Field<'a> {
+    pub base: &'a Built<'a>,
+    pub gear: String,
+    pub points: Vec<PointResult>,
+    /// Loss of all parts that no mechanism of the tournament covers. \[W\]
+    pub rest: Vec<f64>,
+    pub slots: Vec<Slot>,
+    /// What an error of one watt is at each point in the unit in which errors are printed; absent where the quantity does not exist, as an
+    /// efficiency without torque.
+    pub scale: Vec<Option<f64>>,
+    /// Why models do not take part.
+    pub left_out: Vec<String>,
+    /// Number of stated ranges that models left.
+    pub unlisted: usize,
+}
+
+impl<'a> Field<'a> {
+    /// Solves the points under the set, and evaluates every candidate at the temperatures found.
+    pub fn new(
+        cx: &'a Context<'a>,
+        entry: &TournamentEntry,
+        base: &'a Built<'a>,
+        points: &Points,
+    ) -> Result<Self, Stopped> {
+        let mut points = points.clone();
+        // A measured temperature counts where the model does not find its own.
+        if base.transmission.thermal_mode != ThermalMode::Fixed
+            && let Given::List(list) = &mut points.field
+        {
+            for given in list {
+                given.oil = None;
+            }
+        }
+        let solved = cx.solve(base, &points)?;
+        // Every model loses at the temperatures of the set, else losses could not be added.
+        points.field = Given::List(given(&solved.points));
+        let gathering = Gathering::new(cx, &entry.mechanisms, base, &points, &solved)?;
+        let (slots, left_out) = (gathering.slots, gathering.left_out);
+        let unlisted = gathering.unlisted + left(&base.transmission, &solved);
+        if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {
+            let message = format!(
+                "the set itself has no loss at {} Nm, {:.0} rpm",
+                p.torque,
+                p.speed * RPM
+            );
+            return Err(cx.wrong(&cx.path(), message, "choose a set that has one at every point"));
+        }
+        let parts = base.transmission.parts();
+        let rest = |p: &PointResult| {
+            let own = parts.iter().zip(&p.parts);
+            own.filter(|(part, _)| !slots.iter().any(|s| s.covers(part)))
+                .map(|(_, w)| w)
+                .sum()
+        };
+        let rest: Vec<f64> = solved.points.iter().map(rest).collect();
+        let scale = |p: &PointResult| match entry.quantity {
+            Quantity::Efficiency => 100.0 / (p.torque * p.torque_speed).abs(),
+            Quantity::LossTorque => 1.0 / p.reference_speed.abs(),
+            Quantity::Loss | Quantity::Temperature => 1.0,
+        };
+        let scale = |p: &PointResult| Some(scale(p)).filter(|s| s.is_finite());
+        let field = Self {
+            scale: solved.points.iter().map(scale).collect(),
+            gear: points.gear,
+            points: solved.points,
+            rest,
+            slots,
+            base,
+            left_out,
+            unlisted,
+        };
+        if field.count() > MOST {
+            let message = format!("{} combinations are more than {MOST}", field.count());
+            let help = "name those that take part: `mechanisms: [{ mechanism: bearing, models: { skf: { type: skf } } }]`; without names every \
+                        model takes part with every model that it takes";
+            return Err(cx.wrong(&cx.path(), message, help));
+        }
+        Ok(field)
+    }
+
+    /// Number of combinations.
+    pub fn count(&self) -> usize {
+        self.slots.iter().map(|s| s.candidates.len()).product()
+    }
+
+    /// Losses of all candidates.
+    pub fn losses(&self) -> Losses<'_> {
+        let mechanisms = self
+            .slots
+            .iter()
+            .map(|slot| slot.candidates.iter().map(|c| c.loss.as_slice()).collect());
+        Losses {
+            rest: &self.rest,
+            mechanisms: mechanisms.collect(),
+        }
+    }
+
+    /// Names of the candidates of a combination.
+    pub fn names(&self, places: &[usize]) -> Vec<String> {
+        let chosen = self.slots.iter().zip(places);
+        chosen
+            .map(|(slot, place)| slot.candidates[*place].name.clone())
+            .collect()
+    }
+
+    /// What speaks against a combination, in words: stated ranges that a model left, and factors on a bound.
+    pub fn marks(&self, c: &Combination) -> Vec<String> {
+        let ranges = self.slots.iter().zip(&c.places).flat_map(|(slot, place)| {
+            let candidate = &slot.candidates[*place];
+            let marks = candidate.marks.iter();
+            marks.map(|mark| format!("{} {}: {}", slot.name, candidate.name, mark.words))
+        });
+        let bounds = c
+            .on_bound
+            .iter()
+            .map(|k| format!("{}: factor {:.2} on a bound", self.slots[*k].name, c.factors[*k]));
+        ranges.chain(bounds).collect()
+    }
+
+    /// The mechanisms with their candidates, as results have them.
+    pub fn mechanisms(&self) -> Vec<MechanismOfTournament> {
+        let candidate = |c: &Candidate| CandidateOfTournament {
+            name: c.name.clone(),
+            model: c.model.clone(),
+            losses_w: c.loss.clone(),
+            outside: c.marks.iter().map(|mark| mark.words.clone()).collect(),
+            quantities_outside: c.marks.iter().map(|mark| mark.name).collect(),
+            time: c.time,
+        };
+        let mechanism = |slot: &Slot| MechanismOfTournament {
+            mechanism: slot.name.clone(),
+            candidates: slot.candidates.iter().map(candidate).collect(),
+        };
+        self.slots.iter().map(mechanism).collect()
+    }
+}
+
+/// The torques, speeds and temperatures of solved points.
+pub fn given(points: &[PointResult]) -> Vec<GivenPoint> {
+    let given = |p: &PointResult| GivenPoint {
+        torque: p.torque,
+        speed: p.speed,
+        oil: p.oil,
+    };
+    points.iter().map(given).collect()
+}

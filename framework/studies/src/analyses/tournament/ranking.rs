@@ -1,0 +1,184 @@
+//! Combinations ranked by how well they predict measured losses, over their accuracy; the winner, and those that are not distinguishable
+//! from it.
+
+use gearloss_numerics::selection::{Combination, MeasuredLosses, Shortlist, Winner, rank, shortlist, winner};
+
+use super::super::numbers::{RPM, tidy};
+use super::super::{Built, Context, Stopped, gear_of};
+use super::candidates::{Gathering, left};
+use super::field::{Field, given};
+use super::measurements::{Measurements, OwnRows};
+use super::{Comparison, RankedCombination, RankedPoint, Ranking, TournamentEntry};
+use crate::analysis::{GridResult, Statistics, run_grid};
+use crate::study::Data;
+
+/// A ranking with what follows from it.
+struct Ranked {
+    combinations: Vec<Combination>,
+    winner: Winner,
+    shortlist: Shortlist,
+}
+
+impl Ranked {
+    /// Weight of a combination by its place; absent where it is not on the shortlist.
+    fn weight(&self, place: usize) -> Option<f64> {
+        let member = self.shortlist.members.iter().position(|own| *own == place)?;
+        self.shortlist.weights.get(member).copied()
+    }
+}
+
+impl TournamentEntry {
+    /// Ranks every combination by measured points.
+    pub(super) fn ranking(&self, cx: &Context<'_>, data: &Data, base: &Built<'_>) -> Result<Ranking, Stopped> {
+        let path = cx.path();
+        let t = &base.transmission;
+        let measured = cx.read_at_ports(&format!("{path}.data"), data, &[])?;
+        let file = cx.data(&path, data)?.file.to_string();
+        let gear = gear_of(self.gear.as_deref(), t).to_owned();
+        let own = OwnRows::new(cx, &measured, &gear)?;
+        let none = cx.listed(t, &gear, Vec::new());
+        if cx.checked(base, &none)? {
+            Gathering::new(cx, &self.mechanisms, base, &none, &GridResult::default())?;
+            return Err(Stopped::Checked);
+        }
+        let (mut list, mut unlisted) = (own.given, 0);
+        if !measured.rig.is_silent() {
+            // The speeds tell what the rig adds; the rest of the torque is left for the transmission.
+            let solved = cx.solve(base, &cx.listed(t, &gear, list.clone()))?;
+            unlisted += left(t, &solved);
+            for (given, p) in list.iter_mut().zip(solved.points) {
+                let added = measured.rig.added([p.reference_speed, p.output_speed.unwrap_or(0.0)]);
+                given.torque -= added[usize::from(!p.at_reference)];
+            }
+        }
+        let field = Field::new(cx, self, base, &cx.listed(t, &gear, list))?;
+        let rows = Measurements::new(cx, self, (&measured, &own.rows), &field)?;
+        let found = self.ranked(cx, &field, &rows.losses)?;
+        let gap = gap_of_sum(cx, &field, &found.combinations[found.winner.place])?;
+        let accuracies = (0..rows.losses.len()).filter_map(|i| Some((rows.accuracy(i)?, rows.losses.weights[i])));
+        Ok(Ranking {
+            model_set: base.name.clone(),
+            gear,
+            unit: self.unit(),
+            combinations: found.combinations.len(),
+            accuracy: Statistics::weighted(accuracies).map(|s| s.rms),
+            correlation: found.winner.errors.correlation,
+            correlation_estimated: found.winner.is_estimated,
+            variance_over_stated: found.winner.errors.variance,
+            winner: found.winner.place,
+            best_unmarked: found.winner.unmarked,
+            best_against_unmarked: found.winner.best_against_unmarked.as_ref().map(Comparison::new),
+            mechanisms: field.mechanisms(),
+            points: points(&rows, &found.shortlist),
+            ranking: combinations(&field, &found),
+            unit_in_words: self.unit_in_words(),
+            notes_on_file: measured.notes.iter().map(|note| format!("{file}: {note}")).collect(),
+            notes: rows.notes,
+            points_of_other_gears: own.others,
+            unranked: field.count() - found.combinations.len(),
+            groups: rows.losses.folds.len(),
+            fits_factors: self.factors.is_some(),
+            shown: self.shown as usize,
+            gap_of_sum: gap,
+            unlisted: unlisted + field.unlisted,
+            rest_w: field.rest,
+            left_out: field.left_out,
+        })
+    }
+
+    fn ranked(&self, cx: &Context<'_>, field: &Field<'_>, measured: &MeasuredLosses) -> Result<Ranked, Stopped> {
+        let data = format!("{}.data", cx.path());
+        let outside = measured.folds.iter().map(|fold| measured.len() - fold.len());
+        let fewest = outside.min().unwrap_or(0);
+        if self.factors.is_some() && fewest < field.slots.len() {
+            let message = format!(
+                "{fewest} points outside of a group cannot fit {} factors",
+                field.slots.len()
+            );
+            return Err(cx.wrong(&data, message, "give more points, or fewer mechanisms"));
+        }
+        let losses = field.losses();
+        let bounds = self.factors.map(|f| [f.least, f.greatest]);
+        let running = cx.running(field.count(), cx.name);
+        let ranked = rank(&losses, measured, bounds, &|| running.advance(1));
+        drop(running);
+        if !cx.goes_on() {
+            return Err(Stopped::Interrupted);
+        }
+        let is_marked = |c: &Combination| !field.marks(c).is_empty();
+        let Some(winner) = winner(&ranked, &is_marked, &losses, measured, self.correlation) else {
+            let message = "no combination can be ranked by these points";
+            let help = "give points with a weight above zero, or wider bounds of the factors";
+            return Err(cx.wrong(&data, message, help));
+        };
+        let shortlist = shortlist(&ranked, &winner, &losses, measured);
+        Ok(Ranked {
+            combinations: ranked,
+            winner,
+            shortlist,
+        })
+    }
+}
+
+/// The measured points, with what the shortlist predicts there.
+fn points(rows: &Measurements, list: &Shortlist) -> Vec<RankedPoint> {
+    let point = |i: usize| RankedPoint {
+        torque_nm: rows.torques[i],
+        speed_rpm: tidy(rows.speeds[i] * RPM),
+        measured_loss_w: rows.losses.losses[i],
+        loss_accuracy_w: rows.losses.deviations[i],
+        accuracy: rows.accuracy(i),
+        weight: rows.losses.weights[i],
+        mean_loss_w: list.means[i],
+        deviation_w: list.deviations[i],
+        least_loss_w: list.ranges[i][0],
+        greatest_loss_w: list.ranges[i][1],
+        speed: rows.speeds[i],
+        scale: rows.losses.units[i],
+    };
+    (0..rows.losses.len()).map(point).collect()
+}
+
+/// All combinations, the smallest predicted error first.
+fn combinations(field: &Field<'_>, found: &Ranked) -> Vec<RankedCombination> {
+    let combination = |(i, c): (usize, &Combination)| {
+        let against = Comparison::new(&found.winner.standings[i]);
+        let bounds = c.on_bound.iter().map(|k| field.slots[*k].name.clone());
+        RankedCombination {
+            models: field.names(&c.places),
+            predicted_over_accuracy: c.predicted,
+            predicted_rms: c.printed.map(|p| p.predicted),
+            worst_group_rms: c.printed.map(|p| p.worst),
+            fitted_rms: c.printed.map(|p| p.fitted),
+            mean: c.printed.map(|p| p.mean),
+            factors: c.factors.clone(),
+            on_bound: bounds.collect(),
+            marks: field.marks(c),
+            winner_against_it: (i != found.winner.place).then_some(against),
+            weight: found.weight(i),
+            places: c.places.clone(),
+            against,
+        }
+    };
+    found.combinations.iter().enumerate().map(combination).collect()
+}
+
+/// How far losses that were added are at most from the combination solved as a whole. \[% of the loss\]
+fn gap_of_sum(cx: &Context<'_>, field: &Field<'_>, c: &Combination) -> Result<f64, Stopped> {
+    let base = field.base;
+    let mut resolved = base.resolved.clone();
+    for (slot, place) in field.slots.iter().zip(&c.places) {
+        resolved = slot
+            .with(cx.language, &resolved, &slot.candidates[*place].model)
+            .map_err(|reason| cx.wrong(&cx.path(), reason, "report this"))?;
+    }
+    let transmission = base.gearbox.build(cx.language, &resolved)?;
+    let points = cx.listed(&transmission, &field.gear, given(&field.points));
+    let solved = run_grid(&transmission, &points, &|_| cx.goes_on());
+    let solved = solved.map_err(|list| Stopped::from(base.gearbox.findings(list)))?;
+    let solved = solved.ok_or(Stopped::Interrupted)?;
+    let added = field.losses().all(&c.places, &vec![1.0; c.places.len()]);
+    let gaps = solved.points.iter().zip(&added);
+    let gaps = gaps.filter_map(|(p, added)| Some(100.0 * (added - p.loss?) / p.loss?));
+    Ok(gaps.fold(0.0_f64, |worst, gap| if gap.abs() > worst.abs() { gap } else { worst }))
+}

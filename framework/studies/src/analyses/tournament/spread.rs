@@ -1,0 +1,101 @@
+//! The spread of all combinations where nothing was measured: the uncertainty of the models.
+
+use super::super::axes::grid_axes;
+use super::super::numbers::{RPM, tidy};
+use super::super::{Built, Context, Stopped};
+use super::candidates::Gathering;
+use super::field::Field;
+use super::slot::Slot;
+use super::{ShareOfSpread, Spread, SpreadPoint, TournamentEntry};
+use crate::analysis::GridResult;
+
+impl TournamentEntry {
+    /// The spread of every combination over a grid.
+    pub(super) fn spread(&self, cx: &Context<'_>, grid_name: &str, base: &Built<'_>) -> Result<Spread, Stopped> {
+        let path = cx.path();
+        let t = &base.transmission;
+        let of_data = [
+            self.factors.is_some(),
+            self.gear.is_some(),
+            self.errors.is_some(),
+            self.correlation.is_some(),
+        ];
+        if of_data.contains(&true) {
+            let message = "`factors`, `gear`, `errors` and `correlation` belong to `data`";
+            return Err(cx.wrong(&path, message, "leave them out, or give `data`"));
+        }
+        let grid = cx.study.grid(&path, grid_name)?;
+        let gear = cx.one_gear(&path, grid, t)?;
+        if !grid.bind.is_empty() || grid.envelope.is_some() {
+            let message = "a tournament takes a grid without bound values and envelope";
+            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+        }
+        let (torques, speeds) = grid_axes(cx, grid_name, grid, t)?;
+        let points = cx.points(t, &gear, torques.clone(), speeds.clone());
+        if cx.checked(base, &points)? {
+            Gathering::new(cx, &self.mechanisms, base, &points, &GridResult::default())?;
+            return Err(Stopped::Checked);
+        }
+        let field = Field::new(cx, self, base, &points)?;
+        if field.scale.iter().any(Option::is_none) {
+            let message = "an efficiency, or a loss torque, needs speed and torque at every point";
+            return Err(cx.wrong(&path, message, "leave zero out, or write `quantity: loss`"));
+        }
+        let scales: Vec<f64> = field.scale.iter().map(|s| s.unwrap_or(0.0)).collect();
+        let variances: Vec<f64> = field.slots.iter().map(|slot| variance(slot, &scales)).collect();
+        let whole: f64 = variances.iter().sum();
+        let share = |(slot, variance): (&Slot, &f64)| ShareOfSpread {
+            mechanism: slot.name.clone(),
+            share: (whole > 0.0).then(|| variance / whole),
+        };
+        Ok(Spread {
+            model_set: base.name.clone(),
+            gear,
+            unit: self.unit(),
+            combinations: field.count(),
+            mechanisms: field.mechanisms(),
+            shares_of_spread: field.slots.iter().zip(&variances).map(share).collect(),
+            points: (0..scales.len()).map(|i| point(&field, i, scales[i])).collect(),
+            unit_in_words: self.unit_in_words(),
+            deviation_rms: f64::sqrt(whole / scales.len() as f64),
+            torques,
+            speeds,
+            unlisted: field.unlisted,
+            left_out: field.left_out,
+        })
+    }
+}
+
+/// All combinations at one point. Losses of mechanisms add up, so extremes and moments over all combinations are the sums of theirs.
+fn point(field: &Field<'_>, i: usize, scale: f64) -> SpreadPoint {
+    let p = &field.points[i];
+    let mut point = SpreadPoint {
+        torque_nm: p.torque,
+        speed_rpm: tidy(p.speed * RPM),
+        least_loss_w: field.rest[i],
+        mean_loss_w: field.rest[i],
+        greatest_loss_w: field.rest[i],
+        deviation_w: 0.0,
+        scale,
+    };
+    for slot in &field.slots {
+        let losses: Vec<f64> = slot.candidates.iter().map(|c| c.loss[i]).collect();
+        point.least_loss_w += losses.iter().copied().fold(f64::INFINITY, f64::min);
+        point.greatest_loss_w += losses.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mean = losses.iter().sum::<f64>() / losses.len() as f64;
+        point.mean_loss_w += mean;
+        point.deviation_w += losses.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / losses.len() as f64;
+    }
+    point.deviation_w = point.deviation_w.sqrt();
+    point
+}
+
+/// Variance over the candidates of a mechanism in the unit of errors, summed over the points.
+fn variance(slot: &Slot, scales: &[f64]) -> f64 {
+    let at_point = |(i, scale): (usize, &f64)| {
+        let losses: Vec<f64> = slot.candidates.iter().map(|c| c.loss[i]).collect();
+        let mean = losses.iter().sum::<f64>() / losses.len() as f64;
+        scale * scale * losses.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / losses.len() as f64
+    };
+    scales.iter().enumerate().map(at_point).sum()
+}
