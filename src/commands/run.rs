@@ -25,7 +25,6 @@ mod sweep;
 mod table;
 mod thermal_limit;
 mod tournament;
-mod uncertainty;
 mod write;
 
 pub(super) use map::tidy;

@@ -17,6 +17,7 @@ pub mod ranges;
 pub mod rows;
 pub mod shares;
 pub mod trial;
+pub mod uncertainty;
 
 use std::any::Any;
 use std::fmt;

@@ -18,8 +18,8 @@ mod sensitivity;
 mod sweep;
 mod temperature;
 mod then;
+mod tolerance;
 mod tournament;
-mod uncertainty;
 mod write;
 
 use schemars::JsonSchema;
@@ -40,14 +40,15 @@ pub use identify::{
 pub use map::MapEntry;
 pub use names::is_device;
 pub use operating_points::OperatingPointsEntry;
+pub(crate) use parameters::NameOr;
 pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sensitivity::{Method, SensitivityEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{Find, ThermalLimitEntry};
 pub use then::Then;
+pub use tolerance::{Shape, ToleranceEntry};
 pub use tournament::{CandidatesEntry, FactorsEntry, LossErrorsEntry, TournamentEntry};
-pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
 pub use write::{Export, Write};
 
 use crate::analyses::AnalysisEntry;

@@ -15,14 +15,14 @@ use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, n
 use gearloss_studies::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
     IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
-    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
+    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
     Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
-    rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+    rms_surface, sensitivity, sweep, thermal_limit, tournament, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -226,7 +226,6 @@ impl Runner<'_> {
             ThermalLimitEntry => thermal_limit::run,
             SweepEntry => sweep::run,
             TournamentEntry => tournament::run,
-            UncertaintyEntry => uncertainty::run,
             IdentifyEntry => identify::run,
             SensitivityEntry => sensitivity::run,
             RmsSurfaceEntry => rms_surface::run,

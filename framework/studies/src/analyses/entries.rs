@@ -5,7 +5,7 @@ use crate::register_entry;
 use crate::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
     IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
-    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -155,20 +155,6 @@ impl Entry for TournamentEntry {
 }
 
 register_entry!(TournamentEntry);
-
-impl Entry for UncertaintyEntry {
-    const TYPE: &'static str = "uncertainty";
-    const MEANING: &'static str = "Bands of efficiency, loss and temperature from uncertain inputs.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: Some(&self.grid),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-        }
-    }
-}
-
-register_entry!(UncertaintyEntry);
 
 impl Entry for IdentifyEntry {
     const TYPE: &'static str = "identify";

@@ -28,7 +28,7 @@ pub(super) enum NamesOrParameters {
     dead_code,
     reason = "its schema alone counts: names are replaced before the study is read into types"
 )]
-pub(super) enum NameOr<T> {
+pub(crate) enum NameOr<T> {
     /// Name of a parameter that the study states under `parameters`; its range is `from` and `to`.
     Name(String),
     /// The quantity and its range.
