@@ -6,6 +6,7 @@
 pub mod axes;
 pub mod balance;
 pub mod context;
+pub mod cycle;
 pub mod duties;
 mod entries;
 pub mod head;
@@ -24,7 +25,7 @@ use std::fmt;
 use std::io;
 use std::sync::Arc;
 
-use gearloss_framework::document::did_you_mean;
+use gearloss_framework::document::{Diagnostic, did_you_mean};
 use gearloss_framework::registry::{Origin, inventory};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeOwned, Error};
@@ -92,6 +93,11 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
     fn found(&self) -> Vec<(String, Value)> {
         Vec::new()
     }
+
+    /// Why it is not whole, although what there is counts; it is shown and written first.
+    fn fault(&self) -> Option<Diagnostic> {
+        None
+    }
 }
 
 /// An [`Outcome`] of any type.
@@ -106,6 +112,8 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn left_at_samples(&self) -> Vec<(&str, &str)>;
     /// Values of the model set that it leaves for later analyses.
     fn found(&self) -> Vec<(String, Value)>;
+    /// Why it is not whole.
+    fn fault(&self) -> Option<Diagnostic>;
     /// For a downcast to its type.
     fn as_any(&self) -> &dyn Any;
     /// Writes it as JSON.
@@ -130,6 +138,9 @@ impl<O: Outcome> AnyOutcome for O {
     }
     fn found(&self) -> Vec<(String, Value)> {
         Outcome::found(self)
+    }
+    fn fault(&self) -> Option<Diagnostic> {
+        Outcome::fault(self)
     }
     fn as_any(&self) -> &dyn Any {
         self

@@ -30,7 +30,7 @@ pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, Temperatu
 pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
 pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
-pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
+pub use cycle::{DriveEntry, FluidSweepEntry};
 pub use data::Data;
 pub use files::Study;
 pub use identify::{

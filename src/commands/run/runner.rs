@@ -13,15 +13,15 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
-    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry,
+    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, MapEntry,
+    OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry,
+    ThermalLimitEntry, TournamentEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
+    Parts, breakdown, compare, component_compare, contact_path, fluid_sweep, identify, map, operating_points,
     rms_surface, sensitivity, sweep, thermal_limit, tournament, write,
 };
 use crate::interrupt;
@@ -204,7 +204,10 @@ impl Runner<'_> {
         for named in page.figures {
             write::picture(self, &named.name, named.figure, formats)?;
         }
-        Ok(())
+        match outcome.fault() {
+            Some(fault) => Err(self.found(vec![fault]).into()),
+            None => Ok(()),
+        }
     }
 
     /// Runs an analysis that computes, prints and writes at once.
@@ -229,7 +232,6 @@ impl Runner<'_> {
             IdentifyEntry => identify::run,
             SensitivityEntry => sensitivity::run,
             RmsSurfaceEntry => rms_surface::run,
-            CycleAnalysisEntry => cycle::run,
             FluidSweepEntry => fluid_sweep::run,
             SpinLossEntry => breakdown::spin_loss,
             TemperatureSweepEntry => breakdown::temperature_sweep,

@@ -3,9 +3,9 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
-    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, Uses,
+    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, MapEntry,
+    OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then,
+    ThermalLimitEntry, TournamentEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -209,17 +209,6 @@ impl Entry for RmsSurfaceEntry {
 }
 
 register_entry!(RmsSurfaceEntry);
-
-impl Entry for CycleAnalysisEntry {
-    const TYPE: &'static str = "cycle";
-    const MEANING: &'static str = "Losses, energies and temperatures of duties, such as driving cycles.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::driving(&self.drive)
-    }
-}
-
-register_entry!(CycleAnalysisEntry);
 
 impl Entry for FluidSweepEntry {
     const TYPE: &'static str = "fluid_sweep";
