@@ -4,7 +4,6 @@ mod breakdown;
 mod compare;
 mod component_compare;
 mod contact_path;
-mod cycle;
 mod fluid_sweep;
 mod folder;
 mod identify;
@@ -21,7 +20,6 @@ mod sweep;
 mod table;
 mod task_file;
 mod thermal_limit;
-mod uncertainty;
 mod write;
 
 pub use shard::Shard;

@@ -4,3 +4,5 @@ pub mod balance;
 pub mod map;
 pub mod sensitivity;
 pub mod tournament;
+pub mod cycle;
+pub mod uncertainty;

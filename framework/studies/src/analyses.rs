@@ -6,6 +6,7 @@
 pub mod axes;
 pub mod balance;
 pub mod context;
+pub mod cycle;
 pub mod duties;
 mod entries;
 pub mod head;
@@ -20,13 +21,14 @@ pub mod sensitivity;
 pub mod shares;
 pub mod tournament;
 pub mod trial;
+pub mod uncertainty;
 
 use std::any::Any;
 use std::fmt;
 use std::io;
 use std::sync::Arc;
 
-use gearloss_framework::document::did_you_mean;
+use gearloss_framework::document::{Diagnostic, did_you_mean};
 use gearloss_framework::registry::{Origin, inventory};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeOwned, Error};
@@ -99,6 +101,11 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
     fn found(&self) -> Vec<(String, Value)> {
         Vec::new()
     }
+
+    /// Why it is not whole, although what there is counts; it is shown and written first.
+    fn fault(&self) -> Option<Diagnostic> {
+        None
+    }
 }
 
 /// An [`Outcome`] of any type.
@@ -115,6 +122,8 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn unlisted(&self) -> usize;
     /// Values of the model set that it leaves for later analyses.
     fn found(&self) -> Vec<(String, Value)>;
+    /// Why it is not whole.
+    fn fault(&self) -> Option<Diagnostic>;
     /// For a downcast to its type.
     fn as_any(&self) -> &dyn Any;
     /// Writes it as JSON.
@@ -142,6 +151,9 @@ impl<O: Outcome> AnyOutcome for O {
     }
     fn found(&self) -> Vec<(String, Value)> {
         Outcome::found(self)
+    }
+    fn fault(&self) -> Option<Diagnostic> {
+        Outcome::fault(self)
     }
     fn as_any(&self) -> &dyn Any {
         self

@@ -16,7 +16,7 @@ mod rms_surface;
 mod sweep;
 mod temperature;
 mod then;
-mod uncertainty;
+mod tolerance;
 mod write;
 
 use schemars::JsonSchema;
@@ -27,7 +27,7 @@ pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, Temperatu
 pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
 pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
-pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
+pub use cycle::{DriveEntry, FluidSweepEntry};
 pub use data::Data;
 pub use files::Study;
 pub use identify::{
@@ -42,8 +42,8 @@ pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sweep::{SecondEntry, SweepEntry};
 pub use temperature::{Find, ThermalLimitEntry};
 pub use then::Then;
-pub use uncertainty::{Shape, ToleranceEntry, UncertaintyEntry};
 pub use write::Write;
+pub use tolerance::{Shape, ToleranceEntry};
 
 use crate::analyses::AnalysisEntry;
 use crate::duty::{CycleEntry, VehicleEntry};

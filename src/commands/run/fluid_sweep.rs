@@ -14,12 +14,12 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use self::least::Least;
-use super::cycle::whole;
 use super::write::{cell, head, write};
 use super::{Built, Runner};
 use crate::interrupt;
 use crate::output::{Failure, Out};
 use gearloss_studies::analyses::duties::Duties;
+use gearloss_studies::analyses::duties::sums_energies;
 use gearloss_studies::analyses::shares::{Shares, together};
 use gearloss_studies::analyses::trial::{Left, Trial, left};
 
@@ -191,7 +191,7 @@ fn own_index(document: &Value, oil: &str) -> Option<f64> {
 pub fn run(runner: &Runner<'_>, name: &str, entry: &FluidSweepEntry, out: &mut Out) -> Result<(), Failure> {
     let path = format!("analyses.{name}");
     let (_, gearbox) = runner.study.gearbox(&path, entry.drive.gearbox.as_ref())?;
-    whole(runner, &path, entry.by)?;
+    sums_energies(runner, &path, entry.by)?;
     let other = match (
         &entry.property,
         entry.kv100.is_empty() && entry.vi.is_none(),

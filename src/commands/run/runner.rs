@@ -13,8 +13,7 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Points, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry, UncertaintyEntry, Write,
+    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry, Write,
 };
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -23,7 +22,7 @@ use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
 use super::{
-    breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, operating_points, rms_surface, sweep, thermal_limit, uncertainty, write,
+    breakdown, compare, component_compare, contact_path, fluid_sweep, identify, operating_points, rms_surface, sweep, thermal_limit, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -214,10 +213,11 @@ impl Runner<'_> {
         for named in page.figures {
             write::picture(self, &named.name, named.figure, formats)?;
         }
-        if page.faults.is_empty() {
+        let faults: Vec<_> = page.faults.into_iter().chain(outcome.fault()).collect();
+        if faults.is_empty() {
             Ok(())
         } else {
-            Err(self.found(page.faults).into())
+            Err(self.found(faults).into())
         }
     }
 
@@ -238,10 +238,8 @@ impl Runner<'_> {
             OperatingPointsEntry => operating_points::run,
             ThermalLimitEntry => thermal_limit::run,
             SweepEntry => sweep::run,
-            UncertaintyEntry => uncertainty::run,
             IdentifyEntry => identify::run,
             RmsSurfaceEntry => rms_surface::run,
-            CycleAnalysisEntry => cycle::run,
             FluidSweepEntry => fluid_sweep::run,
             SpinLossEntry => breakdown::spin_loss,
             TemperatureSweepEntry => breakdown::temperature_sweep,

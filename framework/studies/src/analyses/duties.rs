@@ -2,12 +2,15 @@
 
 use crate::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
 use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
-use crate::study::{Conditions, DriveEntry};
+use crate::study::{By, Conditions, DriveEntry};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
+use super::balance::reason;
+use super::shares::Shares;
+use super::trial::{Left, left};
 use super::{Built, Context, Stopped, gear_of};
 
 /// A duty as read.
@@ -251,4 +254,85 @@ pub fn nodes(t: &Transmission, driven: &Driven) -> Vec<String> {
         // A duty that could not even begin has no temperature.
         None => vec!["oil".to_owned(); driven.start.len()],
     }
+}
+
+/// Mean losses of a duty.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeanLoss {
+    /// Loss of the transmission. \[W\]
+    pub loss: f64,
+    /// The same by share. \[W\]
+    pub shares: Vec<f64>,
+}
+
+/// Why a transmission has no mean losses of the duties.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unfinished {
+    /// What is wrong.
+    pub message: String,
+    /// Why a duty could not be driven further; absent where it was not driven at all.
+    pub reason: Option<String>,
+}
+
+impl From<String> for Unfinished {
+    fn from(message: String) -> Self {
+        Self { message, reason: None }
+    }
+}
+
+impl Unfinished {
+    /// The message with its reason.
+    pub fn text(self) -> String {
+        match self.reason {
+            Some(reason) => format!("{}: {reason}", self.message),
+            None => self.message,
+        }
+    }
+}
+
+impl Duties<'_> {
+    /// Mean losses of every duty, with shares under the names of several transmissions, and the stated ranges that were left.
+    pub fn mean_losses(
+        &self,
+        cx: &Context<'_>,
+        t: &Transmission,
+        by: By,
+        names: &[String],
+    ) -> Result<(Vec<MeanLoss>, Left), Unfinished> {
+        let shares = Shares::of(t, by).under(names);
+        let mut losses = Vec::new();
+        let mut seen = Left::new();
+        for read in &self.list {
+            let driven = self
+                .drive(t, read, &|_| cx.goes_on())
+                .map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?
+                .ok_or_else(|| "interrupted".to_owned())?;
+            if let Some((time, why)) = &driven.broken {
+                return Err(Unfinished {
+                    message: format!("`{}` could not be driven beyond {time} s", read.name),
+                    reason: Some(reason(t, why)),
+                });
+            }
+            let time = driven.total.duration;
+            losses.push(MeanLoss {
+                loss: driven.total.parts.iter().sum::<f64>() / time,
+                shares: shares.sums(&driven.total.parts).iter().map(|x| x / time).collect(),
+            });
+            seen.extend(left(t, &driven.seen));
+        }
+        Ok((losses, seen))
+    }
+}
+
+/// Refuses sums by the terms of models: energies of duties are kept for parts alone.
+pub fn sums_energies(cx: &Context<'_>, path: &str, by: By) -> Result<(), Stopped> {
+    if matches!(by, By::Term | By::Sum) {
+        let message = "the energies of a duty are summed by mechanism, component or stage";
+        return Err(cx.wrong(
+            &format!("{path}.by"),
+            message,
+            "write `by: mechanism`, `component` or `stage`",
+        ));
+    }
+    Ok(())
 }

@@ -3,8 +3,7 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry, UncertaintyEntry, Uses,
+    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry, Uses,
 };
 
 impl Entry for CompareEntry {
@@ -121,20 +120,6 @@ impl Entry for SweepEntry {
 
 register_entry!(SweepEntry);
 
-impl Entry for UncertaintyEntry {
-    const TYPE: &'static str = "uncertainty";
-    const MEANING: &'static str = "Bands of efficiency, loss and temperature from uncertain inputs.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: Some(&self.grid),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-        }
-    }
-}
-
-register_entry!(UncertaintyEntry);
-
 impl Entry for IdentifyEntry {
     const TYPE: &'static str = "identify";
     const MEANING: &'static str = "Uncertain parameters, found from measured points.";
@@ -174,17 +159,6 @@ impl Entry for RmsSurfaceEntry {
 }
 
 register_entry!(RmsSurfaceEntry);
-
-impl Entry for CycleAnalysisEntry {
-    const TYPE: &'static str = "cycle";
-    const MEANING: &'static str = "Losses, energies and temperatures of duties, such as driving cycles.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::driving(&self.drive)
-    }
-}
-
-register_entry!(CycleAnalysisEntry);
 
 impl Entry for FluidSweepEntry {
     const TYPE: &'static str = "fluid_sweep";

@@ -4,8 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::{By, ToleranceEntry, Write};
-use gearloss_framework::description::Ordered;
+use super::{By, Write};
 use gearloss_framework::thermal::network::Scheme;
 
 /// What is driven, and how.
@@ -37,44 +36,6 @@ pub struct DriveEntry {
     /// Steps adapt, so that one of them and two of half its length agree within this. [K]
     #[schemars(range(min = 1e-4, max = 10.0))]
     pub tolerance: Option<f64>,
-}
-
-/// Losses, energies and temperatures of duties.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct CycleAnalysisEntry {
-    /// What is driven, and how.
-    #[serde(flatten)]
-    pub drive: DriveEntry,
-    /// What the losses are summed by.
-    #[serde(default)]
-    pub by: By,
-    /// Mean losses from elsewhere, by duty, such as published ones; told beside the calculated ones.
-    #[serde(default)]
-    pub reference: Ordered<ReferenceLoss>,
-    /// Uncertain inputs: every duty is driven with values drawn from their distributions.
-    #[serde(default)]
-    pub inputs: Vec<ToleranceEntry>,
-    /// Number of samples of uncertain inputs; powers of two fill the ranges most evenly. [-]
-    #[serde(default = "samples")]
-    #[schemars(range(min = 8, max = 65536))]
-    pub samples: u32,
-    /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
-    pub write: Vec<Write>,
-}
-
-fn samples() -> u32 {
-    64
-}
-
-/// A mean loss from elsewhere.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct ReferenceLoss {
-    /// Mean loss of the transmission over the whole duty. [W]
-    #[schemars(range(min = 1e-6, max = 1e9))]
-    pub loss: f64,
-    /// Where it comes from.
-    pub source: Option<String>,
 }
 
 /// Mean losses of duties over one property of an oil.

@@ -1,0 +1,253 @@
+//! Driven duties: losses, energies and temperatures in tables; losses stacked over time, temperatures, torque and speed.
+
+use gearloss_studies::analyses::Outcome;
+use gearloss_studies::analyses::cycle::{BandOfDuty, CycleOutcome, DutyOfSet, HeatOfDuty, IntervalOfDuty};
+
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::{Line, Stroke};
+use crate::register_view;
+use crate::text::{TextTable, number, significant};
+
+register_view!(CycleOutcome, show);
+
+fn show(outcome: &CycleOutcome, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    page.outside_at_samples(&outcome.left_at_samples());
+    for duty in &outcome.cycles {
+        text(name, duty, page);
+        figures(name, duty, page);
+    }
+}
+
+fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
+    let (energy, loss) = (&duty.energy, duty.energy.loss_j);
+    page.line(format!(
+        "{name}: {}, {} s, models {}: mean loss {} W, {} kJ",
+        duty.cycle,
+        significant(duty.duration_s),
+        duty.model_set,
+        significant(duty.mean_loss_w),
+        significant(1e-3 * loss),
+    ));
+    if let Some(about) = &duty.about {
+        page.line(format!("  {about}"));
+    }
+    for note in &duty.file_notes {
+        page.line(format!("  note: {note}"));
+    }
+    if let Some(reference) = &duty.reference {
+        let source = reference.source.as_deref().unwrap_or("reference");
+        let ratio = 100.0 * (duty.mean_loss_w / reference.mean_loss_w - 1.0);
+        page.line(format!(
+            "  {source}: {} W; the calculation is {ratio:+.1} % from it",
+            significant(reference.mean_loss_w)
+        ));
+    }
+    let mut table = TextTable::new(&["loss", "mean W", "kJ", "share %"]);
+    for ((share, mean), joule) in duty.shares.iter().zip(&duty.mean_losses_w).zip(&duty.energies_j) {
+        table.row(vec![
+            share.clone(),
+            format!("{mean:.2}"),
+            format!("{:.2}", 1e-3 * joule),
+            format!("{:.1}", if loss > 0.0 { 100.0 * joule / loss } else { 0.0 }),
+        ]);
+    }
+    page.lines(table.render());
+    if let Some(band) = &duty.bands {
+        band_text(duty, band, page);
+    }
+    page.line(format!(
+        "  energy in {} kJ, out {} kJ, left {:.1e} of the input",
+        significant(1e-3 * energy.input_j),
+        significant(1e-3 * energy.output_j),
+        energy.residual_share
+    ));
+    if energy.brakes_j > 0.0 {
+        page.line(format!("  brakes take {} kJ", significant(1e-3 * energy.brakes_j)));
+    }
+    if let Some(heat) = &duty.heat {
+        heat_text(duty, heat, page);
+    }
+    if duty.motors_beyond_map {
+        page.line("  note: a motor was beyond its map; the loss at its edge counts");
+    }
+    page.line(format!(
+        "  {} intervals, {} steps, {} evaluations",
+        duty.intervals, duty.steps, duty.evaluations
+    ));
+    page.outside(&duty.notes);
+    page.line("");
+}
+
+/// The band of the loss, of its shares, and which inputs make it.
+fn band_text(duty: &DutyOfSet, band: &BandOfDuty, page: &mut Page) {
+    let [low, middle, high] = band.mean_loss_w;
+    let mut line = format!(
+        "  {} samples of {} inputs: mean loss {low:.1} to {high:.1} W (95 %), median {middle:.1} W",
+        band.samples,
+        band.inputs.len()
+    );
+    if let (Some(reference), Some(inside)) = (&duty.reference, band.reference_inside) {
+        line.push_str(&format!(
+            "; {} W lies {} it",
+            reference.mean_loss_w,
+            if inside { "in" } else { "outside of" }
+        ));
+    }
+    page.line(line);
+    if let Some(reason) = &band.first_failure {
+        page.line(format!("  {} further samples have no value: {reason}", band.failed));
+    }
+    let mut table = TextTable::new(&["loss", "2.5 % W", "median W", "97.5 % W"]);
+    for (name, band) in duty.shares.iter().zip(&band.mean_losses_w) {
+        let mut row = vec![name.clone()];
+        row.extend(band.iter().map(|x| format!("{x:.2}")));
+        table.row(row);
+    }
+    page.lines(table.render());
+    let mut table = TextTable::new(&["input", "correlation with the mean loss"]);
+    for input in &band.inputs {
+        table.row(vec![input.input.clone(), number(input.correlation_with_mean_loss, 3)]);
+    }
+    page.lines(table.render());
+}
+
+/// Heat and temperatures.
+fn heat_text(duty: &DutyOfSet, heat: &HeatOfDuty, page: &mut Page) {
+    let kj = |joule: f64| format!("{} kJ", significant(1e-3 * joule));
+    let mut parts = vec![format!("losses {}", kj(duty.energy.loss_j))];
+    if let Some(motors) = duty.energy.motors_j {
+        parts.push(format!("motors {}", kj(motors)));
+    }
+    if heat.sources_j != 0.0 {
+        parts.push(format!("sources {}", kj(heat.sources_j)));
+    }
+    let mut paths = vec![format!("stored {}", kj(heat.stored_j))];
+    for node in &heat.taken {
+        paths.push(format!("{} {}", node.node, kj(node.heat_j.unwrap_or_default())));
+    }
+    for exchanger in &heat.exchangers {
+        let path = &exchanger.exchanger;
+        let id = path.rsplit('.').next().unwrap_or(path);
+        paths.push(format!("{id} {}", kj(exchanger.heat_j)));
+    }
+    if heat.carried_away_j.abs() > 1e-9 * heat.came_j.abs() {
+        paths.push(format!("carried away {}", kj(heat.carried_away_j)));
+    }
+    page.line(format!(
+        "  heat: {} = {}, left {:.1e}",
+        parts.join(" + "),
+        paths.join(" + "),
+        heat.residual_share
+    ));
+    let measured = duty.nodes.iter().any(|node| node.rms_k.is_some());
+    let mut head = vec!["node", "start degC", "end", "least", "greatest", "mean"];
+    if measured {
+        head.push("rms to measured K");
+    }
+    let mut table = TextTable::new(&head);
+    for node in &duty.nodes {
+        let mut row = vec![node.node.clone()];
+        let temperatures = [
+            node.start_degc,
+            node.end_degc,
+            node.least_degc,
+            node.greatest_degc,
+            node.mean_degc,
+        ];
+        row.extend(temperatures.map(|t| format!("{t:.2}")));
+        if measured {
+            row.push(node.rms_k.map_or_else(String::new, |rms| format!("{rms:.2}")));
+        }
+        table.row(row);
+    }
+    page.lines(table.render());
+}
+
+/// How a quantity of an interval is read.
+type Read = fn(&IntervalOfDuty) -> f64;
+
+/// The most points of one line: more cannot be distinguished, and a page holds all of them.
+const MOST: usize = 2400;
+
+fn figures(name: &str, duty: &DutyOfSet, page: &mut Page) {
+    let (set, cycle) = (&duty.model_set, &duty.cycle);
+    let series = &duty.series;
+    if series.is_empty() {
+        return;
+    }
+    let every = series.len().div_ceil(MOST);
+    let file = format!("{name}-{set}-{cycle}");
+    let losses = Figure::Areas {
+        title: format!("{name}: losses over {cycle}, models {set}"),
+        x: "time in s".to_owned(),
+        y: "loss in W".to_owned(),
+        names: duty.shares.clone(),
+        places: series.chunks(every).map(|chunk| chunk[0].time_s).collect(),
+        stacks: series
+            .chunks(every)
+            .map(|chunk| mean_losses(chunk, duty.shares.len()))
+            .collect(),
+    };
+    page.figure(format!("{file}-loss"), losses);
+    let over_time: [(&str, &str, Read); 2] = [("torque", "Nm", |i| i.torque_nm), ("speed", "rpm", |i| i.speed_rpm)];
+    for (what, unit, read) in over_time {
+        let figure = Figure::Lines {
+            title: format!("{name}: {what} of the reference port over {cycle}, models {set}"),
+            x: "time in s".to_owned(),
+            y: format!("{what} in {unit}"),
+            lines: vec![line(series, every, what, &|i| (i.time_s, read(i)))],
+        };
+        page.figure(format!("{file}-{what}"), figure);
+    }
+    if duty.heat.is_none() {
+        return;
+    }
+    let figure = Figure::Lines {
+        title: format!("{name}: temperatures over {cycle}, models {set}"),
+        x: "time in s".to_owned(),
+        y: "temperature in degC".to_owned(),
+        lines: temperatures(duty, every),
+    };
+    page.figure(format!("{file}-temperatures"), figure);
+}
+
+fn line(series: &[IntervalOfDuty], every: usize, name: &str, read: &dyn Fn(&IntervalOfDuty) -> (f64, f64)) -> Line {
+    Line {
+        name: name.to_owned(),
+        points: series.iter().step_by(every).map(|i| Some(read(i))).collect(),
+        stroke: Stroke::Line,
+    }
+}
+
+/// Losses by share, the mean over intervals that one place stands for: it keeps the energy.
+fn mean_losses(chunk: &[IntervalOfDuty], shares: usize) -> Vec<f64> {
+    let time: f64 = chunk.iter().map(|i| i.duration_s).sum();
+    let mut sum = vec![0.0; shares];
+    for interval in chunk {
+        for (sum, watts) in sum.iter_mut().zip(&interval.losses_w) {
+            *sum += watts * interval.duration_s / time;
+        }
+    }
+    sum
+}
+
+/// Temperatures of all nodes, calculated and measured.
+fn temperatures(duty: &DutyOfSet, every: usize) -> Vec<Line> {
+    let mut lines = Vec::new();
+    for (node, own) in duty.nodes.iter().enumerate() {
+        lines.push(line(&duty.series, every, &own.node, &|i| {
+            (i.time_s + i.duration_s, i.temperatures_degc[node])
+        }));
+        if !own.measured.is_empty() {
+            let every = own.measured.len().div_ceil(MOST / 8);
+            lines.push(Line {
+                name: format!("{}, measured", own.node),
+                points: own.measured.iter().step_by(every).copied().map(Some).collect(),
+                stroke: Stroke::Dots,
+            });
+        }
+    }
+    lines
+}

@@ -1,0 +1,115 @@
+//! Bands of uncertain inputs: which inputs make them, their width over the grid, and the bands over speed.
+
+use gearloss_studies::analyses::Outcome;
+use gearloss_studies::analyses::numbers::tidy;
+use gearloss_studies::analyses::uncertainty::{BandsOfSet, PointOfBand, QuantityBand, UncertaintyOutcome};
+
+use crate::page::Page;
+use crate::plot::{Line, Stroke};
+use crate::register_view;
+use crate::text::{TextTable, fixed, number, spread};
+use crate::{Figure, Map};
+
+register_view!(UncertaintyOutcome, show);
+
+/// A quantity: name in files, in words, how to read it.
+type Quantity = (&'static str, &'static str, fn(&PointOfBand) -> &QuantityBand);
+
+const QUANTITIES: [Quantity; 4] = [
+    ("efficiency", "efficiency in %", |p| &p.efficiency_percent),
+    ("loss_w", "loss in W", |p| &p.loss_w),
+    ("loss_torque_nm", "loss torque in Nm", |p| &p.loss_torque_nm),
+    ("oil_temperature_degc", "oil temperature in degC", |p| {
+        &p.oil_temperature_degc
+    }),
+];
+
+fn show(outcome: &UncertaintyOutcome, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    page.outside_at_samples(&outcome.left_at_samples());
+    for set in &outcome.bands {
+        inputs(name, set, page);
+        widths(set, page);
+        page.published(&set.published);
+        for quantity in &QUANTITIES {
+            figures(name, set, quantity, page);
+        }
+    }
+}
+
+fn inputs(name: &str, set: &BandsOfSet, page: &mut Page) {
+    page.line(format!("{name}: {} samples, models {}", set.samples, set.model_set));
+    if let Some(reason) = &set.first_failure {
+        page.line(format!("{} further samples have no value: {reason}", set.failed));
+    }
+    let mut table = TextTable::new(&["input", "from", "to", "correlation with the mean loss"]);
+    for input in &set.inputs {
+        let [from, to] = input.words.clone();
+        let correlation = number(input.correlation_with_mean_loss, 3);
+        table.row(vec![input.path.clone(), from, to, correlation]);
+    }
+    page.lines(table.render());
+    page.line("");
+}
+
+/// Half of the width of the band of the efficiency over the grid.
+fn widths(set: &BandsOfSet, page: &mut Page) {
+    page.line("efficiency in %: half of the width of the 95 % band");
+    let columns = set.speeds_rpm.len();
+    let shown = spread(columns);
+    let mut titles = vec!["torque Nm".to_owned()];
+    titles.extend(shown.iter().map(|i| format!("{} rpm", fixed(set.speeds_rpm[*i], 0))));
+    let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+    for t in spread(set.torques_nm.len()) {
+        let mut row = vec![format!("{}", tidy(set.torques_nm[t]))];
+        let width = |i: &usize| number(set.points[t * columns + i].efficiency_percent.half_width(), 3);
+        row.extend(shown.iter().map(width));
+        table.row(row);
+    }
+    page.lines(table.render());
+    page.line("");
+}
+
+/// A map of the width of the bands of a quantity, and the bands themselves over speed at a few torques.
+fn figures(name: &str, set: &BandsOfSet, (short, long, read): &Quantity, page: &mut Page) {
+    let columns = set.speeds_rpm.len();
+    let models = &set.model_set;
+    let widths: Vec<Option<f64>> = set.points.iter().map(|p| read(p).half_width()).collect();
+    // A given temperature has no band.
+    if widths.iter().all(|width| width.is_none_or(|w| w == 0.0)) {
+        return;
+    }
+    if columns > 1 && set.torques_nm.len() > 1 {
+        let words = |values: &[f64]| values.iter().map(|x| format!("{}", tidy(*x))).collect();
+        let figure = Figure::Map(Map {
+            title: format!("{name}: half of the 95 % band of the {long}, models {models}"),
+            x: ("speed rpm".to_owned(), words(&set.speeds_rpm)),
+            y: ("torque Nm".to_owned(), words(&set.torques_nm)),
+            values: widths,
+            ..Map::default()
+        });
+        page.figure(format!("{name}-{models}-{short}-width"), figure);
+    }
+    for t in spread(set.torques_nm.len()).into_iter().step_by(3) {
+        let line = |words: &str, stroke: Stroke, y: &dyn Fn(&QuantityBand) -> Option<f64>| Line {
+            name: words.to_owned(),
+            points: (0..columns)
+                .map(|i| Some((set.speeds_rpm[i], y(read(&set.points[t * columns + i]))?)))
+                .collect(),
+            stroke,
+        };
+        let torque = tidy(set.torques_nm[t]);
+        let figure = Figure::Lines {
+            title: format!("{name}: {long} with its 95 % band, {torque} Nm, models {models}"),
+            x: "speed in rpm".to_owned(),
+            y: (*long).to_owned(),
+            lines: vec![
+                line("nominal", Stroke::Marked, &|q| q.nominal),
+                line("median", Stroke::Line, &|q| q.band.map(|b| b[1])),
+                line("2.5 %", Stroke::Line, &|q| q.band.map(|b| b[0])),
+                line("97.5 %", Stroke::Line, &|q| q.band.map(|b| b[2])),
+            ],
+        };
+        page.figure(format!("{name}-{models}-{short}-{torque}Nm"), figure);
+    }
+}

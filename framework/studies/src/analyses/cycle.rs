@@ -1,0 +1,239 @@
+//! Duties driven through a gearbox: losses, energies, temperatures.
+
+mod bands;
+mod outcome;
+mod results;
+
+use gearloss_framework::attach::dangling;
+use gearloss_framework::description::Ordered;
+use gearloss_framework::document::Diagnostic;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::duties::{Duties, sums_energies};
+use super::inputs::Input;
+use super::numbers::tidy;
+use super::shares::{Shares, together};
+use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
+use crate::analysis::Note;
+use crate::register_analysis;
+use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
+use crate::table::{Cell, Column, Table};
+
+pub use outcome::{
+    BandOfDuty, BrokenOff, CycleOutcome, DutyOfSet, EnergyOfDuty, HeatOfDuty, HeatOfExchanger, HeatOfMotor, HeatOfNode,
+    InputOfBand, IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
+};
+
+/// Losses, energies and temperatures of duties.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct CycleAnalysisEntry {
+    /// What is driven, and how.
+    #[serde(flatten)]
+    pub drive: DriveEntry,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Mean losses from elsewhere, by duty, such as published ones; told beside the calculated ones.
+    #[serde(default)]
+    pub reference: Ordered<ReferenceLoss>,
+    /// Uncertain inputs: every duty is driven with values drawn from their distributions.
+    #[serde(default)]
+    pub inputs: Vec<ToleranceEntry>,
+    /// Number of samples of uncertain inputs; powers of two fill the ranges most evenly. [-]
+    #[serde(default = "samples")]
+    #[schemars(range(min = 8, max = 65536))]
+    pub samples: u32,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+fn samples() -> u32 {
+    64
+}
+
+/// A mean loss from elsewhere.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ReferenceLoss {
+    /// Mean loss of the transmission over the whole duty. [W]
+    #[schemars(range(min = 1e-6, max = 1e9))]
+    pub loss: f64,
+    /// Where it comes from.
+    pub source: Option<String>,
+}
+
+impl Entry for CycleAnalysisEntry {
+    const TYPE: &'static str = "cycle";
+    const MEANING: &'static str = "Losses, energies and temperatures of duties, such as driving cycles.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::driving(&self.drive)
+    }
+}
+
+register_analysis!(CycleAnalysisEntry);
+
+impl Analysis for CycleAnalysisEntry {
+    type Outcome = CycleOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<CycleOutcome, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
+        let built = cx.built(gearbox, &self.drive.model_sets)?;
+        sums_energies(cx, &path, self.by)?;
+        let duties = Duties::new(cx, &path, &self.drive)?;
+        self.check_reference(cx, &path, &duties)?;
+        let names = together(built.iter().map(|b| &b.transmission), self.by);
+        let mut cycles = Vec::new();
+        for b in &built {
+            duties.check(cx, &path, b)?;
+            if cx.only_checks {
+                Input::all(cx, &path, &self.inputs, b)?;
+                continue;
+            }
+            let shares = Shares::of(&b.transmission, self.by).under(&names);
+            let running = cx.running(duties.intervals(), &b.name);
+            for read in &duties.list {
+                let driven = duties.drive(&b.transmission, read, &|n| running.advance(n));
+                let driven = driven.map_err(|list| Stopped::from(b.gearbox.findings(list)))?;
+                let driven = driven.ok_or(Stopped::Interrupted)?;
+                cycles.push(results::duty(b, read, &driven, &shares, self.reference.get(&read.name)));
+            }
+        }
+        cx.begin()?;
+        let mut all_left = Vec::new();
+        if !self.inputs.is_empty() {
+            for (b, own) in built.iter().zip(cycles.chunks_mut(duties.list.len())) {
+                all_left.extend(bands::add(cx, self, b, (&duties, &names), own)?);
+            }
+        }
+        Ok(CycleOutcome {
+            head: cx.head(&built.iter().collect::<Vec<_>>()),
+            cycles,
+            left: all_left,
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl CycleAnalysisEntry {
+    /// Refuses reference losses of duties that the analysis does not have.
+    fn check_reference(&self, cx: &Context<'_>, path: &str, duties: &Duties<'_>) -> Result<(), Stopped> {
+        let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
+        let Some(unknown) = self.reference.ids().find(|id| !names.contains(id)) else {
+            return Ok(());
+        };
+        let path = format!("{path}.reference");
+        Err(cx.found(vec![dangling(&path, "duty of this analysis", unknown, &names)]))
+    }
+}
+
+impl Outcome for CycleOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let nodes = self.nodes();
+        let mut table = Table::new(&self.head.analysis, self.columns(&nodes));
+        for duty in &self.cycles {
+            // Nodes that this set does not have are empty.
+            let place = |name: &&str| duty.nodes.iter().position(|own| own.node == **name);
+            let places: Vec<Option<usize>> = nodes.iter().map(place).collect();
+            for interval in &duty.series {
+                let mut row: Vec<Cell<'_>> = vec![(&duty.model_set).into(), (&duty.cycle).into()];
+                row.extend([
+                    interval.time_s.into(),
+                    interval.duration_s.into(),
+                    interval.torque_nm.into(),
+                    tidy(interval.speed_rpm).into(),
+                    interval.vehicle_speed_m_s.into(),
+                    interval.status.name().into(),
+                    interval.input_w.into(),
+                    interval.output_w.into(),
+                    interval.loss_w.into(),
+                ]);
+                row.extend(interval.losses_w.iter().map(|watts| Cell::from(*watts)));
+                row.extend([interval.motors_w.into(), interval.brakes_w.into()]);
+                let calculated = |place: &Option<usize>| place.map(|node| interval.temperatures_degc[node]);
+                row.extend(places.iter().map(|place| Cell::from(calculated(place))));
+                let measured = |place: &Option<usize>| place.and_then(|node| interval.measured_degc[node]);
+                row.extend(places.iter().map(|place| Cell::from(measured(place))));
+                table.push(row);
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        self.cycles.iter().flat_map(|duty| &duty.notes).collect()
+    }
+
+    fn left_at_samples(&self) -> Vec<(&str, &str)> {
+        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+    }
+
+    fn fault(&self) -> Option<Diagnostic> {
+        let (duty, broken) = self
+            .cycles
+            .iter()
+            .find_map(|duty| Some((duty, duty.broken.as_ref()?)))?;
+        let message = format!(
+            "`{}` could not be driven beyond {} s: {}",
+            duty.cycle, broken.time_s, broken.reason
+        );
+        let error = Diagnostic::error(format!("analyses.{}", self.head.analysis), message);
+        Some(error.mend("the results up to there are kept; look at the point with `explain`"))
+    }
+}
+
+impl CycleOutcome {
+    /// Nodes of all duties, in the order of the first.
+    fn nodes(&self) -> Vec<&str> {
+        let mut all: Vec<&str> = Vec::new();
+        for node in self.cycles.iter().flat_map(|duty| &duty.nodes) {
+            if !all.contains(&node.node.as_str()) {
+                all.push(&node.node);
+            }
+        }
+        all
+    }
+
+    fn columns(&self, nodes: &[&str]) -> Vec<Column> {
+        let mut columns = vec![
+            Column::text("model_set", "Model set"),
+            Column::text("cycle", "Duty"),
+            Column::number("time_s", "s", "Time at the beginning of the interval"),
+            Column::number("duration_s", "s", "Length of the interval"),
+            Column::number("torque_nm", "Nm", "Torque of the reference port"),
+            Column::number("speed_rpm", "rpm", "Speed of the reference port"),
+            Column::number("vehicle_speed_m_s", "m/s", "Speed of the vehicle"),
+            Column::text("status", "What the transmission does"),
+            Column::number("input_w", "W", "Power that ports put in"),
+            Column::number("output_w", "W", "Power that comes out"),
+            Column::number("loss_w", "W", "Loss of the transmission"),
+        ];
+        let shares = self.cycles.first().map_or(&[][..], |duty| &duty.shares);
+        columns.extend(shares.iter().map(|share| {
+            let meaning = format!("Loss of the share {share}");
+            Column::number(format!("{share}_w"), "W", meaning)
+        }));
+        columns.extend([
+            Column::number("motors_w", "W", "Loss of all motors"),
+            Column::number("brakes_w", "W", "Power that brakes of the vehicle take"),
+        ]);
+        let temperatures = |ending: &'static str, which: &'static str| {
+            nodes.iter().map(move |node| {
+                let meaning = format!("Temperature of the node {node} at the end of the interval, {which}");
+                Column::number(format!("{node}_{ending}_degc"), "degC", meaning)
+            })
+        };
+        columns.extend(temperatures("end", "calculated"));
+        columns.extend(temperatures("measured", "measured"));
+        columns
+    }
+}

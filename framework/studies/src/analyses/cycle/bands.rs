@@ -1,0 +1,134 @@
+//! Bands of mean losses from uncertain inputs.
+
+use gearloss_numerics::sampling::Sobol;
+use rayon::prelude::*;
+
+use super::CycleAnalysisEntry;
+use super::outcome::{BandOfDuty, DutyOfSet, InputOfBand};
+use crate::analyses::duties::{Duties, MeanLoss};
+use crate::analyses::inputs::Input;
+use crate::analyses::trial::{Left, Trial};
+use crate::analyses::{Built, Context, Stopped};
+use crate::analysis::{correlation, quantile};
+
+/// Shares of the samples below the ends and the middle of a band.
+const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
+
+/// What samples of a gearbox leave.
+struct Samples {
+    /// Values of the inputs, and the mean losses of each duty.
+    driven: Vec<(Vec<f64>, Vec<MeanLoss>)>,
+    /// Why each of the others has no value.
+    failed: Vec<String>,
+    left: Left,
+}
+
+/// Drives all duties through samples of a gearbox and adds the bands to the results of the duties; the stated ranges that the
+/// samples left.
+pub fn add(
+    cx: &Context<'_>,
+    entry: &CycleAnalysisEntry,
+    built: &Built<'_>,
+    (duties, names): (&Duties<'_>, &[String]),
+    results: &mut [DutyOfSet],
+) -> Result<Left, Stopped> {
+    let inputs = Input::all(cx, &cx.path(), &entry.inputs, built)?;
+    let samples = sample(cx, entry, built, &inputs, (duties, names))?;
+    for (k, result) in results.iter_mut().enumerate() {
+        let mut band = samples.band(k, &inputs, names.len());
+        let [low, _, high] = band.mean_loss_w;
+        let reference = result.reference.as_ref();
+        band.reference_inside = reference.map(|reference| (low..=high).contains(&reference.mean_loss_w));
+        result.bands = Some(band);
+    }
+    Ok(samples.left)
+}
+
+fn sample(
+    cx: &Context<'_>,
+    entry: &CycleAnalysisEntry,
+    built: &Built<'_>,
+    inputs: &[Input],
+    (duties, names): (&Duties<'_>, &[String]),
+) -> Result<Samples, Stopped> {
+    let path = cx.path();
+    let sobol = Sobol::new(inputs.len()).map_err(|reason| cx.wrong(&path, reason, "use fewer inputs"))?;
+    let trial = Trial::new(cx, built);
+    let running = cx.running(entry.samples as usize, &format!("{} samples", built.name));
+    let sample = |i: u32| -> Result<(Vec<f64>, Vec<MeanLoss>, Left), String> {
+        let shares = sobol.point(i);
+        let values: Vec<f64> = inputs
+            .iter()
+            .zip(shares)
+            .map(|(input, share)| input.value(share))
+            .collect::<Result<_, _>>()?;
+        let changes = inputs.iter().zip(&values);
+        let t = trial.build(changes.flat_map(|(input, value)| input.range.varied.overrides(*value)))?;
+        let driven = duties.mean_losses(cx, &t, entry.by, names);
+        let (losses, left) = driven.map_err(|unfinished| unfinished.message)?;
+        running.advance(1);
+        Ok((values, losses, left))
+    };
+    let all: Vec<_> = (0..entry.samples).into_par_iter().with_max_len(1).map(sample).collect();
+    if !cx.goes_on() {
+        return Err(Stopped::Interrupted);
+    }
+    let mut samples = Samples {
+        driven: Vec::new(),
+        failed: Vec::new(),
+        left: Left::new(),
+    };
+    for result in all {
+        match result {
+            Ok((values, losses, more)) => {
+                samples.left.extend(more);
+                samples.driven.push((values, losses));
+            }
+            Err(reason) => samples.failed.push(reason),
+        }
+    }
+    if samples.driven.len() < 2 {
+        let first = samples.failed.first().map_or("", String::as_str);
+        let message = format!("hardly a sample could be driven: {first}");
+        return Err(cx.wrong(&path, message, "narrow the ranges of the inputs"));
+    }
+    Ok(samples)
+}
+
+impl Samples {
+    /// The band of one duty.
+    fn band(&self, duty: usize, inputs: &[Input], shares: usize) -> BandOfDuty {
+        let band = |watts: &dyn Fn(&MeanLoss) -> f64| {
+            let mut values: Vec<f64> = self.driven.iter().map(|(_, losses)| watts(&losses[duty])).collect();
+            values.sort_by(f64::total_cmp);
+            SHARES.map(|share| quantile(&values, share))
+        };
+        BandOfDuty {
+            samples: self.driven.len(),
+            failed: self.failed.len(),
+            quantiles: SHARES,
+            mean_loss_w: band(&|mean| mean.loss),
+            mean_losses_w: (0..shares).map(|k| band(&|mean| mean.shares[k])).collect(),
+            inputs: self.ranked(duty, inputs),
+            reference_inside: None,
+            first_failure: self.failed.first().cloned(),
+        }
+    }
+
+    /// Inputs with their correlation with the mean loss of a duty, the strongest first.
+    fn ranked(&self, duty: usize, inputs: &[Input]) -> Vec<InputOfBand> {
+        let losses: Vec<f64> = self.driven.iter().map(|(_, losses)| losses[duty].loss).collect();
+        let input = |(k, input): (usize, &Input)| {
+            let values: Vec<f64> = self.driven.iter().map(|(values, _)| values[k]).collect();
+            let [from, to] = input.range.ends.map(|end| input.range.varied.words(end));
+            InputOfBand {
+                input: format!("{} {from} to {to}", input.range.varied.pattern),
+                correlation_with_mean_loss: correlation(&values, &losses),
+            }
+        };
+        let mut ranked: Vec<InputOfBand> = inputs.iter().enumerate().map(input).collect();
+        let strength = |input: &InputOfBand| input.correlation_with_mean_loss.unwrap_or(0.0).abs();
+        ranked.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
+        ranked
+    }
+}

@@ -1,0 +1,290 @@
+//! What uncertain inputs do: samples of all inputs, solved over a grid, and the bands that they leave.
+
+mod samples;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::ranges::{PublishedCoefficient, published};
+use super::trial::Left;
+use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
+use crate::analyses::axes::grid_axes;
+use crate::analyses::inputs::Input;
+use crate::analysis::Note;
+use crate::register_analysis;
+use crate::study::{NameOr, ToleranceEntry, Uses, Write};
+use crate::table::{Cell, Column, Table};
+
+/// What uncertain inputs do to efficiency, loss and temperature over a grid: every input is drawn from its distribution.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct UncertaintyEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Grid, of one gear state.
+    pub grid: String,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// The uncertain inputs. A name takes over a parameter of the study, evenly distributed.
+    #[schemars(length(min = 1), with = "Vec<NameOr<ToleranceEntry>>")]
+    pub inputs: Vec<ToleranceEntry>,
+    /// Number of samples; powers of two fill the ranges most evenly. [-]
+    #[serde(default = "samples")]
+    #[schemars(range(min = 8, max = 65536))]
+    pub samples: u32,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+fn samples() -> u32 {
+    256
+}
+
+impl Entry for UncertaintyEntry {
+    const TYPE: &'static str = "uncertainty";
+    const MEANING: &'static str = "Bands of efficiency, loss and temperature from uncertain inputs.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: Some(&self.grid),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+        }
+    }
+}
+
+register_analysis!(UncertaintyEntry);
+
+/// Bands over a grid under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct UncertaintyOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set.
+    pub bands: Vec<BandsOfSet>,
+    /// Stated ranges that the nominal points or samples left, set after set.
+    #[serde(skip)]
+    pub left: Vec<(String, &'static str)>,
+}
+
+/// Bands over a grid under one model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BandsOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// Gear state.
+    pub gear: String,
+    /// Number of samples that were solved. [-]
+    pub samples: usize,
+    /// Number of samples that could not be built or solved. [-]
+    pub failed: usize,
+    /// Shares of the samples below the lower end, the middle and the upper end of each band. [-]
+    pub quantiles: [f64; 3],
+    /// The inputs, those with the strongest correlation first.
+    pub inputs: Vec<UncertainInput>,
+    /// The points of the grid: for each torque all speeds.
+    pub points: Vec<PointOfBand>,
+    /// Torques of the grid. [Nm]
+    #[serde(skip)]
+    pub torques_nm: Vec<f64>,
+    /// Speeds of the grid with the noise of their conversion. [rpm]
+    #[serde(skip)]
+    pub speeds_rpm: Vec<f64>,
+    /// Why the first of the failed samples has no value.
+    #[serde(skip)]
+    pub first_failure: Option<String>,
+    /// Which of the inputs are coefficients of formulas, in the order of the study.
+    #[serde(skip)]
+    pub published: Vec<PublishedCoefficient>,
+}
+
+/// An uncertain input.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct UncertainInput {
+    /// Path of the quantity as the study writes it, perhaps a pattern.
+    pub path: String,
+    /// Resolved paths that change together.
+    pub paths: Vec<String>,
+    /// Unit of the ends of the range.
+    pub unit: &'static str,
+    /// Lower end of the range, in the unit of the input.
+    pub from: f64,
+    /// Upper end of the range, in the unit of the input.
+    pub to: f64,
+    /// Correlation with the mean loss over the grid; absent where one of both is the same in all samples. [-]
+    pub correlation_with_mean_loss: Option<f64>,
+    /// Both ends with their unit, in words.
+    #[serde(skip)]
+    pub words: [String; 2],
+}
+
+/// One point of the grid.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct PointOfBand {
+    /// Given torque. [Nm]
+    pub torque_nm: f64,
+    /// Given speed. [rpm]
+    pub speed_rpm: f64,
+    /// Power out over power in. [-]
+    pub efficiency: QuantityBand,
+    /// Sum of all losses. [W]
+    pub loss_w: QuantityBand,
+    /// Loss over the speed of the reference port. [Nm]
+    pub loss_torque_nm: QuantityBand,
+    /// Temperature of the oil. [degC]
+    pub oil_temperature_degc: QuantityBand,
+    /// The efficiency as it is printed. [%]
+    #[serde(skip)]
+    pub efficiency_percent: QuantityBand,
+}
+
+/// A quantity at one point, in its unit.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
+pub struct QuantityBand {
+    /// Value without any deviation; absent where there is none.
+    pub nominal: Option<f64>,
+    /// Lower end, median and upper end of the 95 % band; absent where fewer than half of the samples have a value.
+    pub band: Option<[f64; 3]>,
+}
+
+impl QuantityBand {
+    /// Half of the width of the band.
+    pub fn half_width(&self) -> Option<f64> {
+        self.band.map(|band| 0.5 * (band[2] - band[0]))
+    }
+
+    fn scaled(&self, scale: f64) -> Self {
+        Self {
+            nominal: self.nominal.map(|x| scale * x),
+            band: self.band.map(|band| band.map(|x| scale * x)),
+        }
+    }
+}
+
+impl Analysis for UncertaintyEntry {
+    type Outcome = UncertaintyOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<UncertaintyOutcome, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        let grid = cx.study.grid(&path, &self.grid)?;
+        if !grid.bind.is_empty() || grid.envelope.is_some() {
+            let message = "a band takes a grid without bound values and envelope";
+            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+        }
+        let built = cx.built(gearbox, &self.model_sets)?;
+        let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
+        let (mut bands, mut all_left) = (Vec::new(), Vec::new());
+        for b in &built {
+            let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
+            let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
+            cx.holds(&format!("{path}.samples"), points.field.len(), self.samples as usize)?;
+            let inputs = Input::all(cx, &path, &self.inputs, b)?;
+            if cx.checked(b, &points)? {
+                continue;
+            }
+            let nominal = cx.solve(b, &points)?;
+            let mut left: Left = super::trial::left(&b.transmission, &nominal.seen).collect();
+            let samples = samples::solve(cx, self.samples, b, &inputs, &points, &mut left)?;
+            all_left.extend(left);
+            let points = samples.points(&nominal.points);
+            bands.push(BandsOfSet {
+                model_set: b.name.clone(),
+                gear: gear.clone(),
+                samples: samples.solved.len(),
+                failed: samples.failed.len(),
+                quantiles: samples::SHARES,
+                inputs: samples.ranked(&inputs),
+                points,
+                torques_nm: torques,
+                speeds_rpm: speeds.iter().map(|speed| speed * super::numbers::RPM).collect(),
+                first_failure: samples.failed.into_iter().next(),
+                published: published(inputs.iter().map(|input| &input.range.varied)),
+            });
+        }
+        cx.begin()?;
+        Ok(UncertaintyOutcome {
+            head: cx.head(&built.iter().collect::<Vec<_>>()),
+            bands,
+            left: all_left,
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+/// Name, unit and meaning of a quantity in tables, and how to read it.
+type Quantity = (
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&PointOfBand) -> &QuantityBand,
+);
+
+const QUANTITIES: [Quantity; 4] = [
+    ("efficiency", "-", "Power out over power in", |p| &p.efficiency),
+    ("loss_w", "W", "Sum of all losses", |p| &p.loss_w),
+    (
+        "loss_torque_nm",
+        "Nm",
+        "Loss over the speed of the reference port",
+        |p| &p.loss_torque_nm,
+    ),
+    ("oil_temperature_degc", "degC", "Temperature of the oil", |p| {
+        &p.oil_temperature_degc
+    }),
+];
+
+impl Outcome for UncertaintyOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut columns = vec![
+            Column::text("model_set", "Model set"),
+            Column::text("gear", "Gear state"),
+            Column::number("torque_nm", "Nm", "Given torque"),
+            Column::number("speed_rpm", "rpm", "Given speed"),
+        ];
+        for (name, unit, meaning, _) in QUANTITIES {
+            columns.push(Column::number(name, unit, format!("{meaning}, nominal")));
+            for (end, which) in [
+                ("low", "lower end of the 95 % band"),
+                ("median", "median of the samples"),
+                ("high", "upper end of the 95 % band"),
+            ] {
+                columns.push(Column::number(
+                    format!("{name}_{end}"),
+                    unit,
+                    format!("{meaning}, {which}"),
+                ));
+            }
+        }
+        let mut table = Table::new(&self.head.analysis, columns);
+        for set in &self.bands {
+            for point in &set.points {
+                let mut row: Vec<Cell<'_>> = vec![(&set.model_set).into(), (&set.gear).into()];
+                row.extend([point.torque_nm.into(), point.speed_rpm.into()]);
+                for (.., quantity) in QUANTITIES {
+                    let QuantityBand { nominal, band } = *quantity(point);
+                    row.push(nominal.into());
+                    row.extend((0..3).map(|k| Cell::from(band.map(|band| band[k]))));
+                }
+                table.push(row);
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        Vec::new()
+    }
+
+    fn left_at_samples(&self) -> Vec<(&str, &str)> {
+        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+    }
+}

@@ -1,0 +1,140 @@
+//! Samples of uncertain inputs over a grid, and the bands that they leave.
+
+use gearloss_numerics::sampling::Sobol;
+use rayon::prelude::*;
+
+use super::{PointOfBand, QuantityBand, UncertainInput};
+use crate::analyses::inputs::Input;
+use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::trial::{Left, Trial, left};
+use crate::analyses::{Built, Context, Stopped};
+use crate::analysis::{PointResult, Points, correlation, quantile};
+
+/// Shares of the samples below the ends and the middle of a band.
+pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
+
+/// Values of the inputs, the solved points, and which stated ranges were left: path and quantity.
+type Sample = (Vec<f64>, Vec<PointResult>, Vec<(String, &'static str)>);
+
+/// All samples of one set.
+pub struct Samples {
+    /// Values of the inputs and the solved points of each sample that could be built.
+    pub solved: Vec<(Vec<f64>, Vec<PointResult>)>,
+    /// Why each of the others has no value.
+    pub failed: Vec<String>,
+}
+
+/// Solves all samples; the same whatever the number of threads. Adds the stated ranges that they left.
+pub fn solve(
+    cx: &Context<'_>,
+    count: u32,
+    built: &Built<'_>,
+    inputs: &[Input],
+    points: &Points,
+    all_left: &mut Left,
+) -> Result<Samples, Stopped> {
+    let sobol = Sobol::new(inputs.len()).map_err(|reason| cx.wrong("analyses", reason, "use fewer inputs"))?;
+    let trial = Trial::new(cx, built);
+    let running = cx.running(count as usize, &built.name);
+    let sample = |i: u32| -> Result<Sample, String> {
+        let place = sobol.point(i);
+        let values: Vec<f64> = inputs
+            .iter()
+            .zip(place)
+            .map(|(input, share)| input.value(share))
+            .collect::<Result<_, _>>()?;
+        let changes = inputs.iter().zip(&values);
+        let changes = changes.flat_map(|(input, value)| input.range.varied.overrides(*value));
+        let transmission = trial.build(changes)?;
+        let solved = trial.solve(&transmission, points)?;
+        running.advance(1);
+        let left = left(&transmission, &solved.seen).collect();
+        Ok((values, solved.points, left))
+    };
+    let all: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(sample).collect();
+    if !cx.goes_on() {
+        return Err(Stopped::Interrupted);
+    }
+    let (mut solved, mut failed) = (Vec::new(), Vec::new());
+    for result in all {
+        match result {
+            Ok((values, points, more)) => {
+                all_left.extend(more);
+                solved.push((values, points));
+            }
+            Err(reason) => failed.push(reason),
+        }
+    }
+    if solved.len() < 2 {
+        let message = format!(
+            "hardly a sample could be built: {}",
+            failed.first().map_or("", String::as_str)
+        );
+        return Err(cx.wrong("analyses", message, "narrow the ranges of the inputs"));
+    }
+    Ok(Samples { solved, failed })
+}
+
+impl Samples {
+    /// The points of the grid with their bands.
+    pub fn points(&self, nominal: &[PointResult]) -> Vec<PointOfBand> {
+        let point = |(i, p): (usize, &PointResult)| {
+            let quantity = |read: fn(&PointResult) -> Option<f64>| QuantityBand {
+                nominal: read(p),
+                band: self.band(i, read),
+            };
+            let efficiency_percent = quantity(|p| p.efficiency.map(|e| 100.0 * e));
+            PointOfBand {
+                torque_nm: p.torque,
+                speed_rpm: tidy(p.speed * RPM),
+                // Results hold efficiencies as shares.
+                efficiency: efficiency_percent.scaled(0.01),
+                loss_w: quantity(|p| p.loss),
+                loss_torque_nm: quantity(|p| p.loss_torque),
+                oil_temperature_degc: quantity(|p| p.oil),
+                efficiency_percent,
+            }
+        };
+        nominal.iter().enumerate().map(point).collect()
+    }
+
+    /// Ends and middle of the band of a quantity at a point; absent where fewer than half of the samples have a value.
+    fn band(&self, point: usize, read: fn(&PointResult) -> Option<f64>) -> Option<[f64; 3]> {
+        let all = self.solved.iter();
+        let mut values: Vec<f64> = all.filter_map(|(_, points)| read(&points[point])).collect();
+        values.sort_by(f64::total_cmp);
+        (2 * values.len() > self.solved.len()).then(|| SHARES.map(|share| quantile(&values, share)))
+    }
+
+    /// The inputs with their correlation with the mean loss over the grid, the strongest first.
+    pub fn ranked(&self, inputs: &[Input]) -> Vec<UncertainInput> {
+        let mean = |points: &Vec<PointResult>| {
+            let losses: Vec<f64> = points.iter().filter_map(|p| p.loss).collect();
+            (!losses.is_empty()).then(|| losses.iter().sum::<f64>() / losses.len() as f64)
+        };
+        // A sample without any loss has no mean.
+        let solved: Vec<(&Vec<f64>, f64)> = self
+            .solved
+            .iter()
+            .filter_map(|(values, points)| Some((values, mean(points)?)))
+            .collect();
+        let losses: Vec<f64> = solved.iter().map(|(_, loss)| *loss).collect();
+        let input = |(k, input): (usize, &Input)| {
+            let values: Vec<f64> = solved.iter().map(|(values, _)| values[k]).collect();
+            let range = &input.range;
+            UncertainInput {
+                path: range.varied.pattern.clone(),
+                paths: range.varied.paths.clone(),
+                unit: range.varied.unit.symbol,
+                from: range.ends[0],
+                to: range.ends[1],
+                correlation_with_mean_loss: correlation(&values, &losses),
+                words: range.ends.map(|end| range.varied.words(end)),
+            }
+        };
+        let mut ranked: Vec<UncertainInput> = inputs.iter().enumerate().map(input).collect();
+        let strength = |input: &UncertainInput| input.correlation_with_mean_loss.unwrap_or(0.0).abs();
+        ranked.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
+        ranked
+    }
+}
