@@ -23,7 +23,6 @@ mod shown;
 mod stated_ranges;
 mod sweep;
 mod table;
-mod thermal_limit;
 mod tournament;
 mod uncertainty;
 mod write;

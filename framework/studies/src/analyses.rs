@@ -16,6 +16,7 @@ pub mod progress;
 pub mod ranges;
 pub mod rows;
 pub mod shares;
+pub mod thermal_limit;
 pub mod trial;
 
 use std::any::Any;

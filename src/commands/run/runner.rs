@@ -15,14 +15,14 @@ use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, n
 use gearloss_studies::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
     IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
-    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
+    TemperatureSweepEntry, TournamentEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
     Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
-    rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+    rms_surface, sensitivity, sweep, tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -223,7 +223,6 @@ impl Runner<'_> {
             ComponentCompareEntry => component_compare::run,
             ContactPathEntry => contact_path::run,
             OperatingPointsEntry => operating_points::run,
-            ThermalLimitEntry => thermal_limit::run,
             SweepEntry => sweep::run,
             TournamentEntry => tournament::run,
             UncertaintyEntry => uncertainty::run,

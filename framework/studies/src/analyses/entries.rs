@@ -5,7 +5,7 @@ use crate::register_entry;
 use crate::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
     IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
-    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    TemperatureSweepEntry, Then, TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -117,17 +117,6 @@ impl Entry for OperatingPointsEntry {
 }
 
 register_entry!(OperatingPointsEntry);
-
-impl Entry for ThermalLimitEntry {
-    const TYPE: &'static str = "thermal_limit";
-    const MEANING: &'static str = "The torque, or the speed, at which the balance reaches a given temperature.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(ThermalLimitEntry);
 
 impl Entry for SweepEntry {
     const TYPE: &'static str = "sweep";
