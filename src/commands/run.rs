@@ -1,6 +1,5 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
-mod breakdown;
 mod columns;
 mod compare;
 mod component_compare;
@@ -39,7 +38,7 @@ use std::path::{Path, PathBuf};
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::axes::{axis, grid_axes, speeds, torques};
+use gearloss_studies::analyses::axes::{grid_axes, speeds, torques};
 use gearloss_studies::analyses::{Built, gear_of};
 use gearloss_studies::study::Study;
 

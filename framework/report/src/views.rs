@@ -1,4 +1,5 @@
 //! How the outcomes of the analyses are shown.
 
 pub mod balance;
+pub mod breakdown;
 pub mod thermal_limit;

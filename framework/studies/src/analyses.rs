@@ -5,6 +5,7 @@
 
 pub mod axes;
 pub mod balance;
+pub mod breakdown;
 pub mod context;
 pub mod duties;
 mod entries;
@@ -16,6 +17,8 @@ pub mod progress;
 pub mod ranges;
 pub mod rows;
 pub mod shares;
+pub mod spin_loss;
+pub mod temperature_sweep;
 pub mod thermal_limit;
 pub mod trial;
 

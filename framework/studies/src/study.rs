@@ -1,7 +1,7 @@
 //! Studies: gearboxes, conditions, grids and analyses as data.
 
 mod axes;
-mod breakdown;
+mod by;
 mod compare;
 mod component;
 mod cycle;
@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
-pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
+pub use by::By;
 pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
 pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};

@@ -13,16 +13,16 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
-    TemperatureSweepEntry, TournamentEntry, UncertaintyEntry,
+    CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry,
+    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, Study, SweepEntry, TournamentEntry,
+    UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
-    rms_surface, sensitivity, sweep, tournament, uncertainty, write,
+    Parts, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points, rms_surface,
+    sensitivity, sweep, tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -219,7 +219,6 @@ impl Runner<'_> {
         one_of! {
             MapEntry => map::run,
             CompareEntry => compare::run,
-            BreakdownEntry => breakdown::run,
             ComponentCompareEntry => component_compare::run,
             ContactPathEntry => contact_path::run,
             OperatingPointsEntry => operating_points::run,
@@ -231,8 +230,6 @@ impl Runner<'_> {
             RmsSurfaceEntry => rms_surface::run,
             CycleAnalysisEntry => cycle::run,
             FluidSweepEntry => fluid_sweep::run,
-            SpinLossEntry => breakdown::spin_loss,
-            TemperatureSweepEntry => breakdown::temperature_sweep,
         }
         Ok(())
     }

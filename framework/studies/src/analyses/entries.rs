@@ -3,9 +3,9 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
-    TemperatureSweepEntry, Then, TournamentEntry, UncertaintyEntry, Uses,
+    CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry,
+    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SweepEntry, Then, TournamentEntry,
+    UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -42,41 +42,6 @@ impl Entry for CompareEntry {
 }
 
 register_entry!(CompareEntry);
-
-impl Entry for BreakdownEntry {
-    const TYPE: &'static str = "breakdown";
-    const MEANING: &'static str = "Where losses arise, over speed or torque.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
-            .with("measured", self.measured.as_ref())
-    }
-}
-
-register_entry!(BreakdownEntry);
-
-impl Entry for SpinLossEntry {
-    const TYPE: &'static str = "spin_loss";
-    const MEANING: &'static str = "Losses without load: in every gear state, neutral included, also towed.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gears)
-    }
-}
-
-register_entry!(SpinLossEntry);
-
-impl Entry for TemperatureSweepEntry {
-    const TYPE: &'static str = "temperature_sweep";
-    const MEANING: &'static str = "Where losses arise, over the temperature of the oil.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(TemperatureSweepEntry);
 
 impl Entry for ComponentCompareEntry {
     const TYPE: &'static str = "component_compare";
