@@ -1,6 +1,5 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
-mod breakdown;
 mod compare;
 mod component_compare;
 mod contact_path;
@@ -19,7 +18,6 @@ mod stated_ranges;
 mod sweep;
 mod table;
 mod task_file;
-mod thermal_limit;
 mod write;
 
 pub use shard::Shard;
@@ -34,7 +32,7 @@ use std::path::{Path, PathBuf};
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::axes::{axis, grid_axes, speeds, torques};
+use gearloss_studies::analyses::axes::{grid_axes, speeds, torques};
 use gearloss_studies::analyses::{Built, gear_of};
 use gearloss_studies::study::Study;
 

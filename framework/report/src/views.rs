@@ -6,3 +6,5 @@ pub mod sensitivity;
 pub mod tournament;
 pub mod cycle;
 pub mod uncertainty;
+pub mod breakdown;
+pub mod thermal_limit;

@@ -5,6 +5,7 @@
 
 pub mod axes;
 pub mod balance;
+pub mod breakdown;
 pub mod context;
 pub mod cycle;
 pub mod duties;
@@ -20,6 +21,9 @@ pub mod rows;
 pub mod sensitivity;
 pub mod shares;
 pub mod tournament;
+pub mod spin_loss;
+pub mod temperature_sweep;
+pub mod thermal_limit;
 pub mod trial;
 pub mod uncertainty;
 

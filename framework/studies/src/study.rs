@@ -1,7 +1,7 @@
 //! Studies: gearboxes, conditions, grids and analyses as data.
 
 mod axes;
-mod breakdown;
+mod by;
 mod compare;
 mod component;
 mod cycle;
@@ -14,7 +14,6 @@ mod parameters;
 mod range;
 mod rms_surface;
 mod sweep;
-mod temperature;
 mod then;
 mod tolerance;
 mod write;
@@ -24,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
-pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
+pub use by::By;
 pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
 pub use cycle::{DriveEntry, FluidSweepEntry};
@@ -40,7 +39,6 @@ pub(crate) use parameters::NameOr;
 pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sweep::{SecondEntry, SweepEntry};
-pub use temperature::{Find, ThermalLimitEntry};
 pub use then::Then;
 pub use write::Write;
 pub use tolerance::{Shape, ToleranceEntry};

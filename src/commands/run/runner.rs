@@ -13,7 +13,7 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Points, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry, Write,
+    CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, Study, SweepEntry, Write,
 };
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -22,7 +22,7 @@ use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
 use super::{
-    breakdown, compare, component_compare, contact_path, fluid_sweep, identify, operating_points, rms_surface, sweep, thermal_limit, write,
+    compare, component_compare, contact_path, fluid_sweep, identify, operating_points, rms_surface, sweep, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -232,17 +232,13 @@ impl Runner<'_> {
         }
         one_of! {
             CompareEntry => compare::run,
-            BreakdownEntry => breakdown::run,
             ComponentCompareEntry => component_compare::run,
             ContactPathEntry => contact_path::run,
             OperatingPointsEntry => operating_points::run,
-            ThermalLimitEntry => thermal_limit::run,
             SweepEntry => sweep::run,
             IdentifyEntry => identify::run,
             RmsSurfaceEntry => rms_surface::run,
             FluidSweepEntry => fluid_sweep::run,
-            SpinLossEntry => breakdown::spin_loss,
-            TemperatureSweepEntry => breakdown::temperature_sweep,
         }
         Ok(())
     }

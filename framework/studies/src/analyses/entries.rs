@@ -3,7 +3,7 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry, Uses,
+    CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SweepEntry, Then, Uses,
 };
 
 impl Entry for CompareEntry {
@@ -22,41 +22,6 @@ impl Entry for CompareEntry {
 }
 
 register_entry!(CompareEntry);
-
-impl Entry for BreakdownEntry {
-    const TYPE: &'static str = "breakdown";
-    const MEANING: &'static str = "Where losses arise, over speed or torque.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
-            .with("measured", self.measured.as_ref())
-    }
-}
-
-register_entry!(BreakdownEntry);
-
-impl Entry for SpinLossEntry {
-    const TYPE: &'static str = "spin_loss";
-    const MEANING: &'static str = "Losses without load: in every gear state, neutral included, also towed.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gears)
-    }
-}
-
-register_entry!(SpinLossEntry);
-
-impl Entry for TemperatureSweepEntry {
-    const TYPE: &'static str = "temperature_sweep";
-    const MEANING: &'static str = "Where losses arise, over the temperature of the oil.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(TemperatureSweepEntry);
 
 impl Entry for ComponentCompareEntry {
     const TYPE: &'static str = "component_compare";
@@ -97,17 +62,6 @@ impl Entry for OperatingPointsEntry {
 }
 
 register_entry!(OperatingPointsEntry);
-
-impl Entry for ThermalLimitEntry {
-    const TYPE: &'static str = "thermal_limit";
-    const MEANING: &'static str = "The torque, or the speed, at which the balance reaches a given temperature.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(ThermalLimitEntry);
 
 impl Entry for SweepEntry {
     const TYPE: &'static str = "sweep";

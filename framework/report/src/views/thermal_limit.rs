@@ -1,0 +1,116 @@
+//! Thermal limits: a table for each model set; the limit, and the power out there, over speed or torque.
+
+use gearloss_framework::thermal::Limit;
+use gearloss_studies::analyses::thermal_limit::{Find, ThermalLimit, ThermalLimitOutcome, ThermalLimitsOfSet};
+
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::{Line, Stroke};
+use crate::register_view;
+use crate::text::{TextTable, number};
+
+register_view!(ThermalLimitOutcome, show);
+
+fn show(outcome: &ThermalLimitOutcome, page: &mut Page) {
+    for of_set in &outcome.thermal_limits {
+        page.line(format!("{}: models {}", outcome.head.analysis, of_set.model_set));
+        table(of_set, page);
+        page.outside(&of_set.notes);
+        page.line("");
+    }
+    figures(outcome, page);
+}
+
+/// The limits of one set, and what there is to say about them.
+fn table(of_set: &ThermalLimitsOfSet, page: &mut Page) {
+    let mut table = TextTable::new(&["oil degC", "speed rpm", "torque Nm", "outcome", "loss W", "out W"]);
+    for limit in &of_set.limits {
+        table.row(vec![
+            number(Some(limit.limit_degc), 1),
+            number(limit.solved_speed_rpm, 1),
+            number(limit.torque_nm, 3),
+            limit.outcome.to_owned(),
+            number(limit.loss_w, 2),
+            number(limit.output_w, 1),
+        ]);
+    }
+    page.lines(table.render());
+    // Where losses rise with temperature the point may also keep itself at a lower one.
+    let is_lower = |limit: &&ThermalLimit| limit.lowest_balance_degc.is_some_and(|t| t < limit.limit_degc - 0.01);
+    let lower = of_set.limits.iter().filter(is_lower).count();
+    if lower > 0 {
+        page.line(format!(
+            "{lower} of these points also keep themselves at a lower temperature"
+        ));
+    }
+    let is_exceeded = |limit: &ThermalLimit| limit.outcome == Limit::ExceededFromTheStart.name();
+    if of_set.find == Find::Torque && of_set.limits.iter().any(is_exceeded) {
+        page.line(
+            "where it is exceeded from the start, the losses of the first torque of the range are too much already",
+        );
+    }
+    page.line("");
+}
+
+/// What was looked for, and the power out there, over what was given: a line for each set and temperature.
+fn figures(outcome: &ThermalLimitOutcome, page: &mut Page) {
+    let (mut limits, mut powers) = (Vec::new(), Vec::new());
+    for of_set in &outcome.thermal_limits {
+        for temperature in temperatures(of_set) {
+            let name = if outcome.thermal_limits.len() > 1 {
+                format!("{} {temperature} degC", of_set.model_set)
+            } else {
+                format!("{temperature} degC")
+            };
+            let own = of_set.limits.iter().filter(|limit| limit.limit_degc == temperature);
+            let line = |y: &dyn Fn(&ThermalLimit) -> Option<f64>| Line {
+                name: name.clone(),
+                points: own
+                    .clone()
+                    .map(|limit| {
+                        let x = match of_set.find {
+                            Find::Torque => limit.solved_speed_rpm,
+                            Find::Speed => limit.torque_nm,
+                        };
+                        Some((x?, y(limit)?))
+                    })
+                    .collect(),
+                stroke: Stroke::Marked,
+            };
+            limits.push(line(&|limit| match of_set.find {
+                Find::Torque => limit.torque_nm,
+                Find::Speed => limit.solved_speed_rpm,
+            }));
+            powers.push(line(&|limit| limit.output_w.or(limit.input_w)));
+        }
+    }
+    let name = &outcome.head.analysis;
+    let conditions = &outcome.head.conditions;
+    let torque = format!("torque at {} in Nm", conditions.torque_at);
+    let speed = format!("speed at {} in rpm", conditions.speed_at);
+    let find = outcome.thermal_limits.first().map(|of_set| of_set.find);
+    let (x, y, title) = match find.unwrap_or_default() {
+        Find::Torque => (speed, torque, "torque at which the oil reaches a temperature"),
+        Find::Speed => (torque, speed, "speed at which the oil reaches a temperature"),
+    };
+    let figure = |title: &str, y: String, lines: Vec<Line>| Figure::Lines {
+        title: format!("{name}: {title}"),
+        x: x.clone(),
+        y,
+        lines,
+    };
+    page.figure(name, figure(title, y, limits));
+    let title = "power out at which the oil reaches a temperature";
+    page.figure(format!("{name}-power"), figure(title, "power in W".to_owned(), powers));
+}
+
+/// The temperatures of the limits, each once.
+fn temperatures(of_set: &ThermalLimitsOfSet) -> Vec<f64> {
+    let mut all: Vec<f64> = Vec::new();
+    for limit in &of_set.limits {
+        if !all.contains(&limit.limit_degc) {
+            all.push(limit.limit_degc);
+        }
+    }
+    all
+}

@@ -1,0 +1,232 @@
+//! Where losses arise, over speed or torque.
+
+mod bars;
+
+use gearloss_framework::transmission::Transmission;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::axes::{axis, speeds, torques};
+use super::numbers::{RPM, tidy};
+use super::{Analysis, Built, Context, Entry, Stopped, gear_of};
+use crate::analysis::{Given, PointResult};
+use crate::measured::{Measured, Seen};
+use crate::register_analysis;
+use crate::study::{By, Data, PowerAxis, Quantity, SpeedAxis, TorqueAxis, Uses, Write};
+
+pub(super) use self::bars::Stacks;
+pub use self::bars::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, Losses, PointOfBreakdown, RowOfBars};
+
+/// Where losses arise, over speed or torque.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct BreakdownEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Watts, or percent of the whole loss.
+    #[serde(default, rename = "as")]
+    pub unit: As,
+    /// What the bars stand over; the other axis makes a picture of each of its values.
+    #[serde(default)]
+    pub over: Over,
+    /// Torques; not with `power`.
+    pub torque: Option<TorqueAxis>,
+    /// Powers at the port with given torque, in place of torques: the torque falls as the speed rises.
+    pub power: Option<PowerAxis>,
+    /// Speeds.
+    pub speed: SpeedAxis,
+    /// Measured points. Those within 2 % of torque and speed and 5 K of the oil of a bar are drawn
+    /// beside it, their mean where there are several.
+    pub measured: Option<Data>,
+    /// Formats to write; absent, CSV and JSON.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+}
+
+/// What bars stand over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Over {
+    /// Speed.
+    #[default]
+    Speed,
+    /// Torque, or power.
+    Torque,
+}
+
+impl Entry for BreakdownEntry {
+    const TYPE: &'static str = "breakdown";
+    const MEANING: &'static str = "Where losses arise, over speed or torque.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets)
+            .at(&self.gear)
+            .with("measured", self.measured.as_ref())
+    }
+}
+
+register_analysis!(BreakdownEntry);
+
+impl Analysis for BreakdownEntry {
+    type Outcome = BreakdownOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
+        let path = cx.path();
+        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let measured = match &self.measured {
+            Some(data) => cx.read_at_ports(&format!("{path}.measured"), data, &[])?,
+            None => Measured::default(),
+        };
+        let stacks = Stacks::new(self.by, self.unit, &built);
+        let mut breakdowns = Vec::new();
+        for b in &built {
+            let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &b.transmission)?;
+            let loads = self.loads(cx, &b.transmission, &speeds)?;
+            cx.holds(&path, speeds.len(), loads.len())?;
+            let gear = gear_of(self.gear.as_deref(), &b.transmission);
+            let ratio = ratio(cx, b, gear)?;
+            let rows = self.rows(&speeds, &loads, |load, speed| Given {
+                torque: load.torque(ratio * speed),
+                speed,
+                oil: None,
+            });
+            let beside = |point: &PointResult| beside(&measured, point, gear);
+            breakdowns.extend(stacks.solve(cx, b, gear, rows, &beside)?);
+        }
+        Ok(BreakdownOutcome {
+            measured_notes: measured.notes,
+            ..stacks.outcome(cx, &built, breakdowns)?
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl BreakdownEntry {
+    /// Torques, or powers.
+    fn loads(&self, cx: &Context<'_>, t: &Transmission, turning: &[f64]) -> Result<Vec<Load>, Stopped> {
+        let path = cx.path();
+        match (&self.torque, &self.power) {
+            (Some(own), None) => {
+                let values = torques(cx, &format!("{path}.torque"), own, t)?;
+                Ok(values.into_iter().map(Load::Torque).collect())
+            }
+            (None, Some(own)) => {
+                let values = axis(cx, &format!("{path}.power"), own.values())?;
+                if turning.contains(&0.0) {
+                    let speed = format!("{path}.speed");
+                    return Err(cx.wrong(&speed, "no torque gives a power at standstill", "leave 0 rpm out"));
+                }
+                Ok(values.into_iter().map(Load::Power).collect())
+            }
+            _ => Err(cx.wrong(
+                &path,
+                "a breakdown needs either `torque` or `power`",
+                "write `torque: 10 Nm`, or `power: 5 kW` for one power at every speed",
+            )),
+        }
+    }
+
+    /// Rows of bars over speed or load, with their points.
+    fn rows(
+        &self,
+        speeds: &[f64],
+        loads: &[Load],
+        given: impl Fn(&Load, f64) -> Given,
+    ) -> Vec<(RowOfBars, Vec<Given>)> {
+        let over_speed = |load: &Load| {
+            let row = RowOfBars {
+                common: load.common(),
+                along: Along::Speed,
+                values: speeds.iter().map(|speed| speed * RPM).collect(),
+            };
+            (row, speeds.iter().map(|speed| given(load, *speed)).collect())
+        };
+        let over_load = |speed: &f64| {
+            let row = RowOfBars {
+                common: Common::Speed(speed * RPM),
+                along: if self.power.is_some() {
+                    Along::Power
+                } else {
+                    Along::Torque
+                },
+                values: loads.iter().map(Load::value).collect(),
+            };
+            (row, loads.iter().map(|load| given(load, *speed)).collect())
+        };
+        match self.over {
+            Over::Speed => loads.iter().map(over_speed).collect(),
+            Over::Torque => speeds.iter().map(over_load).collect(),
+        }
+    }
+}
+
+/// Speed of the port with given torque over that of the port with given speed.
+fn ratio(cx: &Context<'_>, b: &Built<'_>, gear: &str) -> Result<f64, Stopped> {
+    let t = &b.transmission;
+    let case = cx.case(b.gearbox, t, &cx.points(t, gear, Vec::new(), Vec::new()))?;
+    let port = |ports: &[usize]| ports.first().map(|p| t.ports()[*p].member);
+    let speeds = t.speeds(&case, &vec![1.0; case.speed_ports.len()]);
+    Ok(port(&case.torque_ports).map_or(1.0, |member| speeds[member]))
+}
+
+/// What stays the same while the speed changes.
+enum Load {
+    Torque(f64),
+    Power(f64),
+}
+
+impl Load {
+    fn torque(&self, speed: f64) -> f64 {
+        match self {
+            Self::Torque(torque) => *torque,
+            Self::Power(power) => power / speed,
+        }
+    }
+
+    fn value(&self) -> f64 {
+        match self {
+            Self::Torque(x) | Self::Power(x) => tidy(*x),
+        }
+    }
+
+    fn common(&self) -> Common {
+        match self {
+            Self::Torque(_) => Common::Torque(self.value()),
+            Self::Power(_) => Common::Power(self.value()),
+        }
+    }
+}
+
+/// Mean measured loss of the points within 2 % of torque and speed and 5 K of the oil, and the greatest of their accuracies. \[W\]
+fn beside(measured: &Measured, point: &PointResult, gear: &str) -> Option<(f64, f64)> {
+    let near = |a: Option<f64>, b: f64| a.is_some_and(|a| (a - b).abs() <= 0.02 * b.abs().max(1e-9));
+    let (mut sum, mut accuracy, mut count) = (0.0, 0.0_f64, 0.0);
+    for row in &measured.rows {
+        let value = |quantity: &str| measured.value(row, quantity);
+        let same = row.gear.as_deref().is_none_or(|g| g == gear);
+        let warm = value("oil_temperature")
+            .zip(point.oil)
+            .is_none_or(|(a, b)| (a - b).abs() <= 5.0);
+        if !(same && warm && near(value("torque"), point.torque) && near(value("speed"), point.speed)) {
+            continue;
+        }
+        let seen = Seen::of(measured, row, point);
+        let Some(loss) = seen.quantity(Quantity::Loss) else {
+            continue;
+        };
+        sum += loss;
+        count += 1.0;
+        accuracy = accuracy.max(seen.accuracy(Quantity::Loss).unwrap_or(0.0));
+    }
+    (count > 0.0).then(|| (sum / count, accuracy))
+}

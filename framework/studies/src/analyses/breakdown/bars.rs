@@ -1,0 +1,354 @@
+//! Rows of stacked bars: the outcome that breakdowns, spin losses and temperature sweeps have in common.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::shares::{Shares, together};
+use crate::analyses::{Built, Context, Head, Outcome, Stopped};
+use crate::analysis::{Given, GridResult, Note, PointResult, Points, notes};
+use crate::cells;
+use crate::study::By;
+use crate::table::{Column, Table};
+
+/// Unit of a breakdown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum As {
+    /// Watts.
+    #[default]
+    Watts,
+    /// Percent of the whole loss.
+    Percent,
+}
+
+impl As {
+    /// Name in keys and columns.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Watts => "w",
+            Self::Percent => "percent",
+        }
+    }
+
+    /// Symbol of the unit.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Watts => "W",
+            Self::Percent => "%",
+        }
+    }
+
+    /// What watts at a point are multiplied with; absent where a share of no loss is asked for.
+    fn scale(self, point: &PointResult) -> Option<f64> {
+        match self {
+            Self::Watts => Some(1.0),
+            Self::Percent => point.loss.filter(|loss| *loss != 0.0).map(|loss| 100.0 / loss),
+        }
+    }
+}
+
+/// Where losses arise under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BreakdownOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set and gear state.
+    pub breakdowns: Vec<BreakdownOfSet>,
+    /// Unit of all losses.
+    #[serde(skip)]
+    pub unit: As,
+    /// What reading the measured points brought up.
+    #[serde(skip)]
+    pub measured_notes: Vec<String>,
+}
+
+/// Where losses arise under one model set in one gear state.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BreakdownOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// Gear state.
+    pub gear: String,
+    /// Unit of the losses: `w`, or `percent` of the whole loss.
+    pub unit: &'static str,
+    /// Names of the shares.
+    pub shares: Vec<String>,
+    /// What models noted.
+    pub notes: Vec<Note>,
+    /// One for each bar.
+    pub points: Vec<PointOfBreakdown>,
+    /// Port that is turned, which need not be that of the conditions; absent for losses under load.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turned_at: Option<String>,
+    /// The rows of bars that the points make, in their order.
+    #[serde(skip)]
+    pub rows: Vec<RowOfBars>,
+}
+
+/// One bar: the losses of a point.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct PointOfBreakdown {
+    /// Torque. [Nm]
+    pub torque_nm: f64,
+    /// Speed. [rpm]
+    pub speed_rpm: f64,
+    /// Temperature of the oil; absent where no balance was found. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// Losses in the unit of the breakdown.
+    #[serde(flatten)]
+    pub losses: Losses,
+    /// Accuracy of the measured loss, in its unit. [W or %]
+    #[serde(skip)]
+    pub accuracy: Option<f64>,
+}
+
+/// Losses of a point, computed and measured.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Losses {
+    /// In watts.
+    Watts {
+        /// Losses in the order of the shares; absent where there is no loss. [W]
+        losses_w: Option<Vec<f64>>,
+        /// Measured loss. [W]
+        measured_loss_w: Option<f64>,
+    },
+    /// In percent of the whole loss.
+    Percent {
+        /// Losses in the order of the shares, in percent of the whole loss; absent where there is none. [%]
+        losses_percent: Option<Vec<f64>>,
+        /// Measured loss, in percent of the computed one. [%]
+        measured_loss_percent: Option<f64>,
+    },
+}
+
+impl Losses {
+    fn new(unit: As, losses: Option<Vec<f64>>, measured: Option<f64>) -> Self {
+        match unit {
+            As::Watts => Self::Watts {
+                losses_w: losses,
+                measured_loss_w: measured,
+            },
+            As::Percent => Self::Percent {
+                losses_percent: losses,
+                measured_loss_percent: measured,
+            },
+        }
+    }
+
+    /// The losses in the order of the shares.
+    pub fn shares(&self) -> Option<&[f64]> {
+        match self {
+            Self::Watts { losses_w: own, .. }
+            | Self::Percent {
+                losses_percent: own, ..
+            } => own.as_deref(),
+        }
+    }
+
+    /// The measured loss.
+    pub fn measured(&self) -> Option<f64> {
+        match self {
+            Self::Watts {
+                measured_loss_w: own, ..
+            }
+            | Self::Percent {
+                measured_loss_percent: own,
+                ..
+            } => *own,
+        }
+    }
+}
+
+/// Bars side by side.
+#[derive(Debug, Clone)]
+pub struct RowOfBars {
+    /// What all of them have in common.
+    pub common: Common,
+    /// What changes from bar to bar.
+    pub along: Along,
+    /// Its value at each bar, in its unit.
+    pub values: Vec<f64>,
+}
+
+/// What all bars of a row have in common.
+#[derive(Debug, Clone)]
+pub enum Common {
+    /// A torque. [Nm]
+    Torque(f64),
+    /// A power. [W]
+    Power(f64),
+    /// A speed. [rpm]
+    Speed(f64),
+    /// A point: torque in Nm and speed in rpm.
+    Point(f64, f64),
+    /// No torque.
+    NoLoad {
+        /// Port that is turned.
+        turned: String,
+        /// Free ports that are stationary.
+        stationary: Vec<String>,
+    },
+}
+
+/// What changes along a row of bars.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Along {
+    /// The speed, in rpm.
+    Speed,
+    /// The torque, in Nm.
+    Torque,
+    /// The power, in W.
+    Power,
+    /// The temperature of the oil, in degC.
+    OilTemperature,
+}
+
+/// Measured loss at a point and its accuracy. \[W\]
+pub(in crate::analyses) type MeasuredAt<'m> = &'m dyn Fn(&PointResult) -> Option<(f64, f64)>;
+
+/// What losses of all sets are summed by, and in which unit.
+pub(in crate::analyses) struct Stacks {
+    by: By,
+    unit: As,
+    names: Vec<String>,
+}
+
+impl Stacks {
+    pub fn new(by: By, unit: As, built: &[Built<'_>]) -> Self {
+        Self {
+            names: together(built.iter().map(|b| &b.transmission), by),
+            by,
+            unit,
+        }
+    }
+
+    /// True where points have to keep their terms.
+    pub fn needs_terms(&self) -> bool {
+        self.by == By::Term
+    }
+
+    /// Solves rows of bars of one set; nothing where an analysis is only checked.
+    pub fn solve(
+        &self,
+        cx: &Context<'_>,
+        b: &Built<'_>,
+        gear: &str,
+        rows: Vec<(RowOfBars, Vec<Given>)>,
+        measured: MeasuredAt<'_>,
+    ) -> Result<Option<BreakdownOfSet>, Stopped> {
+        let (rows, given): (Vec<RowOfBars>, Vec<Vec<Given>>) = rows.into_iter().unzip();
+        let mut points = cx.listed(&b.transmission, gear, given.concat());
+        points.terms = self.needs_terms();
+        if cx.checked(b, &points)? {
+            return Ok(None);
+        }
+        let solved = cx.solve(b, &points)?;
+        Ok(Some(self.breakdown(b, &points, &solved, rows, measured)))
+    }
+
+    /// The breakdown of solved points.
+    pub fn breakdown(
+        &self,
+        b: &Built<'_>,
+        points: &Points,
+        solved: &GridResult,
+        rows: Vec<RowOfBars>,
+        measured: MeasuredAt<'_>,
+    ) -> BreakdownOfSet {
+        let shares = Shares::of(&b.transmission, self.by).under(&self.names);
+        let point = |p: &PointResult| {
+            let scale = self.unit.scale(p);
+            let scaled = |stack: Vec<f64>, scale: f64| stack.into_iter().map(|w| w * scale).collect();
+            let losses = scale.and_then(|scale| Some(scaled(shares.stack(p)?, scale)));
+            let seen = scale.and_then(|scale| measured(p).map(|(loss, accuracy)| (loss * scale, accuracy * scale)));
+            PointOfBreakdown {
+                torque_nm: p.torque,
+                speed_rpm: tidy(p.speed * RPM),
+                oil_temperature_degc: p.oil,
+                losses: Losses::new(self.unit, losses, seen.map(|(loss, _)| loss)),
+                accuracy: seen.map(|(_, accuracy)| accuracy),
+            }
+        };
+        BreakdownOfSet {
+            model_set: b.name.clone(),
+            gear: points.gear.clone(),
+            unit: self.unit.name(),
+            shares: self.names.clone(),
+            notes: notes(&b.transmission, &solved.seen),
+            points: solved.points.iter().map(point).collect(),
+            turned_at: None,
+            rows,
+        }
+    }
+
+    /// The outcome of an analysis.
+    pub fn outcome(
+        &self,
+        cx: &Context<'_>,
+        built: &[Built<'_>],
+        breakdowns: Vec<BreakdownOfSet>,
+    ) -> Result<BreakdownOutcome, Stopped> {
+        cx.begin()?;
+        Ok(BreakdownOutcome {
+            head: cx.head(&built.iter().collect::<Vec<_>>()),
+            breakdowns,
+            unit: self.unit,
+            measured_notes: Vec::new(),
+        })
+    }
+}
+
+impl Outcome for BreakdownOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let loss = match self.unit {
+            As::Watts => "Loss of the share",
+            As::Percent => "Loss of the share in percent of the whole loss",
+        };
+        let mut table = Table::new(
+            &self.head.analysis,
+            [
+                Column::text("model_set", "Model set"),
+                Column::text("gear", "Gear state"),
+                Column::number("torque_nm", "Nm", "Torque"),
+                Column::number("speed_rpm", "rpm", "Speed"),
+                Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+                Column::text("share", "Share of the loss; `measured` is the measured loss"),
+                Column::number(format!("loss_{}", self.unit.name()), self.unit.symbol(), loss),
+            ],
+        );
+        for of_set in &self.breakdowns {
+            for point in &of_set.points {
+                let mut push = |share: &str, loss: Option<f64>| {
+                    table.push(cells![
+                        &of_set.model_set,
+                        &of_set.gear,
+                        point.torque_nm,
+                        point.speed_rpm,
+                        point.oil_temperature_degc,
+                        share,
+                        loss,
+                    ]);
+                };
+                let losses = point.losses.shares();
+                for (i, share) in of_set.shares.iter().enumerate() {
+                    push(share, losses.map(|losses| losses[i]));
+                }
+                if let Some(loss) = point.losses.measured() {
+                    push("measured", Some(loss));
+                }
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        self.breakdowns.iter().flat_map(|of_set| &of_set.notes).collect()
+    }
+}

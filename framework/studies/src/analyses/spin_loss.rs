@@ -1,0 +1,131 @@
+//! Losses without load, in every gear state.
+
+use gearloss_framework::attach::dangling;
+use gearloss_framework::transmission::Transmission;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::axes::speeds;
+use super::breakdown::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, RowOfBars, Stacks};
+use super::numbers::RPM;
+use super::{Analysis, Built, Context, Entry, Stopped};
+use crate::register_analysis;
+use crate::study::{By, SpeedAxis, Uses, Write};
+
+/// Losses without load: every free port turns at no torque.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct SpinLossEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear states, neutral among them; absent, all.
+    #[serde(default)]
+    pub gears: Vec<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Port that is turned; absent, that of the conditions. `output` is towing.
+    pub turned_at: Option<String>,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Speeds of that port.
+    pub speed: SpeedAxis,
+    /// Formats to write; absent, CSV and JSON.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+}
+
+impl Entry for SpinLossEntry {
+    const TYPE: &'static str = "spin_loss";
+    const MEANING: &'static str = "Losses without load: in every gear state, neutral included, also towed.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gears)
+    }
+}
+
+register_analysis!(SpinLossEntry);
+
+impl Analysis for SpinLossEntry {
+    type Outcome = BreakdownOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
+        let path = cx.path();
+        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let stacks = Stacks::new(self.by, As::Watts, &built);
+        let mut breakdowns = Vec::new();
+        for b in &built {
+            let t = &b.transmission;
+            let turned = self.turned(cx, t)?;
+            let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, t)?;
+            let gears: Vec<&str> = if self.gears.is_empty() {
+                t.states().iter().map(|s| s.name.as_str()).collect()
+            } else {
+                self.gears.iter().map(String::as_str).collect()
+            };
+            for gear in gears {
+                breakdowns.extend(unloaded(cx, b, &stacks, gear, turned, &speeds)?);
+            }
+        }
+        stacks.outcome(cx, &built, breakdowns)
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl SpinLossEntry {
+    /// Number of the port that is turned.
+    fn turned(&self, cx: &Context<'_>, t: &Transmission) -> Result<usize, Stopped> {
+        let turned = self.turned_at.as_ref().unwrap_or(&cx.study.entry.conditions.speed_at);
+        t.ports().iter().position(|port| port.name == *turned).ok_or_else(|| {
+            let known: Vec<&str> = t.ports().iter().map(|port| port.name.as_str()).collect();
+            let path = format!("{}.turned_at", cx.path());
+            cx.found(vec![dangling(&path, "port", turned, &known)])
+        })
+    }
+}
+
+/// The losses in one gear state; nothing where the analysis is only checked.
+fn unloaded(
+    cx: &Context<'_>,
+    b: &Built<'_>,
+    stacks: &Stacks,
+    gear: &str,
+    turned_port: usize,
+    speeds: &[f64],
+) -> Result<Option<BreakdownOfSet>, Stopped> {
+    let t = &b.transmission;
+    let name = |port: usize| t.ports()[port].name.clone();
+    let turned = name(turned_port);
+    let state = t.state(gear).map_err(|error| b.gearbox.findings(vec![error]))?;
+    let state = &t.states()[state];
+    // The other free ports are stationary; the torque is zero at every port that is not turned.
+    let others = state.speed_ports.iter().filter(|port| **port != turned_port);
+    let stationary: Vec<String> = others
+        .take(state.speed_ports.len() - 1)
+        .map(|port| name(*port))
+        .collect();
+    let mut points = cx.points(t, gear, vec![0.0], speeds.to_vec());
+    points.speed_at = std::iter::once(&turned).chain(&stationary).cloned().collect();
+    let names = (0..t.ports().len()).map(name);
+    points.torque_at = names.filter(|port| *port != turned).collect();
+    points.terms = stacks.needs_terms();
+    if cx.checked(b, &points)? {
+        return Ok(None);
+    }
+    let solved = cx.solve(b, &points)?;
+    let row = RowOfBars {
+        common: Common::NoLoad {
+            turned: turned.clone(),
+            stationary,
+        },
+        along: Along::Speed,
+        values: solved.points.iter().map(|point| point.speed * RPM).collect(),
+    };
+    Ok(Some(BreakdownOfSet {
+        turned_at: Some(turned),
+        ..stacks.breakdown(b, &points, &solved, vec![row], &|_| None)
+    }))
+}

@@ -1,0 +1,97 @@
+//! Where losses arise, over the temperature of the oil.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::axes::{axis, speeds, torques};
+use super::breakdown::{Along, As, BreakdownOutcome, Common, RowOfBars, Stacks};
+use super::numbers::{RPM, tidy};
+use super::{Analysis, Context, Entry, Stopped, gear_of};
+use crate::analysis::Given;
+use crate::register_analysis;
+use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
+
+/// Where losses arise, over the temperature of the oil.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct TemperatureSweepEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Watts, or percent of the whole loss.
+    #[serde(default, rename = "as")]
+    pub unit: As,
+    /// Temperatures of the oil, in place of that of the conditions.
+    pub oil_temperature: TemperatureAxis,
+    /// Torques.
+    pub torque: TorqueAxis,
+    /// Speeds.
+    pub speed: SpeedAxis,
+    /// Formats to write; absent, CSV and JSON.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+}
+
+impl Entry for TemperatureSweepEntry {
+    const TYPE: &'static str = "temperature_sweep";
+    const MEANING: &'static str = "Where losses arise, over the temperature of the oil.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
+}
+
+register_analysis!(TemperatureSweepEntry);
+
+impl Analysis for TemperatureSweepEntry {
+    type Outcome = BreakdownOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
+        let path = cx.path();
+        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let own = self.oil_temperature.values();
+        let temperatures = axis(cx, &format!("{path}.oil_temperature"), own)?;
+        let stacks = Stacks::new(self.by, self.unit, &built);
+        let mut breakdowns = Vec::new();
+        for b in &built {
+            let t = &b.transmission;
+            let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, t)?;
+            let torques = torques(cx, &format!("{path}.torque"), &self.torque, t)?;
+            cx.holds(&path, torques.len().saturating_mul(speeds.len()), temperatures.len())?;
+            let mut rows = Vec::new();
+            for torque in &torques {
+                for speed in &speeds {
+                    rows.push(row(*torque, *speed, &temperatures));
+                }
+            }
+            let gear = gear_of(self.gear.as_deref(), t);
+            breakdowns.extend(stacks.solve(cx, b, gear, rows, &|_| None)?);
+        }
+        stacks.outcome(cx, &built, breakdowns)
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+/// The bars of one torque and speed, with their points.
+fn row(torque: f64, speed: f64, temperatures: &[f64]) -> (RowOfBars, Vec<Given>) {
+    let row = RowOfBars {
+        common: Common::Point(tidy(torque), speed * RPM),
+        along: Along::OilTemperature,
+        values: temperatures.to_vec(),
+    };
+    let given = |oil: &f64| Given {
+        torque,
+        speed,
+        oil: Some(*oil),
+    };
+    (row, temperatures.iter().map(given).collect())
+}

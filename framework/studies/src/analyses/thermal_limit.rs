@@ -1,0 +1,323 @@
+//! The torque, or the speed, at which the balance reaches a given temperature.
+
+use gearloss_framework::evaluate::{Point, Scratch};
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::thermal::Limit;
+use gearloss_framework::transmission::Case;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::axes::{speeds, torques};
+use super::balance::needs_balance;
+use super::numbers::{RPM, tidy};
+use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use crate::analysis::{Note, Points, notes};
+use crate::cells;
+use crate::register_analysis;
+use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
+use crate::table::{Column, Table};
+
+/// The torque, or the speed, at which the balance reaches a given temperature.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ThermalLimitEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Temperatures of the oil that may be reached. [degC]
+    #[schemars(inner(range(min = 0.0, max = 250.0)), length(min = 1))]
+    pub temperature: Vec<f64>,
+    /// What is looked for: the torque at each speed, or the speed at each torque.
+    #[serde(default)]
+    pub find: Find,
+    /// Torques: the range in which the limit is looked for, from the value nearest to zero to the farthest; or those at which
+    /// the speed is.
+    pub torque: TorqueAxis,
+    /// Speeds: those at which the torque is looked for; or the range in which the limit is.
+    pub speed: SpeedAxis,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+/// What a limit is looked for in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Find {
+    /// The torque at each speed.
+    #[default]
+    Torque,
+    /// The speed at each torque.
+    Speed,
+}
+
+impl Entry for ThermalLimitEntry {
+    const TYPE: &'static str = "thermal_limit";
+    const MEANING: &'static str = "The torque, or the speed, at which the balance reaches a given temperature.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
+}
+
+register_analysis!(ThermalLimitEntry);
+
+/// The thermal limits under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ThermalLimitOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set.
+    pub thermal_limits: Vec<ThermalLimitsOfSet>,
+}
+
+/// The thermal limits under one model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ThermalLimitsOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// Gear state.
+    pub gear: String,
+    /// What was looked for.
+    pub find: Find,
+    /// One for each temperature and each speed or torque.
+    pub limits: Vec<ThermalLimit>,
+    /// What models noted.
+    pub notes: Vec<Note>,
+}
+
+/// The limit at one speed, or at one torque.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct ThermalLimit {
+    /// Temperature of the oil that may be reached. [degC]
+    pub limit_degc: f64,
+    /// Torque; absent where it was looked for and there is none. [Nm]
+    pub torque_nm: Option<f64>,
+    /// Speed; absent where it was looked for and there is none. [rpm]
+    pub speed_rpm: Option<f64>,
+    /// What became of the search: `reached`, `at_discontinuity` where the losses jump over the heat, `exceeded_from_the_start`,
+    /// `not_reached`, or `undefined` where losses or heat have no value.
+    pub outcome: &'static str,
+    /// Loss there. [W]
+    pub loss_w: Option<f64>,
+    /// Power in. [W]
+    pub input_w: Option<f64>,
+    /// Power out. [W]
+    pub output_w: Option<f64>,
+    /// Power out over power in. [-]
+    pub efficiency: Option<f64>,
+    /// Lowest temperature that keeps itself there: another one than the limit where several do. [degC]
+    pub lowest_balance_degc: Option<f64>,
+    /// The speed as it was solved, with the digits that `speed_rpm` rounds; pictures show it. [rpm]
+    #[serde(skip)]
+    pub solved_speed_rpm: Option<f64>,
+}
+
+impl Analysis for ThermalLimitEntry {
+    type Outcome = ThermalLimitOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<ThermalLimitOutcome, Stopped> {
+        let path = cx.path();
+        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let mut thermal_limits = Vec::new();
+        for b in &built {
+            needs_balance(cx, b)?;
+            let gear = gear_of(self.gear.as_deref(), &b.transmission);
+            let torques = torques(cx, &format!("{path}.torque"), &self.torque, &b.transmission)?;
+            let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &b.transmission)?;
+            match self.find {
+                Find::Torque => is_range(cx, &format!("{path}.torque"), &torques)?,
+                Find::Speed => is_range(cx, &format!("{path}.speed"), &speeds)?,
+            }
+            let points = cx.points(&b.transmission, gear, Vec::new(), Vec::new());
+            let case = cx.case(b.gearbox, &b.transmission, &points)?;
+            if case.torque_ports.is_empty() && self.find == Find::Torque {
+                let message = format!("`{gear}` takes no torque, so none can be its limit");
+                return Err(cx.wrong(&path, message, "name another gear, or look for the speed"));
+            }
+            if cx.only_checks {
+                continue;
+            }
+            let search = Search {
+                find: self.find,
+                built: b,
+                points: &points,
+                case: &case,
+            };
+            let (range, fixed) = match self.find {
+                Find::Torque => (torques, speeds),
+                Find::Speed => (speeds, torques),
+            };
+            thermal_limits.push(search.all(&self.temperature, outwards(&range), &fixed));
+        }
+        cx.begin()?;
+        let head = cx.head(&built.iter().collect::<Vec<_>>());
+        Ok(ThermalLimitOutcome { head, thermal_limits })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+/// A limit is looked for between two values on one side of zero.
+fn is_range(cx: &Context<'_>, path: &str, range: &[f64]) -> Result<(), Stopped> {
+    let (Some(first), Some(last), true) = (range.first(), range.last(), range.len() > 1) else {
+        let message = "one value is no range to look for a limit in";
+        return Err(cx.wrong(path, message, "write `{ from: ..., to: ..., step: ... }`"));
+    };
+    if range.iter().any(|x| x * first < 0.0 || x * last < 0.0) {
+        return Err(cx.wrong(
+            path,
+            "the range goes through zero",
+            "look on one side of zero at a time",
+        ));
+    }
+    Ok(())
+}
+
+/// From the value nearest to zero outwards, whichever way the axis runs.
+fn outwards(range: &[f64]) -> [f64; 2] {
+    let values = || range.iter().copied();
+    let nearest = values().min_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let farthest = values().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    [nearest, farthest].map(|end| end.unwrap_or(0.0))
+}
+
+/// What all limits under one model set share.
+struct Search<'a> {
+    find: Find,
+    built: &'a Built<'a>,
+    points: &'a Points,
+    case: &'a Case,
+}
+
+impl Search<'_> {
+    /// The limits of all temperatures at all fixed values.
+    fn all(&self, temperatures: &[f64], range: [f64; 2], fixed: &[f64]) -> ThermalLimitsOfSet {
+        let transmission = &self.built.transmission;
+        let mut scratch = transmission.scratch(self.case);
+        let mut limits = Vec::new();
+        for temperature in temperatures {
+            for value in fixed {
+                limits.push(self.limit(*temperature, range, *value, &mut scratch));
+            }
+        }
+        ThermalLimitsOfSet {
+            model_set: self.built.name.clone(),
+            gear: self.points.gear.clone(),
+            find: self.find,
+            limits,
+            notes: notes(transmission, &scratch.totals),
+        }
+    }
+
+    /// Speed and torque where the value that is looked for is `x`.
+    fn given(&self, fixed: f64, x: f64) -> ([f64; 1], [f64; 1]) {
+        match self.find {
+            Find::Torque => ([fixed], [x]),
+            Find::Speed => ([x], [fixed]),
+        }
+    }
+
+    /// The limit of one temperature at one fixed value.
+    fn limit(&self, temperature: f64, range: [f64; 2], fixed: f64, scratch: &mut Scratch) -> ThermalLimit {
+        let t = &self.built.transmission;
+        let count = self.case.torque_ports.len();
+        let (speed, torque) = self.given(fixed, range[0]);
+        let start = Point {
+            speeds: &speed,
+            torques: &torque[..count],
+            flow: self.points.flow,
+            tolerance: Tolerance::default(),
+        };
+        let set = |x: f64, speeds: &mut [f64], torques: &mut [f64]| {
+            let (speed, torque) = self.given(fixed, x);
+            speeds.copy_from_slice(&speed);
+            torques.copy_from_slice(&torque[..torques.len()]);
+        };
+        let limit: Limit = t.thermal_limit(self.case, &start, temperature, range, set, scratch);
+        let mut found = ThermalLimit {
+            limit_degc: temperature,
+            torque_nm: (self.find == Find::Speed).then_some(fixed),
+            speed_rpm: None,
+            outcome: limit.name(),
+            loss_w: None,
+            input_w: None,
+            output_w: None,
+            efficiency: None,
+            lowest_balance_degc: None,
+            solved_speed_rpm: (self.find == Find::Torque).then_some(fixed * RPM),
+        };
+        if let Some(x) = limit.value() {
+            let (speed, torque) = self.given(fixed, x);
+            let point = Point {
+                speeds: &speed,
+                torques: &torque[..count],
+                ..start
+            };
+            found.lowest_balance_degc = t.equilibrium(self.case, &point, scratch).oil();
+            let solution = t.evaluate(self.case, &point, &[temperature], scratch);
+            (found.torque_nm, found.solved_speed_rpm) = (Some(torque[0]), Some(speed[0] * RPM));
+            (found.loss_w, found.efficiency) = (solution.loss(), solution.efficiency());
+            (found.input_w, found.output_w) = (solution.input_power(), solution.output_power());
+        }
+        found.speed_rpm = found.solved_speed_rpm.map(tidy);
+        found
+    }
+}
+
+impl Outcome for ThermalLimitOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut table = Table::new(
+            &self.head.analysis,
+            [
+                Column::text("model_set", "Model set"),
+                Column::text("gear", "Gear state"),
+                Column::number("limit_degc", "degC", "Temperature of the oil that may be reached"),
+                Column::number("torque_nm", "Nm", "Torque"),
+                Column::number("speed_rpm", "rpm", "Speed"),
+                Column::text("outcome", "What became of the search"),
+                Column::number("loss_w", "W", "Loss"),
+                Column::number("input_w", "W", "Power in"),
+                Column::number("output_w", "W", "Power out"),
+                Column::number("efficiency", "-", "Power out over power in"),
+                Column::number(
+                    "lowest_balance_degc",
+                    "degC",
+                    "Lowest temperature of the oil that keeps itself",
+                ),
+            ],
+        );
+        for of_set in &self.thermal_limits {
+            for limit in &of_set.limits {
+                table.push(cells![
+                    &of_set.model_set,
+                    &of_set.gear,
+                    limit.limit_degc,
+                    limit.torque_nm,
+                    limit.speed_rpm,
+                    limit.outcome,
+                    limit.loss_w,
+                    limit.input_w,
+                    limit.output_w,
+                    limit.efficiency,
+                    limit.lowest_balance_degc,
+                ]);
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        self.thermal_limits.iter().flat_map(|of_set| &of_set.notes).collect()
+    }
+}
