@@ -5,6 +5,7 @@
 
 pub mod axes;
 pub mod balance;
+pub mod component_compare;
 pub mod context;
 pub mod duties;
 mod entries;
@@ -24,6 +25,7 @@ use std::io;
 use std::sync::Arc;
 
 use gearloss_framework::document::did_you_mean;
+use gearloss_framework::gearbox::Findings;
 use gearloss_framework::registry::{Origin, inventory};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeOwned, Error};
@@ -87,9 +89,19 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
         Vec::new()
     }
 
+    /// Number of stated ranges that models left which [`Outcome::notes`] does not list; they count for `--deny extrapolation`.
+    fn unlisted(&self) -> usize {
+        0
+    }
+
     /// Values of the model set that the analysis leaves for later ones ([`Entry::then`]): resolved path to value.
     fn found(&self) -> Vec<(String, Value)> {
         Vec::new()
+    }
+
+    /// Why parts of the outcome are missing. The rest is shown and written, but the analysis has failed.
+    fn failures(&self) -> &[Findings] {
+        &[]
     }
 }
 
@@ -103,8 +115,12 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn notes(&self) -> Vec<&Note>;
     /// Stated ranges that samples left.
     fn left_at_samples(&self) -> Vec<(&str, &str)>;
+    /// Number of stated ranges that models left and that no note lists.
+    fn unlisted(&self) -> usize;
     /// Values of the model set that it leaves for later analyses.
     fn found(&self) -> Vec<(String, Value)>;
+    /// Why parts of it are missing.
+    fn failures(&self) -> &[Findings];
     /// For a downcast to its type.
     fn as_any(&self) -> &dyn Any;
     /// Writes it as JSON.
@@ -127,8 +143,14 @@ impl<O: Outcome> AnyOutcome for O {
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
         Outcome::left_at_samples(self)
     }
+    fn unlisted(&self) -> usize {
+        Outcome::unlisted(self)
+    }
     fn found(&self) -> Vec<(String, Value)> {
         Outcome::found(self)
+    }
+    fn failures(&self) -> &[Findings] {
+        Outcome::failures(self)
     }
     fn as_any(&self) -> &dyn Any {
         self

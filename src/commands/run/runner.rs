@@ -13,16 +13,16 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
-    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
+    BreakdownEntry, CompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry,
+    OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry,
+    ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
-    rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+    Parts, breakdown, compare, contact_path, cycle, fluid_sweep, identify, map, operating_points, rms_surface,
+    sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -182,7 +182,9 @@ impl Runner<'_> {
         }
         let notes: Vec<_> = outcome.notes().into_iter().filter(|note| note.outside > 0).collect();
         let samples = outcome.left_at_samples();
-        self.run.left.set(self.run.left.get() + notes.len() + samples.len());
+        self.run
+            .left
+            .set(self.run.left.get() + notes.len() + samples.len() + outcome.unlisted());
         for note in &notes {
             self.keep_outside(note);
         }
@@ -204,7 +206,10 @@ impl Runner<'_> {
         for named in page.figures {
             write::picture(self, &named.name, named.figure, formats)?;
         }
-        Ok(())
+        match outcome.failures() {
+            [] => Ok(()),
+            failures => Err(failures.into()),
+        }
     }
 
     /// Runs an analysis that computes, prints and writes at once.
@@ -220,7 +225,6 @@ impl Runner<'_> {
             MapEntry => map::run,
             CompareEntry => compare::run,
             BreakdownEntry => breakdown::run,
-            ComponentCompareEntry => component_compare::run,
             ContactPathEntry => contact_path::run,
             OperatingPointsEntry => operating_points::run,
             ThermalLimitEntry => thermal_limit::run,

@@ -3,9 +3,9 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
-    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    BreakdownEntry, CompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry,
+    OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then,
+    ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -77,19 +77,6 @@ impl Entry for TemperatureSweepEntry {
 }
 
 register_entry!(TemperatureSweepEntry);
-
-impl Entry for ComponentCompareEntry {
-    const TYPE: &'static str = "component_compare";
-    const MEANING: &'static str = "Several models of one component over speed.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_set)
-            .at(&self.gear)
-            .with("measured", self.measured.as_ref())
-    }
-}
-
-register_entry!(ComponentCompareEntry);
 
 impl Entry for ContactPathEntry {
     const TYPE: &'static str = "contact_path";
