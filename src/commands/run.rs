@@ -3,7 +3,6 @@
 mod breakdown;
 mod columns;
 mod compare;
-mod contact_path;
 mod cycle;
 mod fluid_sweep;
 mod folder;

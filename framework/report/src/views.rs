@@ -2,3 +2,4 @@
 
 pub mod balance;
 pub mod component_compare;
+pub mod contact_path;

@@ -6,6 +6,7 @@
 pub mod axes;
 pub mod balance;
 pub mod component_compare;
+pub mod contact_path;
 pub mod context;
 pub mod duties;
 mod entries;

@@ -3,7 +3,6 @@
 mod axes;
 mod breakdown;
 mod compare;
-mod component;
 mod cycle;
 mod data;
 mod files;
@@ -29,7 +28,6 @@ use serde_json::Value;
 pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
 pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
 pub use compare::{CompareEntry, Difference, Quantity};
-pub use component::ContactPathEntry;
 pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
 pub use data::Data;
 pub use files::Study;

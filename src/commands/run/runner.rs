@@ -13,16 +13,16 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry,
-    OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry,
-    ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
+    BreakdownEntry, CompareEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry,
+    RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry,
+    TournamentEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, breakdown, compare, contact_path, cycle, fluid_sweep, identify, map, operating_points, rms_surface,
-    sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+    Parts, breakdown, compare, cycle, fluid_sweep, identify, map, operating_points, rms_surface, sensitivity, sweep,
+    thermal_limit, tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -225,7 +225,6 @@ impl Runner<'_> {
             MapEntry => map::run,
             CompareEntry => compare::run,
             BreakdownEntry => breakdown::run,
-            ContactPathEntry => contact_path::run,
             OperatingPointsEntry => operating_points::run,
             ThermalLimitEntry => thermal_limit::run,
             SweepEntry => sweep::run,

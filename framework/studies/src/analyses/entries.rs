@@ -3,9 +3,9 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry,
-    OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then,
-    ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    BreakdownEntry, CompareEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry,
+    RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry,
+    TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -77,18 +77,6 @@ impl Entry for TemperatureSweepEntry {
 }
 
 register_entry!(TemperatureSweepEntry);
-
-impl Entry for ContactPathEntry {
-    const TYPE: &'static str = "contact_path";
-    const MEANING: &'static str =
-        "Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(ContactPathEntry);
 
 impl Entry for OperatingPointsEntry {
     const TYPE: &'static str = "operating_points";
