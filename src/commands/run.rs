@@ -2,7 +2,6 @@
 
 mod breakdown;
 mod columns;
-mod compare;
 mod cycle;
 mod fluid_sweep;
 mod folder;

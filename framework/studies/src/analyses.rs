@@ -5,6 +5,7 @@
 
 pub mod axes;
 pub mod balance;
+pub mod compare;
 pub mod component_compare;
 pub mod contact_path;
 pub mod context;

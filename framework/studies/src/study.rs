@@ -27,7 +27,7 @@ use serde_json::Value;
 
 pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
 pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
-pub use compare::{CompareEntry, Difference, Quantity};
+pub use compare::{Difference, Quantity};
 pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
 pub use data::Data;
 pub use files::Study;

@@ -13,7 +13,7 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CompareEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry,
+    BreakdownEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry,
     RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry,
     TournamentEntry, UncertaintyEntry,
 };
@@ -21,7 +21,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, breakdown, compare, cycle, fluid_sweep, identify, map, operating_points, rms_surface, sensitivity, sweep,
+    Parts, breakdown, cycle, fluid_sweep, identify, map, operating_points, rms_surface, sensitivity, sweep,
     thermal_limit, tournament, uncertainty, write,
 };
 use crate::interrupt;
@@ -223,7 +223,6 @@ impl Runner<'_> {
         }
         one_of! {
             MapEntry => map::run,
-            CompareEntry => compare::run,
             BreakdownEntry => breakdown::run,
             OperatingPointsEntry => operating_points::run,
             ThermalLimitEntry => thermal_limit::run,

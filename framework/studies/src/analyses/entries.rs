@@ -3,7 +3,7 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CompareEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry,
+    BreakdownEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry,
     RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry,
     TournamentEntry, UncertaintyEntry, Uses,
 };
@@ -25,23 +25,6 @@ impl Entry for MapEntry {
 }
 
 register_entry!(MapEntry);
-
-impl Entry for CompareEntry {
-    const TYPE: &'static str = "compare";
-    const MEANING: &'static str = "Difference between sets of models over a grid.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), self.base.iter().chain(&self.against))
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("data", self.data.as_ref())
-        }
-    }
-}
-
-register_entry!(CompareEntry);
 
 impl Entry for BreakdownEntry {
     const TYPE: &'static str = "breakdown";
