@@ -7,7 +7,6 @@ mod fluid_sweep;
 mod folder;
 mod identify;
 mod map;
-mod operating_points;
 mod parquet;
 mod parts;
 mod pieces;

@@ -15,6 +15,7 @@ pub mod head;
 pub mod inputs;
 pub mod measurable;
 pub mod numbers;
+pub mod operating_points;
 pub mod progress;
 pub mod ranges;
 pub mod rows;

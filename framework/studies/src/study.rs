@@ -9,7 +9,6 @@ mod files;
 mod identify;
 mod map;
 mod names;
-mod operating_points;
 mod parameters;
 mod range;
 mod rms_surface;
@@ -37,7 +36,6 @@ pub use identify::{
 };
 pub use map::MapEntry;
 pub use names::is_device;
-pub use operating_points::OperatingPointsEntry;
 pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sensitivity::{Method, SensitivityEntry};

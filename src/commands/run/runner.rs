@@ -13,16 +13,15 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry,
-    RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry,
-    TournamentEntry, UncertaintyEntry,
+    BreakdownEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, RmsSurfaceEntry, SensitivityEntry,
+    SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, breakdown, cycle, fluid_sweep, identify, map, operating_points, rms_surface, sensitivity, sweep,
-    thermal_limit, tournament, uncertainty, write,
+    Parts, breakdown, cycle, fluid_sweep, identify, map, rms_surface, sensitivity, sweep, thermal_limit, tournament,
+    uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -224,7 +223,6 @@ impl Runner<'_> {
         one_of! {
             MapEntry => map::run,
             BreakdownEntry => breakdown::run,
-            OperatingPointsEntry => operating_points::run,
             ThermalLimitEntry => thermal_limit::run,
             SweepEntry => sweep::run,
             TournamentEntry => tournament::run,

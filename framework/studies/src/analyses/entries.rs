@@ -3,9 +3,8 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, OperatingPointsEntry,
-    RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry,
-    TournamentEntry, UncertaintyEntry, Uses,
+    BreakdownEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry, MapEntry, RmsSurfaceEntry, SensitivityEntry,
+    SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -60,21 +59,6 @@ impl Entry for TemperatureSweepEntry {
 }
 
 register_entry!(TemperatureSweepEntry);
-
-impl Entry for OperatingPointsEntry {
-    const TYPE: &'static str = "operating_points";
-    const MEANING: &'static str =
-        "Losses of a list of operating points from a file, as stacked bars, with room for what was measured.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
-            .bind(&self.bind)
-            .with("data", Some(&self.data))
-    }
-}
-
-register_entry!(OperatingPointsEntry);
 
 impl Entry for ThermalLimitEntry {
     const TYPE: &'static str = "thermal_limit";
