@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use common::{RPM, build, language, point, set, with};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use gearloss_framework::contact::path;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::language::Language;
@@ -19,7 +20,6 @@ use gearloss_framework::mechanism::tooth_friction::ToothFriction;
 use gearloss_framework::registry::{Build, Files};
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::{Case, Transmission};
-use gearloss_plugins::path;
 use serde_json::{Value, json};
 
 fn friction() -> Value {

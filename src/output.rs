@@ -53,9 +53,17 @@ impl From<Stopped> for Failure {
     fn from(stopped: Stopped) -> Self {
         match stopped {
             Stopped::Found(findings) => Self::Found(findings),
+            Stopped::Several(list) => list.as_slice().into(),
             Stopped::Unwritten(text) => Self::Input(text),
             Stopped::Interrupted | Stopped::Checked | Stopped::Elsewhere => Self::Interrupted,
         }
+    }
+}
+
+/// Several inputs that are wrong, one after the other.
+impl From<&[Findings]> for Failure {
+    fn from(list: &[Findings]) -> Self {
+        Self::Input(list.iter().map(Findings::render).collect())
     }
 }
 

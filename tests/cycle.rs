@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::common::{self, contact_work, file, language};
+use gearloss_framework::contact::path::Path as ContactPath;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
@@ -11,7 +12,6 @@ use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
-use gearloss_plugins::path::Path as ContactPath;
 use gearloss_plugins::tooth_friction::ehl_mixed::EhlMixed;
 use gearloss_studies::analysis::{Driven, OilTemperature, Ride, Stretch, drive};
 use gearloss_studies::duty::{CycleEntry, Duty, FileCycleEntry, ShippedCycleEntry, Vehicle, VehicleEntry};

@@ -7,7 +7,6 @@ pub mod bearing;
 pub mod boundary;
 pub mod catalogues;
 pub mod clutch;
-pub mod contact;
 pub mod convection;
 pub mod cycles;
 pub mod gear_drag;
@@ -16,7 +15,6 @@ pub mod heat_dissipation;
 pub mod heat_link;
 pub mod mean_friction;
 pub mod network;
-pub mod path;
 pub mod planetary_drag;
 mod powers;
 #[cfg(test)]

@@ -12,6 +12,9 @@ pub mod mixed;
 pub mod odonoghue_cameron;
 pub mod xu;
 
+#[cfg(test)]
+mod accuracy;
+
 use gearloss_framework::loss::Undefined;
 
 /// The sum of the surface speeds (m/s) of a contact that entrains oil; laws that divide by it have no value without.

@@ -1,13 +1,9 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
-mod compare;
-mod component_compare;
-mod contact_path;
 mod fluid_sweep;
 mod folder;
 mod identify;
 mod manifest;
-mod operating_points;
 mod report;
 mod rms_surface;
 mod runner;

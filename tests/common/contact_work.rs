@@ -1,5 +1,6 @@
 //! How much work the friction law `ehl_mixed` does on the paths of a solved point.
 
+use gearloss_framework::contact::path::Path;
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Notes;
@@ -8,7 +9,6 @@ use gearloss_framework::mechanism::tooth_friction::ToothFrictionModel as _;
 use gearloss_framework::registry::{Build, Files};
 use gearloss_framework::resolve::{Resolved, lookup};
 use gearloss_framework::transmission::Transmission;
-use gearloss_plugins::path::Path;
 use gearloss_plugins::tooth_friction::ehl_mixed::{EhlMixed, Params};
 
 /// The law and the path of every mesh, from the resolved document: a `path_integral` with `ehl_mixed`.

@@ -3,6 +3,7 @@
 pub mod attach;
 pub mod coefficients;
 pub mod conformance;
+pub mod contact;
 pub mod description;
 pub mod eval;
 pub mod evaluate;

@@ -1,11 +1,12 @@
 //! Figures of a list of differences, and bands of them.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Figures of a list of differences.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Statistics {
-    /// Number of differences.
+    /// Number of differences. [-]
     pub count: usize,
     /// Least.
     pub least: f64,

@@ -8,3 +8,7 @@ pub mod cycle;
 pub mod uncertainty;
 pub mod breakdown;
 pub mod thermal_limit;
+pub mod compare;
+pub mod component_compare;
+pub mod contact_path;
+pub mod operating_points;

@@ -6,6 +6,9 @@
 pub mod axes;
 pub mod balance;
 pub mod breakdown;
+pub mod compare;
+pub mod component_compare;
+pub mod contact_path;
 pub mod context;
 pub mod cycle;
 pub mod duties;
@@ -15,6 +18,7 @@ pub mod inputs;
 pub mod map;
 pub mod measurable;
 pub mod numbers;
+pub mod operating_points;
 pub mod progress;
 pub mod ranges;
 pub mod rows;
@@ -33,6 +37,7 @@ use std::io;
 use std::sync::Arc;
 
 use gearloss_framework::document::{Diagnostic, did_you_mean};
+use gearloss_framework::gearbox::Findings;
 use gearloss_framework::registry::{Origin, inventory};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{DeserializeOwned, Error};
@@ -110,6 +115,11 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
     fn fault(&self) -> Option<Diagnostic> {
         None
     }
+
+    /// Why parts of the outcome are missing. The rest is shown and written, but the analysis has failed.
+    fn failures(&self) -> &[Findings] {
+        &[]
+    }
 }
 
 /// An [`Outcome`] of any type.
@@ -128,6 +138,8 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn found(&self) -> Vec<(String, Value)>;
     /// Why it is not whole.
     fn fault(&self) -> Option<Diagnostic>;
+    /// Why parts of it are missing.
+    fn failures(&self) -> &[Findings];
     /// For a downcast to its type.
     fn as_any(&self) -> &dyn Any;
     /// Writes it as JSON.
@@ -158,6 +170,9 @@ impl<O: Outcome> AnyOutcome for O {
     }
     fn fault(&self) -> Option<Diagnostic> {
         Outcome::fault(self)
+    }
+    fn failures(&self) -> &[Findings] {
+        Outcome::failures(self)
     }
     fn as_any(&self) -> &dyn Any {
         self

@@ -3,13 +3,11 @@
 mod axes;
 mod by;
 mod compare;
-mod component;
 mod cycle;
 mod data;
 mod files;
 mod identify;
 mod names;
-mod operating_points;
 mod parameters;
 mod range;
 mod rms_surface;
@@ -24,9 +22,8 @@ use serde_json::Value;
 
 pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
 pub use by::By;
-pub use compare::{CompareEntry, Difference, Quantity};
-pub use component::{ComponentCompareEntry, ContactPathEntry};
 pub use cycle::{DriveEntry, FluidSweepEntry};
+pub use compare::{Difference, Quantity};
 pub use data::Data;
 pub use files::Study;
 pub use identify::{
@@ -34,7 +31,6 @@ pub use identify::{
     PosteriorEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
 };
 pub use names::is_device;
-pub use operating_points::OperatingPointsEntry;
 pub(crate) use parameters::NameOr;
 pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};

@@ -29,8 +29,8 @@ use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{dowson_higginson, thermal_factor};
-use crate::path::Path;
+use gearloss_framework::contact::path::Path;
+use gearloss_framework::contact::{dowson_higginson, thermal_factor};
 
 const SLIDING: Term = Term::load(0, "sliding");
 const ROLLING: Term = Term::load(1, "rolling");

@@ -15,7 +15,7 @@ use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::path::Path;
+use gearloss_framework::contact::path::Path;
 
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 

@@ -15,7 +15,7 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::contact::{self, Film};
+use gearloss_framework::contact::{self, Film};
 
 const SUM_SPEED: Limit = Limit::new(
     0,

@@ -21,7 +21,7 @@ use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{self, Film};
+use gearloss_framework::contact::{self, Film};
 
 const SUM_SPEED: Limit = Limit::new(
     0,

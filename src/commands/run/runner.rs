@@ -13,7 +13,7 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Points, notes};
 use gearloss_studies::study::{
-    CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, Study, SweepEntry, Write,
+    FluidSweepEntry, IdentifyEntry, RmsSurfaceEntry, Study, SweepEntry, Write,
 };
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -22,7 +22,7 @@ use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
 use super::{
-    compare, component_compare, contact_path, fluid_sweep, identify, operating_points, rms_surface, sweep, write,
+    fluid_sweep, identify, rms_surface, sweep, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -214,10 +214,12 @@ impl Runner<'_> {
             write::picture(self, &named.name, named.figure, formats)?;
         }
         let faults: Vec<_> = page.faults.into_iter().chain(outcome.fault()).collect();
-        if faults.is_empty() {
-            Ok(())
-        } else {
-            Err(self.found(faults).into())
+        if !faults.is_empty() {
+            return Err(self.found(faults).into());
+        }
+        match outcome.failures() {
+            [] => Ok(()),
+            failures => Err(failures.into()),
         }
     }
 
@@ -231,10 +233,6 @@ impl Runner<'_> {
             };
         }
         one_of! {
-            CompareEntry => compare::run,
-            ComponentCompareEntry => component_compare::run,
-            ContactPathEntry => contact_path::run,
-            OperatingPointsEntry => operating_points::run,
             SweepEntry => sweep::run,
             IdentifyEntry => identify::run,
             RmsSurfaceEntry => rms_surface::run,

@@ -26,6 +26,9 @@ pub enum Stopped {
     /// Its input is wrong.
     #[error("{0}")]
     Found(#[from] Findings),
+    /// Several of its inputs are wrong, each for itself.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<String>())]
+    Several(Vec<Findings>),
     /// The caller broke it off.
     #[error("interrupted")]
     Interrupted,

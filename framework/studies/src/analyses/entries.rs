@@ -3,65 +3,8 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, OperatingPointsEntry, RmsSurfaceEntry, SweepEntry, Then, Uses,
+    FluidSweepEntry, IdentifyEntry, RmsSurfaceEntry, SweepEntry, Then, Uses,
 };
-
-impl Entry for CompareEntry {
-    const TYPE: &'static str = "compare";
-    const MEANING: &'static str = "Difference between sets of models over a grid.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), self.base.iter().chain(&self.against))
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("data", self.data.as_ref())
-        }
-    }
-}
-
-register_entry!(CompareEntry);
-
-impl Entry for ComponentCompareEntry {
-    const TYPE: &'static str = "component_compare";
-    const MEANING: &'static str = "Several models of one component over speed.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_set)
-            .at(&self.gear)
-            .with("measured", self.measured.as_ref())
-    }
-}
-
-register_entry!(ComponentCompareEntry);
-
-impl Entry for ContactPathEntry {
-    const TYPE: &'static str = "contact_path";
-    const MEANING: &'static str =
-        "Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(ContactPathEntry);
-
-impl Entry for OperatingPointsEntry {
-    const TYPE: &'static str = "operating_points";
-    const MEANING: &'static str =
-        "Losses of a list of operating points from a file, as stacked bars, with room for what was measured.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
-            .bind(&self.bind)
-            .with("data", Some(&self.data))
-    }
-}
-
-register_entry!(OperatingPointsEntry);
 
 impl Entry for SweepEntry {
     const TYPE: &'static str = "sweep";

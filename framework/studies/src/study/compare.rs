@@ -1,44 +1,9 @@
-//! Differences between sets of models, products and measurements.
+//! Quantities that are compared, and how their differences count.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Data, Write};
 use crate::analysis::PointResult;
-use gearloss_framework::description::Ordered;
-
-/// Difference between sets of models, and products, over a grid; or between them and what was measured.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct CompareEntry {
-    /// Gearbox of every set that names none; absent, the first.
-    pub gearbox: Option<String>,
-    /// Grid; not with `data`.
-    pub grid: Option<String>,
-    /// Set that the others are compared with; not with `data`. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    pub base: Option<String>,
-    /// Measured points that the sets are compared with.
-    pub data: Option<Data>,
-    /// Columns of the data that change a value of the gearbox: column to resolved path.
-    #[serde(default)]
-    pub bind: Ordered<String>,
-    /// Gear state of the data where no column says it; absent, the first.
-    pub gear: Option<String>,
-    /// Sets to compare; `PRODUCT/SET` takes another gearbox.
-    #[schemars(length(min = 1))]
-    pub against: Vec<String>,
-    /// What is compared.
-    #[serde(default)]
-    pub quantity: Quantity,
-    /// Accuracy of a measurement, in the unit of the difference: maps of differences show where they are smaller. [-]
-    #[schemars(range(min = 0.0, max = 1e9))]
-    pub accuracy: Option<f64>,
-    /// How the difference counts: the other set minus the base, or the model minus the measurement.
-    #[serde(default)]
-    pub difference: Difference,
-    /// Formats to write; absent, CSV and JSON. Pictures show the differences and, with data, parity.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
-}
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

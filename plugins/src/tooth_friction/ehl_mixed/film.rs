@@ -9,7 +9,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{dowson_higginson, thermal_factor};
+use gearloss_framework::contact::{dowson_higginson, thermal_factor};
 
 /// Which film counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

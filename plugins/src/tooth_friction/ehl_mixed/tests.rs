@@ -8,7 +8,7 @@ use gearloss_framework::mechanism::tooth_friction::{PathExtent, PathNode};
 use gearloss_framework::registry::{Files, Registry};
 use serde_json::{Value, json};
 
-use crate::path::Path;
+use gearloss_framework::contact::path::Path;
 
 const RPM: f64 = std::f64::consts::PI / 30.0;
 const RATIO: f64 = 81.0 / 31.0;

@@ -1,13 +1,10 @@
 //! The path of contact of one mesh, prepared for laws of local friction.
 
-use gearloss_framework::geometry::{LoadSharing, Pair, PathPoint};
-use gearloss_framework::lanes::Lane;
-use gearloss_framework::loss::Notes;
-use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, PathAt, PathExtent, PathNode, SMOOTH};
-
-#[cfg(test)]
-mod accuracy;
+use crate::geometry::{LoadSharing, Pair, PathPoint};
+use crate::lanes::Lane;
+use crate::loss::Notes;
+use crate::mechanism::mean_friction::MeanFrictionAt;
+use crate::mechanism::tooth_friction::{CUT_OFF, PathAt, PathExtent, PathNode, SMOOTH};
 
 /// Points of most paths: four pieces for a smooth law.
 const FEW: usize = 4 * SMOOTH;
@@ -38,10 +35,11 @@ impl Path {
                 pair.contact_ratio
             ));
         }
-        Ok(Self::of(pair, points))
+        Ok(Self::from_points(pair, points))
     }
 
-    fn of(pair: &Pair, points: Vec<PathPoint>) -> Self {
+    /// The path of a pair through points with their weights.
+    pub fn from_points(pair: &Pair, points: Vec<PathPoint>) -> Self {
         let nodes: Vec<PathNode> = points
             .iter()
             .map(|p| PathNode {
@@ -72,7 +70,7 @@ impl Path {
 
     /// Places at even distances over the whole path, its ends included; for looking at, not for integrals.
     pub fn even(pair: &Pair, sharing: LoadSharing, places: usize) -> Self {
-        let mut path = Self::of(pair, pair.even_path(sharing, places));
+        let mut path = Self::from_points(pair, pair.even_path(sharing, places));
         // The trapezoidal rule, for laws that need a mean over the path.
         let last = path.nodes.len() - 1;
         for (i, node) in path.nodes.iter_mut().enumerate() {

@@ -1,12 +1,14 @@
-//! Films and mixing in line contacts, for the laws that need them.
+//! Films and mixing in line contacts, and the path of contact of a mesh, for models and analyses that need them.
 //!
 //! Sources: Dowson and Higginson 1961 (least film of a line contact); Hamrock and Dowson 1977 (central film, here for a long
 //! ellipse); thermal reduction after Gupta et al. in the form of Arana et al. 2019; weights of mixed friction after Doleschel,
 //! Matsumoto, Diab, and Olver and Spikes as collected by Arana et al. 2019.
 
-use gearloss_framework::mechanism::tooth_friction::ContactAt;
+use crate::mechanism::tooth_friction::ContactAt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+pub mod path;
 
 /// Which film thickness counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

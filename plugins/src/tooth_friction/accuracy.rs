@@ -2,11 +2,13 @@
 //! speeds and oils.
 #![allow(clippy::unwrap_used)]
 
-use super::*;
-use gearloss_framework::geometry::PairSpec;
+use gearloss_framework::contact::path::Path;
+use gearloss_framework::geometry::{LoadSharing, Pair, PairSpec};
+use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::Mechanism as _;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
-use gearloss_framework::mechanism::tooth_friction::ToothFriction;
+use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
+use gearloss_framework::mechanism::tooth_friction::{SMOOTH, ToothFriction};
 use gearloss_framework::registry::{Build, Files, Registry};
 use gearloss_numerics::sampling::Sobol;
 use serde_json::{Value, json};
@@ -141,10 +143,10 @@ fn errors(registry: &Registry, law: &Value, sharing: LoadSharing, cases: &[Case]
         let path = Path::new(pair, sharing, slot.order()).unwrap();
         let fine = 4 * slot.order();
         // Undefined at some place, whatever the number of places.
-        let Ok(exact) = sum(&Path::of(pair, pair.graded_path(sharing, fine))) else {
+        let Ok(exact) = sum(&Path::from_points(pair, pair.graded_path(sharing, fine))) else {
             continue;
         };
-        let stated = LOSS * exact + FRICTION * path.weights.iter().sum::<f64>();
+        let stated = LOSS * exact + FRICTION * path.sliding(&vec![1.0; path.len()]);
         errors.push(((sum(&path).unwrap() - exact).abs() / stated, i));
     }
     assert!(errors.len() > cases.len() / 2, "{law} is undefined nearly everywhere");
@@ -181,7 +183,7 @@ fn every_law_is_as_close_to_its_limit_as_stated() {
 fn few_points_are_not_enough() {
     let case = Case::list(48).map(|case| {
         let pair = case.part.pair;
-        let of = |order: usize| Path::of(&pair, pair.path(LoadSharing::Rigid, order));
+        let of = |order: usize| Path::from_points(&pair, pair.path(LoadSharing::Rigid, order));
         // Friction after Xu near the pitch point, but for its decay: a power of sliding over a power of the radius.
         let sum = |path: &Path| {
             let mu: Vec<f64> = path

@@ -1,0 +1,129 @@
+//! Operating points: a table of losses with what was measured; losses as stacked bars.
+
+use gearloss_studies::analyses::measurable::{is_measurable, note};
+use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome, PointsOfSet};
+
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::Bar;
+use crate::register_view;
+use crate::text::{TextTable, fixed, number};
+
+register_view!(OperatingPointsOutcome, show);
+
+fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    for note in &outcome.file_notes {
+        page.line(format!("{name}: {}: {note}", outcome.file));
+    }
+    for of_set in &outcome.operating_points {
+        let set = &of_set.model_set;
+        page.line(format!("{name}: losses in W, models {set}"));
+        page.lines(losses(&outcome.bound, of_set));
+        differences(&of_set.points, page);
+        page.outside(&of_set.notes);
+        page.line("");
+        let figure = Figure::Bars {
+            title: format!("{name}: losses, models {set}, oil temperature above each bar"),
+            over: String::new(),
+            height: "loss in W".to_owned(),
+            names: of_set.shares.clone(),
+            bars: of_set.points.iter().map(bar).collect(),
+        };
+        page.figure(format!("{name}-{set}"), figure);
+    }
+}
+
+/// Losses by share, with what was measured.
+fn losses(bound: &[String], of_set: &PointsOfSet) -> String {
+    let (shares, points) = (&of_set.shares, &of_set.points);
+    let mut head: Vec<&str> = vec!["point"];
+    head.extend(bound.iter().map(String::as_str));
+    head.extend(["torque Nm", "speed rpm", "oil degC"]);
+    head.extend(shares.iter().map(String::as_str));
+    head.extend(["loss W", "efficiency %"]);
+    let measured = points.iter().any(|p| !p.measured.is_empty());
+    if measured {
+        head.extend(["measured W", "measured oil degC", "measured surface degC"]);
+    }
+    let mut table = TextTable::new(&head);
+    for p in points {
+        let mut cells = vec![p.name.clone()];
+        cells.extend(p.bound.iter().map(|(_, value)| value.clone()));
+        cells.push(format!("{}", p.torque_nm));
+        cells.push(fixed(p.speed * RPM, 0));
+        cells.push(match (p.oil_temperature_degc, p.balance) {
+            (None, Some(outcome)) => outcome.name().to_owned(),
+            (oil, _) => number(oil, 1),
+        });
+        let share = |i: usize| p.losses_w.as_ref().map(|watts| watts[i]);
+        cells.extend((0..shares.len()).map(|i| number(share(i), 2)));
+        cells.push(number(p.loss_w, 2));
+        cells.push(number(p.efficiency.map(|e| 100.0 * e), 2));
+        if measured {
+            cells.push(number(p.measured.loss_w, 2));
+            cells.push(number(p.measured.oil_temperature_degc, 1));
+            cells.push(number(p.measured.surface_temperature_degc, 1));
+        }
+        table.row(cells);
+    }
+    table.render()
+}
+
+/// Mean and greatest differences from what was measured.
+fn differences(points: &[OperatingPoint], page: &mut Page) {
+    type Difference = (&'static str, fn(&OperatingPoint) -> Option<f64>);
+    let all: [Difference; 3] = [
+        ("loss minus measurement in %", |p| {
+            let (loss, seen) = (p.loss_w?, p.measured.loss_w?);
+            is_measurable(seen, loss).then(|| 100.0 * (loss / seen - 1.0))
+        }),
+        ("oil temperature minus measurement in K", |p| {
+            Some(p.oil_temperature_degc? - p.measured.oil_temperature_degc?)
+        }),
+        ("surface temperature minus measurement in K", |p| {
+            Some(p.surface_temperature_degc? - p.measured.surface_temperature_degc?)
+        }),
+    ];
+    for (what, difference) in all {
+        let gaps: Vec<f64> = points.iter().filter_map(difference).collect();
+        if gaps.is_empty() {
+            continue;
+        }
+        let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+        let farther = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
+        let worst = gaps.iter().fold(0.0, farther);
+        page.line(format!(
+            "{what}: mean {mean:.2}, worst {worst:.2}, {} points",
+            gaps.len()
+        ));
+    }
+    let is_omitted = |p: &&OperatingPoint| {
+        let both = p.loss_w.zip(p.measured.loss_w);
+        both.is_some_and(|(loss, seen)| !is_measurable(seen, loss))
+    };
+    let omitted = points.iter().filter(is_omitted).count();
+    if omitted > 0 {
+        page.line(note(omitted, "the loss minus measurement"));
+    }
+}
+
+fn bar(p: &OperatingPoint) -> Bar {
+    let degrees = |t: Option<f64>| t.map_or_else(String::new, |t| format!("{t:.0} °C"));
+    let mut label = format!("{}\n{} rpm\n{} Nm", p.name, fixed(p.speed * RPM, 0), p.torque_nm);
+    for (_, value) in p.bound.iter() {
+        label.push_str(&format!("\n{value}"));
+    }
+    let measured = &p.measured;
+    let temperature = measured.oil_temperature_degc.or(measured.surface_temperature_degc);
+    Bar {
+        label,
+        shares: p.losses_w.clone().unwrap_or_default(),
+        above: degrees(p.oil_temperature_degc),
+        measured: measured
+            .loss_w
+            .map(|loss| (loss, measured.loss_accuracy_w.unwrap_or(0.0))),
+        above_measured: degrees(temperature),
+    }
+}

@@ -1,0 +1,181 @@
+//! Differences: between sets of models and products over a grid, or between them and what was measured.
+
+mod on_grid;
+mod with_data;
+
+use gearloss_framework::description::Ordered;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use on_grid::{DifferenceAt, GridComparison, GridDifference};
+pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranking, ranking};
+
+use super::measurable::countable;
+use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
+use crate::analysis::Note;
+use crate::register_analysis;
+use crate::study::{Data, Difference, Quantity, Uses, Write};
+use crate::table::Table;
+
+/// Difference between sets of models, and products, over a grid; or between them and what was measured.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct CompareEntry {
+    /// Gearbox of every set that names none; absent, the first.
+    pub gearbox: Option<String>,
+    /// Grid; not with `data`.
+    pub grid: Option<String>,
+    /// Set that the others are compared with; not with `data`. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    pub base: Option<String>,
+    /// Measured points that the sets are compared with.
+    pub data: Option<Data>,
+    /// Columns of the data that change a value of the gearbox: column to resolved path.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// Gear state of the data where no column says it; absent, the first.
+    pub gear: Option<String>,
+    /// Sets to compare; `PRODUCT/SET` takes another gearbox.
+    #[schemars(length(min = 1))]
+    pub against: Vec<String>,
+    /// What is compared.
+    #[serde(default)]
+    pub quantity: Quantity,
+    /// Accuracy of a measurement, in the unit of the difference: maps of differences show where they are smaller. [-]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub accuracy: Option<f64>,
+    /// How the difference counts: the other set minus the base, or the model minus the measurement.
+    #[serde(default)]
+    pub difference: Difference,
+    /// Formats to write; absent, CSV and JSON. Pictures show the differences and, with data, parity.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+}
+
+impl Entry for CompareEntry {
+    const TYPE: &'static str = "compare";
+    const MEANING: &'static str = "Difference between sets of models over a grid.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: self.grid.as_ref(),
+            ..Uses::new(self.gearbox.as_ref(), self.base.iter().chain(&self.against))
+                .at(&self.gear)
+                .bind(&self.bind)
+                .with("data", self.data.as_ref())
+        }
+    }
+}
+
+register_analysis!(CompareEntry);
+
+/// Differences of model sets from a base over a grid, or from a measurement.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct CompareOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// The measurement; absent for differences over a grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub data: Option<DataOfComparison>,
+    /// One for each model set.
+    pub comparisons: Comparisons,
+    /// What is compared.
+    #[serde(skip)]
+    pub quantity: Quantity,
+    /// How the difference counts.
+    #[serde(skip)]
+    pub difference: Difference,
+    /// Accuracy of a measurement as the study states it. [unit of the difference]
+    #[serde(skip)]
+    pub accuracy: Option<f64>,
+}
+
+/// Differences by model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Comparisons {
+    /// From a base over a grid.
+    OnGrid(Vec<GridComparison>),
+    /// From a measurement.
+    WithData(Vec<DataComparison>),
+}
+
+impl Analysis for CompareEntry {
+    type Outcome = CompareOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<CompareOutcome, Stopped> {
+        let path = cx.path();
+        countable(cx, &path, self.quantity, self.difference)?;
+        let (head, data, comparisons) = match (&self.grid, &self.base, &self.data) {
+            (None, None, Some(data)) => {
+                let (head, data, comparisons) = with_data::compare(cx, self, data)?;
+                (head, Some(data), Comparisons::WithData(comparisons))
+            }
+            (Some(_), Some(_), None) if !self.bind.is_empty() || self.gear.is_some() => {
+                return Err(cx.wrong(&path, "`bind` and `gear` belong to `data`", "state them in the grid"));
+            }
+            (Some(grid), Some(base), None) => {
+                let (head, comparisons) = on_grid::compare(cx, self, grid, base)?;
+                (head, None, Comparisons::OnGrid(comparisons))
+            }
+            _ => {
+                return Err(cx.wrong(
+                    &path,
+                    "a comparison needs either `grid` and `base`, or `data`",
+                    "write `grid: ..., base: ...` to compare sets, or `data: { file: ... }` to compare with a measurement",
+                ));
+            }
+        };
+        Ok(CompareOutcome {
+            head,
+            data,
+            comparisons,
+            quantity: self.quantity,
+            difference: self.difference,
+            accuracy: self.accuracy,
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl Outcome for CompareOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let name = &self.head.analysis;
+        let counted = (self.quantity, self.difference);
+        vec![match &self.comparisons {
+            Comparisons::OnGrid(all) => on_grid::table(name, counted, all),
+            Comparisons::WithData(all) => with_data::table(name, counted, all),
+        }]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        match &self.comparisons {
+            Comparisons::OnGrid(all) => all.iter().flat_map(|c| &c.notes).collect(),
+            Comparisons::WithData(all) => all.iter().flat_map(|c| &c.notes).collect(),
+        }
+    }
+
+    /// Those of the base, once.
+    fn unlisted(&self) -> usize {
+        match &self.comparisons {
+            Comparisons::OnGrid(all) => all.first().map_or(0, |c| c.ranges_left_by_base),
+            Comparisons::WithData(_) => 0,
+        }
+    }
+}
+
+/// Unit of a quantity in tables.
+fn unit(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Efficiency => "-",
+        Quantity::Loss => "W",
+        Quantity::LossTorque => "Nm",
+        Quantity::Temperature => "degC",
+    }
+}

@@ -1,0 +1,238 @@
+//! Differences of model sets from a base over a grid: the other set minus the base.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{CompareEntry, unit};
+use crate::analyses::axes::grid_axes;
+use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::{Built, Context, Head, Stopped};
+use crate::analysis::{GridResult, Note, PointResult, Statistics, notes};
+use crate::cells;
+use crate::study::{Difference, Grid, Quantity};
+use crate::table::{Column, Table};
+
+/// Differences of one model set from the base over a grid.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct GridComparison {
+    /// Name of the set.
+    pub model_set: String,
+    /// Name of the set that it is compared with.
+    pub base: String,
+    /// Gear state.
+    pub gear: String,
+    /// What is compared.
+    pub quantity: Quantity,
+    /// Unit of the differences.
+    pub unit: &'static str,
+    /// Where the difference is minimal.
+    pub least: Option<DifferenceAt>,
+    /// Where the difference is maximal.
+    pub greatest: Option<DifferenceAt>,
+    /// Mean difference. [unit of the differences]
+    pub mean: Option<f64>,
+    /// Statistics of the differences. [unit of the differences]
+    pub difference: Option<Statistics>,
+    /// Statistics of the differences of the loss. [% of the base's loss]
+    pub loss_difference_percent_of_loss: Option<Statistics>,
+    /// What models of the set noted.
+    pub notes: Vec<Note>,
+    /// Every torque at every speed, torque by torque.
+    pub points: Vec<GridDifference>,
+    /// Torques of the grid for the base. [Nm]
+    #[serde(skip)]
+    pub torques: Vec<f64>,
+    /// Speeds of the grid for the base. [rad/s]
+    #[serde(skip)]
+    pub speeds: Vec<f64>,
+    /// At which points models of either set left a stated range.
+    #[serde(skip)]
+    pub outside: Vec<bool>,
+    /// Number of stated ranges that models of the base left.
+    #[serde(skip)]
+    pub ranges_left_by_base: usize,
+}
+
+/// A difference with its operating point.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct DifferenceAt {
+    /// The difference. [unit of the differences]
+    pub difference: f64,
+    /// Torque. [Nm]
+    pub torque_nm: f64,
+    /// Speed. [rpm]
+    pub speed_rpm: f64,
+    /// Speed as it was solved. [rad/s]
+    #[serde(skip)]
+    pub speed: f64,
+}
+
+/// Both sets at one operating point.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct GridDifference {
+    /// Torque. [Nm]
+    pub torque_nm: f64,
+    /// Speed. [rpm]
+    pub speed_rpm: f64,
+    /// Quantity under the base. [its unit; efficiency as a share]
+    pub base_model: Option<f64>,
+    /// Quantity under the set. [its unit; efficiency as a share]
+    pub model: Option<f64>,
+    /// The set minus the base. [unit of the differences]
+    pub difference: Option<f64>,
+}
+
+pub(super) fn compare(
+    cx: &Context<'_>,
+    entry: &CompareEntry,
+    grid_name: &str,
+    base: &str,
+) -> Result<(Head, Vec<GridComparison>), Stopped> {
+    let path = cx.path();
+    let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
+    let grid = cx.study.grid(&path, grid_name)?;
+    check_grid(cx, grid_name, grid)?;
+    let sets = std::iter::once(base.to_owned()).chain(entry.against.iter().cloned());
+    let sets: Vec<String> = sets.collect();
+    let built = cx.built(gearbox, &sets)?;
+    let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
+    let mut solved: Vec<GridResult> = Vec::new();
+    // Axes that count in shares of a rating have other values for each product; tables and pictures show those of the base.
+    let (mut torques, mut speeds) = (Vec::new(), Vec::new());
+    for b in built.iter().rev() {
+        (torques, speeds) = grid_axes(cx, grid_name, grid, &b.transmission)?;
+        let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
+        if cx.checked(b, &points)? {
+            continue;
+        }
+        solved.insert(0, cx.solve(b, &points)?);
+    }
+    cx.begin()?;
+    let seen_by_base = notes(&built[0].transmission, &solved[0].seen);
+    let ranges_left_by_base = seen_by_base.iter().filter(|note| note.outside > 0).count();
+    let others = built.iter().zip(&solved).skip(1);
+    let comparisons = others.map(|(b, other)| GridComparison {
+        base: base.to_owned(),
+        gear: gear.clone(),
+        torques: torques.clone(),
+        speeds: speeds.clone(),
+        ranges_left_by_base,
+        ..comparison(entry, b, &solved[0].points, other)
+    });
+    let comparisons = comparisons.collect();
+    Ok((cx.head(&built.iter().collect::<Vec<_>>()), comparisons))
+}
+
+/// Refuses a grid with bound values or an envelope.
+fn check_grid(cx: &Context<'_>, name: &str, grid: &Grid) -> Result<(), Stopped> {
+    if !grid.bind.is_empty() {
+        return Err(cx.wrong(
+            &format!("grids.{name}.bind"),
+            "a comparison takes a grid without bound values",
+            "give it a grid of its own, and the value under `conditions: { set: ... }`",
+        ));
+    }
+    if grid.envelope.is_some() {
+        return Err(cx.wrong(
+            &format!("grids.{name}.envelope"),
+            "a comparison takes a grid without envelope",
+            "give it a grid of its own",
+        ));
+    }
+    Ok(())
+}
+
+/// One set beside the base; what all sets have in common is left empty.
+fn comparison(entry: &CompareEntry, built: &Built<'_>, base: &[PointResult], other: &GridResult) -> GridComparison {
+    let point = |(base, other): (&PointResult, &PointResult)| {
+        let (base_model, model) = (entry.quantity.of(base), entry.quantity.of(other));
+        GridDifference {
+            torque_nm: other.torque,
+            speed_rpm: tidy(other.speed * RPM),
+            base_model,
+            model,
+            difference: base_model
+                .zip(model)
+                .and_then(|(base, other)| entry.quantity.difference(entry.difference, base, other)),
+        }
+    };
+    let pairs = || base.iter().zip(&other.points);
+    let points: Vec<GridDifference> = pairs().map(point).collect();
+    let at = |found: Option<(usize, f64)>| {
+        found.map(|(i, difference)| DifferenceAt {
+            difference,
+            torque_nm: points[i].torque_nm,
+            speed_rpm: points[i].speed_rpm,
+            speed: other.points[i].speed,
+        })
+    };
+    let known: Vec<f64> = points.iter().filter_map(|p| p.difference).collect();
+    let of_loss = |(base, other): (&PointResult, &PointResult)| {
+        let base = base.loss.filter(|loss| *loss != 0.0)?;
+        Some(100.0 * (other.loss? - base) / base)
+    };
+    GridComparison {
+        model_set: built.name.clone(),
+        base: String::new(),
+        gear: String::new(),
+        quantity: entry.quantity,
+        unit: entry.quantity.unit(entry.difference),
+        least: at(extreme(&points, |a, b| a < b)),
+        greatest: at(extreme(&points, |a, b| a > b)),
+        mean: (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64),
+        difference: Statistics::of(known),
+        loss_difference_percent_of_loss: Statistics::of(pairs().filter_map(of_loss)),
+        notes: notes(&built.transmission, &other.seen),
+        outside: pairs().map(|(a, b)| a.outside || b.outside).collect(),
+        points,
+        torques: Vec::new(),
+        speeds: Vec::new(),
+        ranges_left_by_base: 0,
+    }
+}
+
+/// Place and value of the first difference that comes before all others.
+fn extreme(points: &[GridDifference], before: fn(f64, f64) -> bool) -> Option<(usize, f64)> {
+    let mut best: Option<(usize, f64)> = None;
+    for (i, point) in points.iter().enumerate() {
+        if let Some(difference) = point.difference
+            && best.is_none_or(|(_, so_far)| before(difference, so_far))
+        {
+            best = Some((i, difference));
+        }
+    }
+    best
+}
+
+pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), all: &[GridComparison]) -> Table {
+    let what = quantity.name();
+    let difference_name = format!("difference_{}", quantity.unit(difference));
+    let mut table = Table::new(
+        name,
+        [
+            Column::text("model_set", "Model set"),
+            Column::text("base", "Model set that it is compared with"),
+            Column::text("gear", "Gear state"),
+            Column::number("torque_nm", "Nm", "Torque"),
+            Column::number("speed_rpm", "rpm", "Speed"),
+            Column::number(what, unit(quantity), "Quantity under the set"),
+            Column::number(format!("base_{what}"), unit(quantity), "Quantity under the base"),
+            Column::number(difference_name, quantity.words(difference).1, "The set minus the base"),
+        ],
+    );
+    for comparison in all {
+        for point in &comparison.points {
+            table.push(cells![
+                &comparison.model_set,
+                &comparison.base,
+                &comparison.gear,
+                point.torque_nm,
+                point.speed_rpm,
+                point.model,
+                point.base_model,
+                point.difference,
+            ]);
+        }
+    }
+    table
+}

@@ -1,0 +1,303 @@
+//! Models against measured points: the model minus the measurement.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{CompareEntry, unit};
+use crate::analyses::measurable::is_measurable;
+use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::rows::Solved;
+use crate::analyses::{Built, Context, Head, Stopped};
+use crate::analysis::{Note, PointResult, Statistics, bands};
+use crate::cells;
+use crate::measured::{Measured, Row, Seen, counted};
+use crate::study::{Data, Difference, Quantity};
+use crate::table::{Column, Table};
+
+/// The measurement of a comparison.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DataOfComparison {
+    /// Name of the file, or of several.
+    pub file: String,
+    /// Number of points.
+    pub points: usize,
+    /// How the file was read, and which rows were omitted.
+    pub notes: Vec<String>,
+}
+
+/// Differences of one model set from the measurement.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DataComparison {
+    /// Name of the set.
+    pub model_set: String,
+    /// What is compared.
+    pub quantity: Quantity,
+    /// Unit of the differences.
+    pub unit: &'static str,
+    /// Statistics of the differences. [unit of the differences]
+    pub difference: Option<Statistics>,
+    /// Statistics of the differences of the loss. [% of the measured loss]
+    pub loss_difference_percent_of_loss: Option<Statistics>,
+    /// Differences in bands of torque, then of speed.
+    pub bands: Vec<Band>,
+    /// What models of the set noted.
+    pub notes: Vec<Note>,
+    /// The measured points, in the order of the file.
+    pub points: Vec<ComparedPoint>,
+    /// Accuracy of the measurement: root mean square over the points, or the one that the study states. [unit of the differences]
+    #[serde(skip)]
+    pub accuracy: Option<f64>,
+}
+
+/// Differences within a band of torque or speed.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct Band {
+    /// Coordinate of the band: `torque` or `speed`.
+    pub over: &'static str,
+    /// Unit of the coordinate.
+    pub unit: &'static str,
+    /// Lower end. [unit of the coordinate]
+    pub from: f64,
+    /// Upper end. [unit of the coordinate]
+    pub to: f64,
+    /// Statistics of the differences. [unit of the differences]
+    pub difference: Option<Statistics>,
+}
+
+/// One measured point beside the model.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ComparedPoint {
+    /// Line in the file. [-]
+    pub line: u64,
+    /// Name, where the file has names.
+    pub name: Option<String>,
+    /// Gear state.
+    pub gear: String,
+    /// Torque. [Nm]
+    pub torque_nm: f64,
+    /// Speed. [rpm]
+    pub speed_rpm: f64,
+    /// Temperature of the oil. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// Measured quantity. [its unit; efficiency as a share]
+    pub measured: Option<f64>,
+    /// Quantity under the model set. [its unit; efficiency as a share]
+    pub model: Option<f64>,
+    /// Model minus measurement. [unit of the differences]
+    pub difference: Option<f64>,
+    /// The same difference as a loss. [% of the measured loss]
+    pub loss_difference_percent_of_loss: Option<f64>,
+    /// Accuracy of the measured quantity, where a column states it. [unit of the quantity]
+    pub accuracy: Option<f64>,
+    /// Name of the file, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Speed as it was solved. [rad/s]
+    #[serde(skip)]
+    pub speed: f64,
+    /// True where the measured loss is too small for a difference in percent of it.
+    #[serde(skip)]
+    pub omitted: bool,
+    /// How much the point counts; one where no column states it. [-]
+    #[serde(skip)]
+    pub weight: f64,
+}
+
+/// Model sets in the order in which they match the measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranking {
+    /// Names, each with the root mean square of its differences; the best first. [unit of the differences]
+    pub sets: Vec<(String, f64)>,
+    /// Number of points at which every set has a value.
+    pub points: usize,
+    /// Number of points that are omitted because a set has no value there.
+    pub omitted: usize,
+}
+
+pub(super) fn compare(
+    cx: &Context<'_>,
+    entry: &CompareEntry,
+    data: &Data,
+) -> Result<(Head, DataOfComparison, Vec<DataComparison>), Stopped> {
+    let path = format!("{}.data", cx.path());
+    let bind: Vec<&str> = entry.bind.ids().collect();
+    let measured = cx.read(&path, data, &bind)?;
+    let file = cx.data(&path, data)?.file.to_string();
+    let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
+    let gear = entry.gear.as_deref();
+    let solved = cx.at_rows(gearbox, &entry.against, &entry.bind, gear, &measured, false)?;
+    cx.begin()?;
+    let all: Vec<DataComparison> = solved.iter().map(|s| comparison(entry, &measured, s)).collect();
+    if all.iter().all(|c| c.points.iter().all(|p| p.measured.is_none())) {
+        let message = format!("{file}: nothing gives a measured {}", entry.quantity.name());
+        let mend = "name a column of it, or columns of torque and speed at both ports";
+        return Err(cx.wrong(&path, message, mend));
+    }
+    let built: Vec<&Built<'_>> = solved.iter().flat_map(|s| &s.built).collect();
+    let data = DataOfComparison {
+        file,
+        points: measured.rows.len(),
+        notes: measured.notes.clone(),
+    };
+    Ok((cx.head(&built), data, all))
+}
+
+fn comparison(entry: &CompareEntry, measured: &Measured, solved: &Solved<'_>) -> DataComparison {
+    let rows = measured.rows.iter().zip(&solved.rows);
+    let points: Vec<ComparedPoint> = rows
+        .map(|(row, (_, gear, point))| compared(entry, measured, (row, gear), point))
+        .collect();
+    let accuracies = points
+        .iter()
+        .filter_map(|p| counted(entry.quantity, entry.difference, p.accuracy?, p.measured));
+    let differences = points.iter().filter_map(|p| Some((p.difference?, p.weight)));
+    let losses = points
+        .iter()
+        .filter_map(|p| Some((p.loss_difference_percent_of_loss?, p.weight)));
+    DataComparison {
+        model_set: solved.name.clone(),
+        quantity: entry.quantity,
+        unit: entry.quantity.unit(entry.difference),
+        difference: Statistics::weighted(differences),
+        loss_difference_percent_of_loss: Statistics::weighted(losses),
+        bands: bands_of_points(&points),
+        notes: solved.notes.clone(),
+        accuracy: Statistics::of(accuracies).map(|s| s.rms).or(entry.accuracy),
+        points,
+    }
+}
+
+fn compared(
+    entry: &CompareEntry,
+    measured: &Measured,
+    (row, gear): (&Row, &str),
+    point: &PointResult,
+) -> ComparedPoint {
+    let seen = Seen::of(measured, row, point);
+    let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.of(point));
+    let losses = seen.loss.zip(point.loss);
+    ComparedPoint {
+        line: row.line,
+        name: row.name.clone(),
+        gear: gear.to_owned(),
+        torque_nm: point.torque,
+        speed_rpm: tidy(point.speed * RPM),
+        oil_temperature_degc: point.oil,
+        measured: saw,
+        model,
+        difference: saw
+            .zip(model)
+            .filter(|(saw, model)| entry.difference == Difference::Points || is_measurable(*saw, *model))
+            .and_then(|(saw, model)| entry.quantity.difference(entry.difference, saw, model)),
+        loss_difference_percent_of_loss: losses
+            .filter(|(saw, model)| is_measurable(*saw, *model))
+            .map(|(saw, model)| 100.0 * (model - saw) / saw),
+        accuracy: seen.accuracy(entry.quantity),
+        file: measured.file(row).map(str::to_owned),
+        speed: point.speed,
+        omitted: losses.is_some_and(|(saw, model)| !is_measurable(saw, model)),
+        weight: measured.value(row, "weight").unwrap_or(1.0),
+    }
+}
+
+/// Differences in bands of torque, then of speed.
+fn bands_of_points(points: &[ComparedPoint]) -> Vec<Band> {
+    type Coordinate = (&'static str, &'static str, fn(&ComparedPoint) -> f64);
+    let coordinates: [Coordinate; 2] = [("torque", "nm", |p| p.torque_nm), ("speed", "rpm", |p| p.speed * RPM)];
+    let mut list = Vec::new();
+    for (over, unit, coordinate) in coordinates {
+        let at: Vec<f64> = points.iter().map(coordinate).collect();
+        for ([from, to], places) in bands(&at) {
+            let own = places.iter().map(|i| &points[*i]);
+            list.push(Band {
+                over,
+                unit,
+                from,
+                to,
+                difference: Statistics::weighted(own.filter_map(|p| Some((p.difference?, p.weight)))),
+            });
+        }
+    }
+    list
+}
+
+/// Ranks sets over the points at which every one of them has a value.
+pub fn ranking(all: &[DataComparison]) -> Ranking {
+    let count = all.first().map_or(0, |c| c.points.len());
+    let common = |i: &usize| all.iter().all(|c| c.points[*i].difference.is_some());
+    let places: Vec<usize> = (0..count).filter(common).collect();
+    let rms = |c: &DataComparison| {
+        let points = places.iter().map(|i| &c.points[*i]);
+        Statistics::weighted(points.filter_map(|p| Some((p.difference?, p.weight)))).map(|s| s.rms)
+    };
+    let ranked = all.iter().filter_map(|c| Some((c.model_set.clone(), rms(c)?)));
+    let mut sets: Vec<(String, f64)> = ranked.collect();
+    sets.sort_by(|a, b| a.1.total_cmp(&b.1));
+    Ranking {
+        sets,
+        points: places.len(),
+        omitted: count - places.len(),
+    }
+}
+
+pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), all: &[DataComparison]) -> Table {
+    let what = quantity.name();
+    let difference_name = format!("difference_{}", quantity.unit(difference));
+    let mut points = all.iter().flat_map(|c| &c.points);
+    let several = points.any(|p| p.file.is_some());
+    let mut table = Table::new(
+        name,
+        [
+            Column::text("model_set", "Model set"),
+            if several {
+                Column::text("line", "File and line")
+            } else {
+                Column::number("line", "-", "Line in the file")
+            },
+            Column::text("name", "Name of the point"),
+            Column::text("gear", "Gear state"),
+            Column::number("torque_nm", "Nm", "Torque"),
+            Column::number("speed_rpm", "rpm", "Speed"),
+            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+            Column::number(format!("measured_{what}"), unit(quantity), "Measured quantity"),
+            Column::number(what, unit(quantity), "Quantity under the set"),
+            Column::number(difference_name, quantity.words(difference).1, "Model minus measurement"),
+            Column::number(
+                "loss_difference_percent_of_loss",
+                "%",
+                "Loss of the model minus measured loss",
+            ),
+            Column::number(
+                format!("accuracy_{what}"),
+                unit(quantity),
+                "Accuracy of the measured quantity",
+            ),
+        ],
+    );
+    for comparison in all {
+        for point in &comparison.points {
+            let line = match &point.file {
+                Some(file) => format!("{file}:{}", point.line).into(),
+                None if several => point.line.to_string().into(),
+                None => (point.line as f64).into(),
+            };
+            let [set, name, gear] = cells![
+                &comparison.model_set,
+                point.name.as_deref().unwrap_or_default(),
+                &point.gear
+            ];
+            let numbers = cells![
+                point.torque_nm,
+                point.speed_rpm,
+                point.oil_temperature_degc,
+                point.measured,
+                point.model,
+                point.difference,
+                point.loss_difference_percent_of_loss,
+                point.accuracy,
+            ];
+            table.push([set, line, name, gear].into_iter().chain(numbers));
+        }
+    }
+    table
+}

@@ -1,0 +1,475 @@
+//! Several models of one component over speed, term by term, with measured points beside them.
+
+use gearloss_framework::attach::dangling;
+use gearloss_framework::description::Ordered;
+use gearloss_framework::evaluate::{PartLoss, Point};
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::loss::Term;
+use gearloss_framework::resolve::Choice;
+use gearloss_framework::transmission::{Case, Transmission};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::axes::{speeds, torques};
+use super::measurable::is_measurable;
+use super::numbers::{RPM, tidy};
+use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use crate::analysis::{Note, Points, notes};
+use crate::cells;
+use crate::register_analysis;
+use crate::study::{Data, SpeedAxis, TorqueAxis, Uses, Write};
+use crate::table::{Column, Table};
+
+/// Several models of one component over speed.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ComponentCompareEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Path of the component, such as `bearings.B1`, `meshes.M1` or `gears.G4.drag.churning`.
+    pub component: String,
+    /// Models by name, each as in a gearbox: `{ type: skf }`. The other components keep theirs.
+    pub models: Ordered<Value>,
+    /// Set of models for everything else; absent, the models of the gearbox.
+    pub model_set: Option<String>,
+    /// Overrides for this analysis: resolved path to value, such as `meshes.M2.drag.churning: none`.
+    #[serde(default)]
+    pub set: Ordered<Value>,
+    /// Torques.
+    pub torque: TorqueAxis,
+    /// Speeds.
+    pub speed: SpeedAxis,
+    /// Measured points: torque and speed at the study's ports, and the loss of the component. Each is compared with every model
+    /// at that torque and speed.
+    pub measured: Option<Data>,
+    /// Formats to write; absent, CSV and JSON.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+}
+
+impl Entry for ComponentCompareEntry {
+    const TYPE: &'static str = "component_compare";
+    const MEANING: &'static str = "Several models of one component over speed.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_set)
+            .at(&self.gear)
+            .with("measured", self.measured.as_ref())
+    }
+}
+
+register_analysis!(ComponentCompareEntry);
+
+/// Several models of one component over speed.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ComponentCompareOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// The comparison.
+    pub component_comparison: ComponentComparison,
+    /// Why models have no losses, one entry for each that is omitted.
+    #[serde(skip)]
+    pub failures: Vec<Findings>,
+}
+
+/// Losses of one component under several models.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ComponentComparison {
+    /// Path of the component.
+    pub component: String,
+    /// Model set of everything else; absent, the models of the gearbox.
+    pub model_set: Option<String>,
+    /// Gear state.
+    pub gear: String,
+    /// Temperature of the oil, where it is given. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// One for each model.
+    pub models: Vec<ModelOfComponent>,
+    /// The measured points.
+    pub measured: Vec<MeasuredLoss>,
+    /// Differences between models and measurement; none for a model without a value at any measured point.
+    pub deviations: Vec<DeviationOfModel>,
+    /// Torques of the grid. [Nm]
+    #[serde(skip)]
+    pub torques: Vec<f64>,
+    /// Speeds of the grid. [rad/s]
+    #[serde(skip)]
+    pub speeds: Vec<f64>,
+    /// Number of measured points whose loss is too small for a difference in percent.
+    #[serde(skip)]
+    pub omitted: usize,
+}
+
+/// One model with the losses of the component under it.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ModelOfComponent {
+    /// Name of the model in the study.
+    pub model: String,
+    /// Every torque at every speed of the grid, torque by torque.
+    pub points: Vec<LossOfComponent>,
+    /// The same at the measured points.
+    pub at_measured: Vec<LossOfComponent>,
+    /// What models noted.
+    pub notes: Vec<Note>,
+    /// Terms of the model.
+    #[serde(skip)]
+    pub terms: Vec<&'static str>,
+}
+
+/// Loss of the component at one point.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct LossOfComponent {
+    /// Given torque. [Nm]
+    pub torque_nm: f64,
+    /// Given speed. [rpm]
+    pub speed_rpm: f64,
+    /// Loss of all copies; absent where the model has no value. [W]
+    pub loss_w: Option<f64>,
+    /// Moment of one copy about its relative speed. [Nm]
+    pub moment_of_one_nm: Option<f64>,
+    /// Loss of all copies by term. [W]
+    pub terms_w: Ordered<Option<f64>>,
+    /// Why the model has no value.
+    pub undefined: Option<String>,
+}
+
+/// One measured point.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct MeasuredLoss {
+    /// Torque. [Nm]
+    pub torque_nm: f64,
+    /// Speed. [rpm]
+    pub speed_rpm: f64,
+    /// Measured loss of the component. [W]
+    pub loss_w: f64,
+    /// Speed as it was read. [rad/s]
+    #[serde(skip)]
+    pub speed: f64,
+}
+
+/// Differences between one model and the measurement.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DeviationOfModel {
+    /// Name of the model.
+    pub model: String,
+    /// Number of points.
+    pub count: usize,
+    /// Mean of model minus measurement. [%]
+    pub mean_percent: f64,
+    /// Root mean square of model minus measurement. [%]
+    pub rms_percent: f64,
+}
+
+/// Torque and speed of the points at which models are evaluated.
+struct Places {
+    /// Every torque at every speed. \[Nm, rad/s\]
+    grid: Vec<(f64, f64)>,
+    measured: Vec<MeasuredLoss>,
+}
+
+/// One model as it was built, and its losses.
+struct Evaluated<'a> {
+    built: Built<'a>,
+    gear: String,
+    model: ModelOfComponent,
+}
+
+impl Analysis for ComponentCompareEntry {
+    type Outcome = ComponentCompareOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<ComponentCompareOutcome, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        let own = cx.built(gearbox, self.model_set.as_slice())?;
+        // A drag may come with the models.
+        let known = |b: &Built<'_>| b.transmission.parts().iter().any(|part| part.path == self.component);
+        if !self.component.contains(".drag.") && !own.iter().any(known) {
+            return Err(no_part(cx, &self.component, &own[0].transmission));
+        }
+        let torques = torques(cx, &format!("{path}.torque"), &self.torque, &own[0].transmission)?;
+        let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &own[0].transmission)?;
+        cx.holds(&path, torques.len().saturating_mul(speeds.len()), self.models.len())?;
+        let grid = torques.iter().flat_map(|t| speeds.iter().map(move |w| (*t, *w)));
+        let places = Places {
+            grid: grid.collect(),
+            measured: match &self.measured {
+                Some(data) => measured(cx, &format!("{path}.measured"), data)?,
+                None => Vec::new(),
+            },
+        };
+        self.check_names(cx)?;
+        // A model that fails does not stop the others.
+        let (mut evaluated, mut failures) = (Vec::new(), Vec::new());
+        for (model, value) in self.models.iter() {
+            match self.evaluate(cx, gearbox, (model, value), &places) {
+                Ok(model) => evaluated.push(model),
+                Err(Stopped::Found(findings)) => failures.push(findings),
+                Err(stopped) => return Err(stopped),
+            }
+        }
+        if !failures.is_empty() && (evaluated.is_empty() || cx.only_checks) {
+            return Err(Stopped::Several(failures));
+        }
+        cx.begin()?;
+        let head = cx.head(&evaluated.iter().map(|e| &e.built).collect::<Vec<_>>());
+        let given = cx.points(&evaluated[0].built.transmission, "", Vec::new(), Vec::new());
+        let gear = evaluated[0].gear.clone();
+        let models: Vec<ModelOfComponent> = evaluated.into_iter().map(|e| e.model).collect();
+        Ok(ComponentCompareOutcome {
+            head,
+            component_comparison: ComponentComparison {
+                component: self.component.clone(),
+                model_set: self.model_set.clone(),
+                gear,
+                oil_temperature_degc: given.oil.given(),
+                deviations: deviations(&models, &places.measured),
+                omitted: omitted(&models, &places.measured),
+                models,
+                measured: places.measured,
+                torques,
+                speeds,
+            },
+            failures,
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl ComponentCompareEntry {
+    /// The slot of the component: drags are slots themselves.
+    fn slot(&self) -> String {
+        if self.component.contains(".drag.") {
+            self.component.clone()
+        } else {
+            format!("{}.model", self.component)
+        }
+    }
+
+    /// Refuses a comparison without models, and a model that is called as the measured points are.
+    fn check_names(&self, cx: &Context<'_>) -> Result<(), Stopped> {
+        let path = format!("{}.models", cx.path());
+        if self.models.is_empty() {
+            let mend = "write `models: { ours: { type: skf } }`, say";
+            return Err(cx.wrong(&path, "no model is named", mend));
+        }
+        if self.models.iter().any(|(name, _)| name == "measured") {
+            let message = "`measured` is the name of the measured points";
+            return Err(cx.wrong(&path, message, "call the model otherwise"));
+        }
+        Ok(())
+    }
+
+    /// One model at the points of the grid and at the measured ones.
+    fn evaluate<'a>(
+        &self,
+        cx: &Context<'_>,
+        gearbox: &'a Gearbox,
+        (model, value): (&str, &Value),
+        places: &Places,
+    ) -> Result<Evaluated<'a>, Stopped> {
+        let mut choice: Choice = cx.study.choice(self.model_set.as_deref());
+        let set = self.set.iter().map(|(path, value)| (path.to_owned(), value.clone()));
+        choice.overrides.extend(set);
+        choice.overrides.push((self.slot(), value.clone()));
+        let own = (self.slot(), format!("{}.models.{model}", cx.path()));
+        let (resolved, transmission) = cx.study.built(cx.language, gearbox, &choice, &[own])?;
+        let gear = gear_of(self.gear.as_deref(), &transmission).to_owned();
+        let part = transmission.parts().iter().position(|p| p.path == self.component);
+        let Some(part) = part else {
+            return Err(no_part(cx, &self.component, &transmission));
+        };
+        let given = cx.points(&transmission, &gear, Vec::new(), Vec::new());
+        let case = cx.case(gearbox, &transmission, &given)?;
+        let grid: &[(f64, f64)] = if cx.only_checks { &[] } else { &places.grid };
+        let measured = places.measured.iter().map(|m| (m.torque_nm, m.speed));
+        let all: Vec<(f64, f64)> = grid.iter().copied().chain(measured).collect();
+        let instance = transmission.parts()[part].notes.instance();
+        let terms = transmission.instances()[instance].entry.terms;
+        let (mut points, notes) = losses(&transmission, (&given, &case), (part, terms), &all);
+        let at_measured = points.split_off(grid.len());
+        Ok(Evaluated {
+            model: ModelOfComponent {
+                model: model.to_owned(),
+                points,
+                at_measured,
+                notes,
+                terms: terms.iter().map(|term| term.name).collect(),
+            },
+            gear,
+            built: Built {
+                name: model.to_owned(),
+                gearbox,
+                resolved,
+                transmission,
+            },
+        })
+    }
+}
+
+fn no_part(cx: &Context<'_>, component: &str, transmission: &Transmission) -> Stopped {
+    let paths: Vec<&str> = transmission.parts().iter().map(|p| p.path.as_str()).collect();
+    let path = format!("{}.component", cx.path());
+    cx.found(vec![dangling(&path, "component", component, &paths)])
+}
+
+/// Losses of a part at points of torque and speed, and what models noted.
+fn losses(
+    transmission: &Transmission,
+    (given, case): (&Points, &Case),
+    (part, terms): (usize, &[Term]),
+    points: &[(f64, f64)],
+) -> (Vec<LossOfComponent>, Vec<Note>) {
+    let mut scratch = transmission.scratch(case);
+    let mut losses = Vec::with_capacity(points.len());
+    for (torque, speed) in points {
+        let torques = [*torque];
+        let point = Point {
+            speeds: &[*speed],
+            torques: &torques[..case.torque_ports.len()],
+            flow: given.flow,
+            tolerance: Tolerance::default(),
+        };
+        let warm = given.oil.find(transmission, case, &point, &mut scratch);
+        let solution = transmission.evaluate(case, &point, warm.temperatures(), &mut scratch);
+        losses.push(loss_of_component((*torque, *speed), &solution.explain(part).0, terms));
+    }
+    (losses, notes(transmission, &scratch.totals))
+}
+
+fn loss_of_component((torque, speed): (f64, f64), loss: &PartLoss, terms: &[Term]) -> LossOfComponent {
+    let has_value = loss.result.is_ok();
+    let term = |term: &Term| {
+        let watts = has_value.then(|| loss.term_watts(term.index));
+        (term.name.to_owned(), watts)
+    };
+    LossOfComponent {
+        torque_nm: torque,
+        speed_rpm: tidy(speed * RPM),
+        loss_w: has_value.then(|| loss.watts()),
+        moment_of_one_nm: loss.moment(),
+        terms_w: Ordered(terms.iter().map(term).collect()),
+        undefined: loss.result.err().map(|reason| reason.to_string()),
+    }
+}
+
+/// Computed and measured losses at the measured points where the model has a value.
+fn pairs<'a>(model: &'a ModelOfComponent, measured: &'a [MeasuredLoss]) -> impl Iterator<Item = (f64, f64)> + 'a {
+    let pairs = model.at_measured.iter().zip(measured);
+    pairs.filter_map(|(point, m)| Some((point.loss_w?, m.loss_w)))
+}
+
+/// Mean and root mean square of the differences from the measured points, by model.
+fn deviations(models: &[ModelOfComponent], measured: &[MeasuredLoss]) -> Vec<DeviationOfModel> {
+    let deviation = |model: &ModelOfComponent| {
+        let gaps: Vec<f64> = pairs(model, measured)
+            .filter(|(computed, seen)| is_measurable(*seen, *computed))
+            .map(|(computed, seen)| 100.0 * (computed - seen) / seen)
+            .collect();
+        let count = gaps.len() as f64;
+        (!gaps.is_empty()).then(|| DeviationOfModel {
+            model: model.model.clone(),
+            count: gaps.len(),
+            mean_percent: gaps.iter().sum::<f64>() / count,
+            rms_percent: (gaps.iter().map(|g| g * g).sum::<f64>() / count).sqrt(),
+        })
+    };
+    models.iter().filter_map(deviation).collect()
+}
+
+/// Number of measured points whose loss is too small for a difference in percent: the maximum over the models.
+fn omitted(models: &[ModelOfComponent], measured: &[MeasuredLoss]) -> usize {
+    let omitted = |model| {
+        let omitted = pairs(model, measured).filter(|(computed, seen)| !is_measurable(*seen, *computed));
+        omitted.count()
+    };
+    models.iter().map(omitted).max().unwrap_or(0)
+}
+
+/// Reads measured points.
+fn measured(cx: &Context<'_>, path: &str, data: &Data) -> Result<Vec<MeasuredLoss>, Stopped> {
+    let read = cx.read_at_ports(path, data, &[])?;
+    let mut points = Vec::new();
+    for row in &read.rows {
+        let value = |quantity: &str| read.value(row, quantity);
+        let loss = value("loss").filter(|watts| *watts > 0.0);
+        let (Some(torque), Some(speed), Some(watts)) = (value("torque"), value("speed"), loss) else {
+            let file = &cx.data(path, data)?.file;
+            let message = format!("{file}: {}: no loss above zero", read.origin(row));
+            return Err(cx.wrong(path, message, "give the loss of the component in a column `loss [W]`"));
+        };
+        points.push(MeasuredLoss {
+            torque_nm: torque,
+            speed_rpm: tidy(speed * RPM),
+            loss_w: watts,
+            speed,
+        });
+    }
+    Ok(points)
+}
+
+impl Outcome for ComponentCompareOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut table = Table::new(
+            &self.head.analysis,
+            [
+                Column::text("model", "Model, or `measured`"),
+                Column::number("torque_nm", "Nm", "Given torque"),
+                Column::number("speed_rpm", "rpm", "Given speed"),
+                Column::text("term", "Term of the model, or `total`"),
+                Column::number("loss_w", "W", "Loss of all copies"),
+                Column::number("moment_of_one_nm", "Nm", "Moment of one copy about its relative speed"),
+                Column::text("undefined", "Why the model has no value"),
+            ],
+        );
+        let comparison = &self.component_comparison;
+        for model in &comparison.models {
+            for point in model.points.iter().chain(&model.at_measured) {
+                let (name, torque, speed) = (&model.model, point.torque_nm, point.speed_rpm);
+                let why = point.undefined.as_deref().unwrap_or_default();
+                table.push(cells![
+                    name,
+                    torque,
+                    speed,
+                    "total",
+                    point.loss_w,
+                    point.moment_of_one_nm,
+                    why
+                ]);
+                for (term, watts) in point.terms_w.iter() {
+                    table.push(cells![name, torque, speed, term, *watts, None::<f64>, why]);
+                }
+            }
+        }
+        for m in &comparison.measured {
+            let (torque, speed) = (m.torque_nm, m.speed_rpm);
+            table.push(cells!["measured", torque, speed, "total", m.loss_w, None::<f64>, ""]);
+        }
+        vec![table]
+    }
+
+    /// None: each is beside the losses of its model. The models that are compared are not those of the study.
+    fn notes(&self) -> Vec<&Note> {
+        Vec::new()
+    }
+
+    fn unlisted(&self) -> usize {
+        let models = &self.component_comparison.models;
+        let notes = models.iter().flat_map(|model| &model.notes);
+        notes.filter(|note| note.outside > 0).count()
+    }
+
+    fn failures(&self) -> &[Findings] {
+        &self.failures
+    }
+}

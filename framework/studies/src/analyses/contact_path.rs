@@ -1,0 +1,352 @@
+//! Sliding and rolling speed, load share, Hertz pressure, friction, film and loss along the path of contact of one mesh.
+
+use std::sync::Arc;
+
+use gearloss_framework::attach::dangling;
+use gearloss_framework::contact::path::Path;
+use gearloss_framework::contact::{Film, film};
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::evaluate::Point;
+use gearloss_framework::flow::Tolerance;
+use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::loss::Notes;
+use gearloss_framework::mechanism::gear_mesh::{GearMeshAt, MeshPart};
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
+use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
+use gearloss_framework::registry::{Build, ModelRef, Slot};
+use gearloss_framework::transmission::Transmission;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::numbers::{RPM, tidy};
+use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use crate::analysis::Note;
+use crate::cells;
+use crate::register_analysis;
+use crate::study::{Uses, Write};
+use crate::table::{Column, Table};
+
+/// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct ContactPathEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Mesh, one of `meshes`.
+    pub mesh: String,
+    /// Torque. [Nm]
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub torque: f64,
+    /// Speed. [rpm]
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub speed: f64,
+    /// Number of places. [-]
+    #[serde(default = "places")]
+    #[schemars(range(min = 3, max = 2001))]
+    pub places: u32,
+    /// Formats to write; absent, CSV and JSON.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+}
+
+fn places() -> u32 {
+    101
+}
+
+impl Entry for ContactPathEntry {
+    const TYPE: &'static str = "contact_path";
+    const MEANING: &'static str =
+        "Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
+}
+
+register_analysis!(ContactPathEntry);
+
+/// The path of contact of one mesh under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ContactPathOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set.
+    pub paths: Vec<ContactPath>,
+}
+
+/// The path of contact under one model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ContactPath {
+    /// Name of the set.
+    pub model_set: String,
+    /// Mesh.
+    pub mesh: String,
+    /// Gear state.
+    pub gear: String,
+    /// Given torque. [Nm]
+    pub torque_nm: f64,
+    /// Given speed. [rpm]
+    pub speed_rpm: f64,
+    /// Temperature of the oil. [degC]
+    pub oil_temperature_degc: f64,
+    /// How the pairs in contact share the load.
+    pub load_sharing: LoadSharing,
+    /// Torque of the mesh on its first gear. [Nm]
+    pub mesh_torque_nm: f64,
+    /// Why there is no friction; absent where there is.
+    pub no_friction: Option<String>,
+    /// Places along the path, from the first contact on.
+    pub places: Vec<PlaceOnPath>,
+}
+
+/// One place on the path of contact.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct PlaceOnPath {
+    /// Distance from the pitch point, towards the tip of the first gear. [mm]
+    pub from_pitch_point_mm: f64,
+    /// Share of the normal force on one pair. [-]
+    pub load_share: f64,
+    /// Sliding speed. [m/s]
+    pub sliding_speed_m_s: f64,
+    /// Sum of the surface speeds. [m/s]
+    pub sum_speed_m_s: f64,
+    /// Radius of relative curvature. [mm]
+    pub radius_mm: f64,
+    /// Hertzian pressure. [GPa]
+    pub hertz_pressure_gpa: f64,
+    /// Minimum film thickness, isothermal, Dowson and Higginson. [um]
+    pub film_um: f64,
+    /// Coefficient of friction, where the model has one. [-]
+    pub mu: Option<f64>,
+    /// Power lost in sliding of one pair there. [W]
+    pub sliding_loss_w: Option<f64>,
+}
+
+/// The law of friction within the model of a mesh.
+enum Friction {
+    Local(Slot<ToothFriction>),
+    Mean(Slot<MeanFriction>),
+    /// The model of the mesh shows none.
+    Hidden,
+}
+
+impl Friction {
+    /// The law that the model of a mesh holds in a slot.
+    fn new(build: &mut Build<'_>, path: &str, part: &Arc<MeshPart>, model: &Value) -> Result<Self, Diagnostic> {
+        if let Some(value) = model.get("tooth_friction") {
+            let slot = ModelRef::<ToothFriction>::new(value.clone());
+            let built = build.slot_beside(&format!("{path}.tooth_friction"), part, &slot.value);
+            return built.map(Self::Local);
+        }
+        if let Some(value) = model.get("mean_friction") {
+            let built = build.slot_at(&format!("{path}.mean_friction"), part, value);
+            return built.map(Self::Mean);
+        }
+        Ok(Self::Hidden)
+    }
+
+    /// The coefficient at so many places, or why there is none.
+    fn coefficients(&self, along: &PathAt<'_>, mean: &MeanFrictionAt<'_>, places: usize) -> Result<Vec<f64>, String> {
+        match self {
+            Self::Hidden => Err("its model shows no friction along the path".to_owned()),
+            Self::Local(slot) => {
+                let mut mu = vec![0.0; places];
+                match slot.along(along, &mut mu) {
+                    Ok(_) => Ok(mu),
+                    Err(undefined) => Err(undefined.to_string()),
+                }
+            }
+            Self::Mean(slot) => match slot.mu(mean) {
+                Ok(mu) => Ok(vec![mu; places]),
+                Err(undefined) => Err(undefined.to_string()),
+            },
+        }
+    }
+}
+
+impl Analysis for ContactPathEntry {
+    type Outcome = ContactPathOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<ContactPathOutcome, Stopped> {
+        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let paths = built.iter().map(|b| self.path(cx, b)).collect::<Result<_, _>>()?;
+        cx.begin()?;
+        let head = cx.head(&built.iter().collect::<Vec<_>>());
+        Ok(ContactPathOutcome { head, paths })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl ContactPathEntry {
+    /// The path under one set.
+    fn path(&self, cx: &Context<'_>, built: &Built<'_>) -> Result<ContactPath, Stopped> {
+        let t = &built.transmission;
+        let index = self.mesh(cx, t)?;
+        let given = cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new());
+        let case = cx.case(built.gearbox, t, &given)?;
+        let torques = [self.torque];
+        let point = Point {
+            speeds: &[self.speed],
+            torques: &torques[..case.torque_ports.len()],
+            flow: given.flow,
+            tolerance: Tolerance::default(),
+        };
+        let mut scratch = t.scratch(&case);
+        let warm = given.oil.find(t, &case, &point, &mut scratch);
+        let solution = t.evaluate(&case, &point, warm.temperatures(), &mut scratch);
+        if !solution.has_flow() {
+            let message = format!(
+                "{} at this point, so no torque of the mesh is known",
+                solution.status().name()
+            );
+            let mend = "give the torque at another port, or with the other sign";
+            return Err(cx.wrong(&cx.path(), message, mend));
+        }
+        let model = &built.resolved.value["meshes"][&self.mesh]["model"];
+        let load_sharing = sharing(model);
+        let (places, no_friction) = self.places(cx, built, &solution.mesh_at(index), (model, load_sharing))?;
+        Ok(ContactPath {
+            model_set: built.name.clone(),
+            mesh: self.mesh.clone(),
+            gear: given.gear.clone(),
+            torque_nm: self.torque,
+            speed_rpm: tidy(self.speed * RPM),
+            oil_temperature_degc: warm.oil,
+            load_sharing,
+            mesh_torque_nm: solution.mesh_torque(index),
+            no_friction,
+            places,
+        })
+    }
+
+    /// Number of the mesh; refuses one that is not there or has no path of contact.
+    fn mesh(&self, cx: &Context<'_>, t: &Transmission) -> Result<usize, Stopped> {
+        let own = format!("meshes.{}", self.mesh);
+        let path = format!("{}.mesh", cx.path());
+        let Some((index, (_, part))) = t.meshes().enumerate().find(|(_, (path, _))| *path == own) else {
+            let names: Vec<&str> = t.meshes().map(|(path, _)| path.trim_start_matches("meshes.")).collect();
+            return Err(cx.found(vec![dangling(&path, "mesh", &self.mesh, &names)]));
+        };
+        if !part.pair.involute {
+            return Err(cx.wrong(
+                &path,
+                format!(
+                    "`{}` has no path of contact: its teeth are not known as an involute pair",
+                    self.mesh
+                ),
+                "state the tip diameter of the ring, or check what `gearloss check` says of the mesh",
+            ));
+        }
+        Ok(index)
+    }
+
+    /// The places on the path of a mesh at one operating point, and why there is no friction where there is none.
+    fn places(
+        &self,
+        cx: &Context<'_>,
+        built: &Built<'_>,
+        at: &GearMeshAt<'_>,
+        (model, sharing): (&Value, LoadSharing),
+    ) -> Result<(Vec<PlaceOnPath>, Option<String>), Stopped> {
+        let part = Arc::new(at.part.clone());
+        let mut build = Build::new(cx.language.registry(), &built.gearbox.files);
+        let friction = Friction::new(&mut build, &format!("meshes.{}.model", self.mesh), &part, model);
+        let friction = friction.map_err(|error| cx.found(vec![error]))?;
+        let mean = MeanFrictionAt::of(at, Notes::MUTED);
+        let fine = Path::even(&part.pair, sharing, self.places as usize);
+        let along = fine.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
+        let loaded = at.speed != 0.0 && at.torque != 0.0;
+        let mu = if loaded {
+            friction.coefficients(&along, &mean, fine.len())
+        } else {
+            Err("the mesh is idle or rests".to_owned())
+        };
+        let pitch = part.pair.points[2];
+        let nodes = fine.nodes().iter().zip(fine.points()).enumerate();
+        let places = nodes.map(|(i, (node, p))| {
+            let contact = along.contact(node);
+            let mu = mu.as_ref().ok().map(|mu| mu[i]);
+            PlaceOnPath {
+                from_pitch_point_mm: (p.x - pitch) * 1e3,
+                load_share: p.share,
+                sliding_speed_m_s: contact.sliding,
+                sum_speed_m_s: contact.sum_speed,
+                radius_mm: contact.radius * 1e3,
+                hertz_pressure_gpa: contact.pressure * 1e-9,
+                film_um: film(&contact, Film::DowsonHigginson, false) * 1e6,
+                mu,
+                sliding_loss_w: mu.map(|mu| mu * p.share * mean.normal_force * contact.sliding),
+            }
+        });
+        Ok((places.collect(), mu.as_ref().err().cloned()))
+    }
+}
+
+/// How the model of a mesh shares its load: its own word, that of its law of mean friction, or what its loss factor assumes.
+fn sharing(model: &Value) -> LoadSharing {
+    let written = [&model["load_sharing"], &model["mean_friction"]["load_sharing"]]
+        .into_iter()
+        .find_map(|value| serde_json::from_value(value.clone()).ok());
+    let uniform = model["type"] == "even_share" || model["loss_factor"] == "uniform";
+    written.unwrap_or(if uniform {
+        LoadSharing::Uniform
+    } else {
+        LoadSharing::Rigid
+    })
+}
+
+impl Outcome for ContactPathOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut table = Table::new(
+            &self.head.analysis,
+            [
+                Column::text("model_set", "Model set"),
+                Column::text("mesh", "Mesh"),
+                Column::number("from_pitch_point_mm", "mm", "Distance from the pitch point"),
+                Column::number("load_share", "-", "Share of the normal force on one pair"),
+                Column::number("sliding_speed_m_s", "m/s", "Sliding speed"),
+                Column::number("sum_speed_m_s", "m/s", "Sum of the surface speeds"),
+                Column::number("radius_mm", "mm", "Radius of relative curvature"),
+                Column::number("hertz_pressure_gpa", "GPa", "Hertzian pressure"),
+                Column::number("film_um", "um", "Minimum film thickness"),
+                Column::number("mu", "-", "Coefficient of friction"),
+                Column::number("sliding_loss_w", "W", "Power lost in sliding of one pair there"),
+            ],
+        );
+        for path in &self.paths {
+            for place in &path.places {
+                table.push(cells![
+                    &path.model_set,
+                    &path.mesh,
+                    place.from_pitch_point_mm,
+                    place.load_share,
+                    place.sliding_speed_m_s,
+                    place.sum_speed_m_s,
+                    place.radius_mm,
+                    place.hertz_pressure_gpa,
+                    place.film_um,
+                    place.mu,
+                    place.sliding_loss_w,
+                ]);
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        Vec::new()
+    }
+}

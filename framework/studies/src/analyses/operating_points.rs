@@ -1,0 +1,324 @@
+//! Losses of a list of operating points from a file, with what was measured there.
+
+use gearloss_framework::description::Ordered;
+use gearloss_framework::flow::Status;
+use gearloss_framework::thermal;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::numbers::{RPM, tidy};
+use super::rows::Solved;
+use super::shares::{Shares, together};
+use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
+use crate::analysis::{Note, PointResult};
+use crate::cells;
+use crate::measured::{Measured, Row};
+use crate::register_analysis;
+use crate::study::{By, Data, Uses, Write};
+use crate::table::{Cell, Column, Table};
+
+/// Losses of a list of operating points from a file.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct OperatingPointsEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// The points, one row each: torque, speed and a name, the columns of `bind`, and what was measured: loss, temperatures of
+    /// oil and surface, each with its accuracy. With `faulty_rows: keep` cells of measured columns may be empty.
+    pub data: Data,
+    /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit stands
+    /// in the header: `volume [ml]`.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+impl Entry for OperatingPointsEntry {
+    const TYPE: &'static str = "operating_points";
+    const MEANING: &'static str =
+        "Losses of a list of operating points from a file, as stacked bars, with room for what was measured.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets)
+            .at(&self.gear)
+            .bind(&self.bind)
+            .with("data", Some(&self.data))
+    }
+}
+
+register_analysis!(OperatingPointsEntry);
+
+/// Losses of a list of operating points under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OperatingPointsOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set.
+    pub operating_points: Vec<PointsOfSet>,
+    /// Name of the file of points, or of several.
+    #[serde(skip)]
+    pub file: String,
+    /// How the file was read, and which rows were omitted.
+    #[serde(skip)]
+    pub file_notes: Vec<String>,
+    /// Columns that change a value of the gearbox.
+    #[serde(skip)]
+    pub bound: Vec<String>,
+}
+
+/// The points under one model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct PointsOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// Names of the shares of the loss.
+    pub shares: Vec<String>,
+    /// What models noted.
+    pub notes: Vec<Note>,
+    /// The points, in the order of the file.
+    pub points: Vec<OperatingPoint>,
+}
+
+/// One operating point beside what was measured there.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OperatingPoint {
+    /// Name, or its number in the file.
+    pub name: String,
+    /// Gear state.
+    pub gear: String,
+    /// Values that change the gearbox, by column.
+    pub bound: Ordered<String>,
+    /// Torque. [Nm]
+    pub torque_nm: f64,
+    /// Speed. [rpm]
+    pub speed_rpm: f64,
+    /// Temperature of the oil; absent where no balance was found. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// Temperature of the surface, where it was found by balance. [degC]
+    pub surface_temperature_degc: Option<f64>,
+    /// What became of the balance, where the temperature is not given.
+    pub balance: Option<thermal::Outcome>,
+    /// What the transmission does.
+    pub status: Status,
+    /// Power out over power in. [-]
+    pub efficiency: Option<f64>,
+    /// Sum of all losses. [W]
+    pub loss_w: Option<f64>,
+    /// The loss by share, in the order of `shares`. [W]
+    pub losses_w: Option<Vec<f64>>,
+    /// What was measured.
+    pub measured: MeasuredAtPoint,
+    /// Speed as it was solved. [rad/s]
+    #[serde(skip)]
+    pub speed: f64,
+}
+
+/// What was measured at a point, with accuracies as they are stated.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct MeasuredAtPoint {
+    /// Loss. [W]
+    pub loss_w: Option<f64>,
+    /// Accuracy of the loss. [W]
+    pub loss_accuracy_w: Option<f64>,
+    /// Temperature of the oil. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// Accuracy of the temperature of the oil. [K]
+    pub oil_temperature_accuracy_k: Option<f64>,
+    /// Temperature of the surface. [degC]
+    pub surface_temperature_degc: Option<f64>,
+    /// Accuracy of the temperature of the surface. [K]
+    pub surface_temperature_accuracy_k: Option<f64>,
+}
+
+impl MeasuredAtPoint {
+    fn new(listed: &Measured, row: &Row, point: &PointResult) -> Self {
+        let value = |quantity: &str| listed.value(row, quantity);
+        let accuracy = |quantity: &str, calculated: Option<f64>| {
+            let reading = value(quantity);
+            listed.stated_accuracy(row, quantity, reading.and(calculated.or(reading)))
+        };
+        Self {
+            loss_w: value("loss"),
+            loss_accuracy_w: accuracy("loss", point.loss),
+            oil_temperature_degc: value("oil_temperature"),
+            oil_temperature_accuracy_k: accuracy("oil_temperature", None),
+            surface_temperature_degc: value("surface_temperature"),
+            surface_temperature_accuracy_k: accuracy("surface_temperature", None),
+        }
+    }
+
+    /// True where nothing was measured.
+    pub fn is_empty(&self) -> bool {
+        self.all().iter().all(Option::is_none)
+    }
+
+    /// All values, in the order of the fields.
+    fn all(&self) -> [Option<f64>; 6] {
+        [
+            self.loss_w,
+            self.loss_accuracy_w,
+            self.oil_temperature_degc,
+            self.oil_temperature_accuracy_k,
+            self.surface_temperature_degc,
+            self.surface_temperature_accuracy_k,
+        ]
+    }
+}
+
+impl Analysis for OperatingPointsEntry {
+    type Outcome = OperatingPointsOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<OperatingPointsOutcome, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        let bind: Vec<&str> = self.bind.ids().collect();
+        let listed = cx.read(&format!("{path}.data"), &self.data, &bind)?;
+        let gear = self.gear.as_deref();
+        let terms = self.by == By::Term;
+        let all = cx.at_rows(gearbox, &self.model_sets, &self.bind, gear, &listed, terms)?;
+        cx.begin()?;
+        let built: Vec<&Built<'_>> = all.iter().flat_map(|s| &s.built).collect();
+        let shares = together(built.iter().map(|b| &b.transmission), self.by);
+        Ok(OperatingPointsOutcome {
+            head: cx.head(&built),
+            operating_points: all.iter().map(|s| self.of_set(&listed, s, &shares)).collect(),
+            file: cx.data(&path, &self.data)?.file.to_string(),
+            file_notes: listed.notes,
+            bound: self.bind.ids().map(str::to_owned).collect(),
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl OperatingPointsEntry {
+    /// The points of a file as they were solved under one set.
+    fn of_set(&self, listed: &Measured, solved: &Solved<'_>, names: &[String]) -> PointsOfSet {
+        let built = solved.built.iter();
+        let shares: Vec<Shares> = built
+            .map(|b| Shares::of(&b.transmission, self.by).under(names))
+            .collect();
+        let rows = listed.rows.iter().zip(&solved.rows).enumerate();
+        let points = rows.map(|(i, (row, (place, gear, point)))| OperatingPoint {
+            name: row.name.clone().unwrap_or_else(|| format!("{}", i + 1)),
+            gear: gear.clone(),
+            bound: Ordered(self.bind.ids().map(str::to_owned).zip(row.bound.clone()).collect()),
+            torque_nm: point.torque,
+            speed_rpm: tidy(point.speed * RPM),
+            oil_temperature_degc: point.oil,
+            surface_temperature_degc: point.surface,
+            balance: point.balance,
+            status: point.status,
+            efficiency: point.efficiency,
+            loss_w: point.loss,
+            losses_w: shares[*place].stack(point),
+            measured: MeasuredAtPoint::new(listed, row, point),
+            speed: point.speed,
+        });
+        PointsOfSet {
+            model_set: solved.name.clone(),
+            shares: names.to_vec(),
+            notes: solved.notes.clone(),
+            points: points.collect(),
+        }
+    }
+}
+
+impl Outcome for OperatingPointsOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut table = Table::new(&self.head.analysis, self.columns());
+        for of_set in &self.operating_points {
+            for point in &of_set.points {
+                let mut row: Vec<Cell<'_>> = cells![&of_set.model_set, &point.gear, &point.name].into();
+                row.extend(point.bound.iter().map(|(_, value)| Cell::from(value)));
+                row.extend(cells![
+                    point.torque_nm,
+                    point.speed_rpm,
+                    point.oil_temperature_degc,
+                    point.surface_temperature_degc,
+                    point.balance.map_or("", thermal::Outcome::name),
+                    point.status.name(),
+                    point.efficiency,
+                    point.loss_w,
+                ]);
+                row.extend(point.measured.all().map(Cell::from));
+                let share = |i: usize| point.losses_w.as_ref().map(|watts| watts[i]);
+                row.extend((0..of_set.shares.len()).map(|i| Cell::from(share(i))));
+                table.push(row);
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        self.operating_points.iter().flat_map(|of_set| &of_set.notes).collect()
+    }
+}
+
+impl OperatingPointsOutcome {
+    fn columns(&self) -> Vec<Column> {
+        let mut columns = vec![
+            Column::text("model_set", "Model set"),
+            Column::text("gear", "Gear state"),
+            Column::text("name", "Name of the point"),
+        ];
+        let bound = self.bound.iter();
+        columns.extend(bound.map(|column| Column::text(column, "Value that changes the gearbox")));
+        columns.extend([
+            Column::number("torque_nm", "Nm", "Torque"),
+            Column::number("speed_rpm", "rpm", "Speed"),
+            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+            Column::number("surface_temperature_degc", "degC", "Temperature of the surface"),
+            Column::text("balance", "What became of the balance"),
+            Column::text("status", "What the transmission does"),
+            Column::number("efficiency", "-", "Power out over power in"),
+            Column::number("loss_w", "W", "Sum of all losses"),
+            Column::number("measured_loss_w", "W", "Measured loss"),
+            Column::number("measured_loss_accuracy_w", "W", "Accuracy of the measured loss"),
+            Column::number(
+                "measured_oil_temperature_degc",
+                "degC",
+                "Measured temperature of the oil",
+            ),
+            Column::number(
+                "measured_oil_temperature_accuracy_k",
+                "K",
+                "Accuracy of that temperature",
+            ),
+            Column::number(
+                "measured_surface_temperature_degc",
+                "degC",
+                "Measured temperature of the surface",
+            ),
+            Column::number(
+                "measured_surface_temperature_accuracy_k",
+                "K",
+                "Accuracy of that temperature",
+            ),
+        ]);
+        // The same for every set.
+        let shares = self
+            .operating_points
+            .first()
+            .into_iter()
+            .flat_map(|of_set| &of_set.shares);
+        columns.extend(shares.map(|share| Column::number(format!("{share}_w"), "W", format!("Loss: {share}"))));
+        columns
+    }
+}
