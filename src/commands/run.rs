@@ -5,7 +5,6 @@ mod columns;
 mod compare;
 mod component_compare;
 mod contact_path;
-mod fluid_sweep;
 mod folder;
 mod identify;
 mod map;

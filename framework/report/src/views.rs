@@ -2,4 +2,5 @@
 
 pub mod balance;
 pub mod cycle;
+pub mod fluid_sweep;
 pub mod uncertainty;

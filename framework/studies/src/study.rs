@@ -4,8 +4,8 @@ mod axes;
 mod breakdown;
 mod compare;
 mod component;
-mod cycle;
 mod data;
+mod drive;
 mod files;
 mod identify;
 mod map;
@@ -30,8 +30,8 @@ pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, Temperatu
 pub use breakdown::{As, BreakdownEntry, By, Over, SpinLossEntry, TemperatureSweepEntry};
 pub use compare::{CompareEntry, Difference, Quantity};
 pub use component::{ComponentCompareEntry, ContactPathEntry};
-pub use cycle::{DriveEntry, FluidSweepEntry};
 pub use data::Data;
+pub use drive::DriveEntry;
 pub use files::Study;
 pub use identify::{
     FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry,

@@ -13,7 +13,7 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, MapEntry,
+    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, IdentifyEntry, MapEntry,
     OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry, TemperatureSweepEntry,
     ThermalLimitEntry, TournamentEntry,
 };
@@ -21,8 +21,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, breakdown, compare, component_compare, contact_path, fluid_sweep, identify, map, operating_points,
-    rms_surface, sensitivity, sweep, thermal_limit, tournament, write,
+    Parts, breakdown, compare, component_compare, contact_path, identify, map, operating_points, rms_surface,
+    sensitivity, sweep, thermal_limit, tournament, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -232,7 +232,6 @@ impl Runner<'_> {
             IdentifyEntry => identify::run,
             SensitivityEntry => sensitivity::run,
             RmsSurfaceEntry => rms_surface::run,
-            FluidSweepEntry => fluid_sweep::run,
             SpinLossEntry => breakdown::spin_loss,
             TemperatureSweepEntry => breakdown::temperature_sweep,
         }

@@ -3,7 +3,7 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, FluidSweepEntry, IdentifyEntry, MapEntry,
+    BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, IdentifyEntry, MapEntry,
     OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry, TemperatureSweepEntry, Then,
     ThermalLimitEntry, TournamentEntry, Uses,
 };
@@ -209,14 +209,3 @@ impl Entry for RmsSurfaceEntry {
 }
 
 register_entry!(RmsSurfaceEntry);
-
-impl Entry for FluidSweepEntry {
-    const TYPE: &'static str = "fluid_sweep";
-    const MEANING: &'static str = "Mean losses of duties over one property of an oil, and where they are least.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::driving(&self.drive)
-    }
-}
-
-register_entry!(FluidSweepEntry);
