@@ -1,6 +1,5 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
-mod fluid_sweep;
 mod folder;
 mod identify;
 mod manifest;

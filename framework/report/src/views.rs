@@ -5,6 +5,7 @@ pub mod map;
 pub mod sensitivity;
 pub mod tournament;
 pub mod cycle;
+pub mod fluid_sweep;
 pub mod uncertainty;
 pub mod breakdown;
 pub mod thermal_limit;

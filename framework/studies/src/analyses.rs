@@ -13,6 +13,7 @@ pub mod context;
 pub mod cycle;
 pub mod duties;
 mod entries;
+pub mod fluid_sweep;
 pub mod head;
 pub mod inputs;
 pub mod map;

@@ -3,8 +3,8 @@
 mod axes;
 mod by;
 mod compare;
-mod cycle;
 mod data;
+mod drive;
 mod files;
 mod identify;
 mod names;
@@ -22,9 +22,9 @@ use serde_json::Value;
 
 pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
 pub use by::By;
-pub use cycle::{DriveEntry, FluidSweepEntry};
 pub use compare::{Difference, Quantity};
 pub use data::Data;
+pub use drive::DriveEntry;
 pub use files::Study;
 pub use identify::{
     FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry,

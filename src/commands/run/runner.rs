@@ -13,7 +13,7 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Points, notes};
 use gearloss_studies::study::{
-    FluidSweepEntry, IdentifyEntry, RmsSurfaceEntry, Study, SweepEntry, Write,
+    IdentifyEntry, RmsSurfaceEntry, Study, SweepEntry, Write,
 };
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -22,7 +22,7 @@ use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
 use super::{
-    fluid_sweep, identify, rms_surface, sweep, write,
+    identify, rms_surface, sweep, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -236,7 +236,6 @@ impl Runner<'_> {
             SweepEntry => sweep::run,
             IdentifyEntry => identify::run,
             RmsSurfaceEntry => rms_surface::run,
-            FluidSweepEntry => fluid_sweep::run,
         }
         Ok(())
     }

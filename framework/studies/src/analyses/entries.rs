@@ -3,7 +3,7 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    FluidSweepEntry, IdentifyEntry, RmsSurfaceEntry, SweepEntry, Then, Uses,
+    IdentifyEntry, RmsSurfaceEntry, SweepEntry, Then, Uses,
 };
 
 impl Entry for SweepEntry {
@@ -56,14 +56,3 @@ impl Entry for RmsSurfaceEntry {
 }
 
 register_entry!(RmsSurfaceEntry);
-
-impl Entry for FluidSweepEntry {
-    const TYPE: &'static str = "fluid_sweep";
-    const MEANING: &'static str = "Mean losses of duties over one property of an oil, and where they are least.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::driving(&self.drive)
-    }
-}
-
-register_entry!(FluidSweepEntry);

@@ -1,6 +1,7 @@
 //! Where a loss over a positive property is least, and how flat it is there.
 
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// The most rounds of the search.
 pub const ROUNDS: usize = 6;
@@ -10,15 +11,16 @@ const FOUND: f64 = 0.005;
 const FLAT: f64 = 0.01;
 
 /// The least loss over a property.
-pub struct Least {
-    /// Value of the property.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct LeastLoss {
+    /// Value of the property, in its unit.
     pub value: f64,
-    /// Mean loss there. \[W\]
-    pub loss: f64,
-    /// Values between which the loss stays within a percent of it; at an end of the range, that end.
-    pub flat: [f64; 2],
+    /// Mean loss there. [W]
+    pub mean_loss_w: f64,
+    /// Values between which the loss stays within a percent of it; at an end of the range, that end. In the unit of the property.
+    pub flat_range: [f64; 2],
     /// True where it lies at an end of the range, beyond which it may fall on.
-    pub at_end: bool,
+    pub at_end_of_range: bool,
 }
 
 /// Coordinate of a property: its logarithm where all values are above zero.
@@ -66,9 +68,9 @@ pub fn wanted(points: &[(f64, f64)]) -> Option<f64> {
     }
 }
 
-impl Least {
+impl LeastLoss {
     /// The least loss of points that rise by value.
-    pub fn of(points: &[(f64, f64)]) -> Self {
+    pub fn new(points: &[(f64, f64)]) -> Self {
         let i = best(points);
         let (value, loss) = points[i];
         let limit = (1.0 + FLAT) * loss;
@@ -87,16 +89,10 @@ impl Least {
         };
         Self {
             value,
-            loss,
-            flat: [edge(&mut (0..i).rev()), edge(&mut (i + 1..points.len()))],
-            at_end: i == 0 || i + 1 == points.len(),
+            mean_loss_w: loss,
+            flat_range: [edge(&mut (0..i).rev()), edge(&mut (i + 1..points.len()))],
+            at_end_of_range: i == 0 || i + 1 == points.len(),
         }
-    }
-
-    pub fn json(&self) -> Value {
-        json!({
-            "value": self.value, "mean_loss_w": self.loss, "flat_range": self.flat, "at_end_of_range": self.at_end,
-        })
     }
 }
 
@@ -104,7 +100,7 @@ impl Least {
 mod tests {
     use super::*;
 
-    fn searched(law: impl Fn(f64) -> f64, values: &[f64]) -> (Least, usize) {
+    fn searched(law: impl Fn(f64) -> f64, values: &[f64]) -> (LeastLoss, usize) {
         let mut points: Vec<(f64, f64)> = values.iter().map(|x| (*x, law(*x))).collect();
         let mut asked = 0;
         for _ in 0..ROUNDS {
@@ -113,7 +109,7 @@ mod tests {
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
             asked += 1;
         }
-        (Least::of(&points), asked)
+        (LeastLoss::new(&points), asked)
     }
 
     #[test]
@@ -122,17 +118,17 @@ mod tests {
         let law = |x: f64| 80.0 + 20.0 * (x / 4.0).ln().powi(2);
         let (least, asked) = searched(law, &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0]);
         assert!(
-            (least.value / 4.0).ln().abs() < 0.02 && (least.loss - 80.0).abs() < 0.01,
+            (least.value / 4.0).ln().abs() < 0.02 && (least.mean_loss_w - 80.0).abs() < 0.01,
             "{}",
             least.value
         );
-        assert!((least.flat[0] / 4.0).ln() < -0.15 && (least.flat[1] / 4.0).ln() > 0.15);
-        assert!(!least.at_end && asked <= ROUNDS);
+        assert!((least.flat_range[0] / 4.0).ln() < -0.15 && (least.flat_range[1] / 4.0).ln() > 0.15);
+        assert!(!least.at_end_of_range && asked <= ROUNDS);
     }
 
     #[test]
     fn a_loss_that_falls_all_the_way_has_its_least_at_the_end() {
         let (least, asked) = searched(|x| 10.0 / x, &[1.0, 2.0, 3.0]);
-        assert!(least.at_end && asked == 0 && least.value == 3.0);
+        assert!(least.at_end_of_range && asked == 0 && least.value == 3.0);
     }
 }

@@ -1,10 +1,8 @@
-//! Duties driven through a gearbox.
+//! How duties are driven through a gearbox.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde_json::Value;
 
-use super::{By, Write};
 use gearloss_framework::thermal::network::Scheme;
 
 /// What is driven, and how.
@@ -36,40 +34,4 @@ pub struct DriveEntry {
     /// Steps adapt, so that one of them and two of half its length agree within this. [K]
     #[schemars(range(min = 1e-4, max = 10.0))]
     pub tolerance: Option<f64>,
-}
-
-/// Mean losses of duties over one property of an oil.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct FluidSweepEntry {
-    /// What is driven, and how.
-    #[serde(flatten)]
-    pub drive: DriveEntry,
-    /// Oil; absent, that of the housing.
-    pub lubricant: Option<String>,
-    /// Viscosities at 100 degC of hypothetical oils of one viscosity index; those below 2 mm2/s, where the index is not defined, are
-    /// marked. [mm2/s]
-    #[serde(default)]
-    #[schemars(inner(range(min = 0.5, max = 1000.0)))]
-    pub kv100: Vec<f64>,
-    /// Their viscosity index; absent, that of the oil. [-]
-    #[schemars(range(min = 0.0, max = 400.0))]
-    pub vi: Option<f64>,
-    /// Another property of the oil in place of the viscosity, such as `rheology.tau0`.
-    pub property: Option<String>,
-    /// Its values, each as in a gearbox: `[4 MPa, 6 MPa]`.
-    #[serde(default)]
-    pub values: Vec<Value>,
-    /// Further values are driven between those that are listed until the least loss is found.
-    #[serde(default = "yes")]
-    pub refine: bool,
-    /// What the losses are summed by.
-    #[serde(default)]
-    pub by: By,
-    /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
-    pub write: Vec<Write>,
-}
-
-fn yes() -> bool {
-    true
 }

@@ -1,0 +1,95 @@
+//! Mean losses over one property of an oil: in a table, and over the property, whole and relative to the least of each duty.
+
+use gearloss_studies::analyses::Outcome;
+use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LossOfFluid};
+
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::{Line, Stroke};
+use crate::register_view;
+use crate::text::{TextTable, significant};
+
+register_view!(FluidSweepOutcome, show);
+
+fn show(outcome: &FluidSweepOutcome, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    page.outside_at_samples(&outcome.left_at_samples());
+    for set in &outcome.fluid_sweep {
+        text(name, set, page);
+    }
+    for (file, y, relative) in [
+        ("loss", "mean loss in W", false),
+        ("relative", "mean loss in % of the least", true),
+    ] {
+        let figure = Figure::Lines {
+            title: format!("{name}: {y}"),
+            x: outcome
+                .fluid_sweep
+                .first()
+                .map_or_else(String::new, |set| set.property.clone()),
+            y: y.to_owned(),
+            lines: lines(&outcome.fluid_sweep, relative),
+        };
+        page.figure(format!("{name}-{file}"), figure);
+    }
+}
+
+fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
+    page.line(format!(
+        "{name}: mean loss in W over {}, models {}",
+        set.property, set.model_set
+    ));
+    let all: Vec<&LossOfFluid> = set.cycles.first().into_iter().flat_map(listed).collect();
+    let mut titles = vec!["cycle".to_owned()];
+    titles.extend(all.iter().map(|fluid| {
+        let mark = if fluid.beyond_definition { "*" } else { "" };
+        format!("{}{mark}", significant(fluid.value))
+    }));
+    let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+    for duty in &set.cycles {
+        let mut row = vec![duty.cycle.clone()];
+        row.extend(listed(duty).map(|fluid| format!("{:.2}", fluid.mean_loss_w)));
+        table.row(row);
+    }
+    page.lines(table.render());
+    if all.iter().any(|fluid| fluid.beyond_definition) {
+        page.line("  * below 2 mm2/s the viscosity index is not defined; its law from 2 mm2/s on is continued");
+    }
+    for FluidsOfDuty { cycle, least, .. } in &set.cycles {
+        let end = if least.at_end_of_range {
+            ", at the end of the range"
+        } else {
+            ""
+        };
+        page.line(format!(
+            "  {cycle}: least at {} with {:.2} W{end}; within 1 % from {} to {}",
+            significant(least.value),
+            least.mean_loss_w,
+            significant(least.flat_range[0]),
+            significant(least.flat_range[1])
+        ));
+    }
+    page.line("");
+}
+
+/// The oils that the study lists.
+fn listed(duty: &FluidsOfDuty) -> impl Iterator<Item = &LossOfFluid> {
+    duty.fluids.iter().filter(|fluid| !fluid.refined)
+}
+
+/// Mean loss of every duty over the property, in W or in % of the least.
+fn lines(sets: &[FluidsOfSet], relative: bool) -> Vec<Line> {
+    let duties = sets
+        .iter()
+        .flat_map(|set| set.cycles.iter().map(move |duty| (set, duty)));
+    let line = |(set, duty): (&FluidsOfSet, &FluidsOfDuty)| {
+        let scale = if relative { 100.0 / duty.least.mean_loss_w } else { 1.0 };
+        let points = duty.fluids.iter().map(|fluid| (fluid.value, scale * fluid.mean_loss_w));
+        Line {
+            name: format!("{} {}", set.model_set, duty.cycle),
+            points: points.filter(|(_, y)| y.is_finite()).map(Some).collect(),
+            stroke: Stroke::Marked,
+        }
+    };
+    duties.map(line).collect()
+}

@@ -1,0 +1,357 @@
+//! Mean losses of duties over one property of an oil, and where they are least.
+
+mod least;
+mod swept;
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use self::swept::Swept;
+use super::duties::{Duties, MeanLoss, Unfinished, sums_energies};
+use super::shares::together;
+use super::trial::{Left, Trial};
+use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
+use crate::analysis::Note;
+use crate::register_analysis;
+use crate::study::{By, DriveEntry, Uses, Write};
+use crate::table::{Cell, Column, Table};
+
+pub use least::LeastLoss;
+
+/// Mean losses of duties over one property of an oil.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct FluidSweepEntry {
+    /// What is driven, and how.
+    #[serde(flatten)]
+    pub drive: DriveEntry,
+    /// Oil; absent, that of the housing.
+    pub lubricant: Option<String>,
+    /// Viscosities at 100 degC of hypothetical oils of one viscosity index; those below 2 mm2/s, where the index is not defined, are
+    /// marked. [mm2/s]
+    #[serde(default)]
+    #[schemars(inner(range(min = 0.5, max = 1000.0)))]
+    pub kv100: Vec<f64>,
+    /// Their viscosity index; absent, that of the oil. [-]
+    #[schemars(range(min = 0.0, max = 400.0))]
+    pub vi: Option<f64>,
+    /// Another property of the oil in place of the viscosity, such as `rheology.tau0`.
+    pub property: Option<String>,
+    /// Its values, each as in a gearbox: `[4 MPa, 6 MPa]`.
+    #[serde(default)]
+    pub values: Vec<Value>,
+    /// Further values are driven between those that are listed until the least loss is found.
+    #[serde(default = "yes")]
+    pub refine: bool,
+    /// What the losses are summed by.
+    #[serde(default)]
+    pub by: By,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Entry for FluidSweepEntry {
+    const TYPE: &'static str = "fluid_sweep";
+    const MEANING: &'static str = "Mean losses of duties over one property of an oil, and where they are least.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::driving(&self.drive)
+    }
+}
+
+register_analysis!(FluidSweepEntry);
+
+/// Mean losses over one property of an oil under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FluidSweepOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set.
+    pub fluid_sweep: Vec<FluidsOfSet>,
+    /// Stated ranges that oils left, set after set.
+    #[serde(skip)]
+    pub left: Vec<(String, &'static str)>,
+}
+
+/// Mean losses over one property of an oil under one model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FluidsOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// The property with its unit, which is that of all its values.
+    pub property: String,
+    /// Names of the shares of the loss, those of all sets.
+    pub shares: Vec<String>,
+    /// One for each duty.
+    pub cycles: Vec<FluidsOfDuty>,
+    /// Unit of the property.
+    #[serde(skip)]
+    pub unit: &'static str,
+}
+
+/// Mean losses of one duty over one property of an oil.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FluidsOfDuty {
+    /// Name of the duty.
+    pub cycle: String,
+    /// Where the mean loss is least.
+    pub least: LeastLoss,
+    /// The oils, rising by value.
+    pub fluids: Vec<LossOfFluid>,
+}
+
+/// Mean loss of one duty with one oil.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct LossOfFluid {
+    /// Value of the property, in its unit.
+    pub value: f64,
+    /// Mean loss of the transmission. [W]
+    pub mean_loss_w: f64,
+    /// The same by share, in the order of the names. [W]
+    pub mean_losses_w: Vec<f64>,
+    /// True where the property has no definition: a viscosity index below 2 mm2/s.
+    pub beyond_definition: bool,
+    /// True where the value came up in the search for the least loss.
+    pub refined: bool,
+}
+
+/// One hypothetical oil, driven.
+struct Fluid {
+    /// Value of the property: mm2/s at 100 degC, or in the unit of the path.
+    value: f64,
+    /// For each duty its mean loss.
+    losses: Vec<MeanLoss>,
+    /// True where it came up in the search for the least loss.
+    refined: bool,
+}
+
+/// Drives oils under one set.
+struct Search<'a> {
+    cx: &'a Context<'a>,
+    entry: &'a FluidSweepEntry,
+    duties: &'a Duties<'a>,
+    names: &'a [String],
+    swept: &'a Swept,
+    trial: Trial<'a>,
+    /// What progress is reported as.
+    label: String,
+    /// Rising by value.
+    fluids: Vec<Fluid>,
+    left: Left,
+}
+
+impl Analysis for FluidSweepEntry {
+    type Outcome = FluidSweepOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<FluidSweepOutcome, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
+        sums_energies(cx, &path, self.by)?;
+        self.check_keys(cx, &path)?;
+        let duties = Duties::new(cx, &path, &self.drive)?;
+        let built = cx.built(gearbox, &self.drive.model_sets)?;
+        let names = together(built.iter().map(|b| &b.transmission), self.by);
+        let (mut sets, mut all_left) = (Vec::new(), Vec::new());
+        for b in &built {
+            duties.check(cx, &path, b)?;
+            let swept = Swept::new(cx, &path, self, b)?;
+            let values = swept.values(cx, &path, self)?;
+            let mut search = Search {
+                cx,
+                entry: self,
+                duties: &duties,
+                names: &names,
+                swept: &swept,
+                trial: Trial::new(cx, b),
+                label: format!("{} oils", b.name),
+                fluids: Vec::new(),
+                left: Left::new(),
+            };
+            if cx.only_checks {
+                search.check(&values)?;
+                continue;
+            }
+            search.drive(&values, false)?;
+            if self.refine {
+                search.refine()?;
+            }
+            sets.push(search.result(b));
+            all_left.extend(search.left);
+        }
+        cx.begin()?;
+        Ok(FluidSweepOutcome {
+            head: cx.head(&built.iter().collect::<Vec<_>>()),
+            fluid_sweep: sets,
+            left: all_left,
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl FluidSweepEntry {
+    /// Refuses keys that do not go together.
+    fn check_keys(&self, cx: &Context<'_>, path: &str) -> Result<(), Stopped> {
+        let viscosity = !self.kv100.is_empty() || self.vi.is_some();
+        let message = match (&self.property, viscosity, self.values.is_empty()) {
+            (Some(_), true, _) => "`property` beside `kv100` or `vi`",
+            (None, _, false) => "`values` without a `property`",
+            _ => return Ok(()),
+        };
+        let help = "sweep the viscosity by `kv100`, or one `property` by its `values`";
+        Err(cx.wrong(path, message, help))
+    }
+}
+
+impl Search<'_> {
+    /// Builds the gearbox with every oil.
+    fn check(&self, values: &[f64]) -> Result<(), Stopped> {
+        for value in values {
+            let oil = self
+                .swept
+                .overrides(*value)
+                .and_then(|changes| self.trial.build(changes));
+            oil.map_err(|reason| self.failed(*value, &reason))?;
+        }
+        Ok(())
+    }
+
+    /// Drives all duties with oils of some values, and keeps them.
+    fn drive(&mut self, values: &[f64], refined: bool) -> Result<(), Stopped> {
+        let running = self.cx.running(values.len(), &self.label);
+        let driven = |value: &f64| {
+            let losses = self.mean_losses(*value);
+            running.advance(1);
+            (*value, losses)
+        };
+        let all: Vec<_> = values.par_iter().with_max_len(1).map(driven).collect();
+        for (value, result) in all {
+            let (losses, more) = result.map_err(|reason| self.failed(value, &reason))?;
+            self.left.extend(more);
+            self.fluids.push(Fluid { value, losses, refined });
+        }
+        self.fluids.sort_by(|a, b| a.value.total_cmp(&b.value));
+        Ok(())
+    }
+
+    fn mean_losses(&self, value: f64) -> Result<(Vec<MeanLoss>, Left), String> {
+        let t = self.trial.build(self.swept.overrides(value)?)?;
+        let losses = self.duties.mean_losses(self.cx, &t, self.entry.by, self.names);
+        losses.map_err(Unfinished::text)
+    }
+
+    /// Drives further oils: each round, for every duty, the one at which a parabola through the three best oils is least.
+    fn refine(&mut self) -> Result<(), Stopped> {
+        for _ in 0..least::ROUNDS {
+            let duties = 0..self.duties.list.len();
+            let mut wanted: Vec<f64> = duties.filter_map(|k| least::wanted(&self.points(k))).collect();
+            wanted.sort_by(f64::total_cmp);
+            wanted.dedup_by(|a, b| (*a / *b - 1.0).abs() < 1e-6);
+            if wanted.is_empty() {
+                break;
+            }
+            self.drive(&wanted, true)?;
+        }
+        Ok(())
+    }
+
+    /// Value and mean loss of each oil for a duty.
+    fn points(&self, duty: usize) -> Vec<(f64, f64)> {
+        self.fluids.iter().map(|f| (f.value, f.losses[duty].loss)).collect()
+    }
+
+    fn failed(&self, value: f64, reason: &str) -> Stopped {
+        if !self.cx.goes_on() {
+            return Stopped::Interrupted;
+        }
+        let help = "leave the value out, or narrow the range";
+        self.cx.wrong(&self.cx.path(), format!("{value}: {reason}"), help)
+    }
+
+    fn result(&self, b: &Built<'_>) -> FluidsOfSet {
+        let loss = |k: usize| {
+            move |f: &Fluid| LossOfFluid {
+                value: f.value,
+                mean_loss_w: f.losses[k].loss,
+                mean_losses_w: f.losses[k].shares.clone(),
+                beyond_definition: self.swept.is_beyond(f.value),
+                refined: f.refined,
+            }
+        };
+        let duties = self.duties.list.iter().enumerate();
+        FluidsOfSet {
+            model_set: b.name.clone(),
+            property: self.swept.name(),
+            shares: self.names.to_vec(),
+            cycles: duties
+                .map(|(k, read)| FluidsOfDuty {
+                    cycle: read.name.clone(),
+                    least: LeastLoss::new(&self.points(k)),
+                    fluids: self.fluids.iter().map(loss(k)).collect(),
+                })
+                .collect(),
+            unit: self.swept.unit(),
+        }
+    }
+}
+
+impl Outcome for FluidSweepOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let first = self.fluid_sweep.first();
+        let mut columns = vec![
+            Column::text("model_set", "Model set"),
+            Column::text("cycle", "Duty"),
+            Column::number(
+                "value",
+                first.map_or("-", |set| set.unit),
+                "Value of the property of the oil",
+            ),
+            Column::text("beyond_definition", "true where the property has no definition"),
+            Column::text(
+                "refined",
+                "true where the value came up in the search for the least loss",
+            ),
+            Column::number("mean_loss_w", "W", "Mean loss of the transmission"),
+        ];
+        let shares = first.map_or(&[][..], |set| &set.shares);
+        columns.extend(shares.iter().map(|share| {
+            let meaning = format!("Mean loss of the share {share}");
+            Column::number(format!("{share}_w"), "W", meaning)
+        }));
+        let mut table = Table::new(&self.head.analysis, columns);
+        for set in &self.fluid_sweep {
+            for duty in &set.cycles {
+                for fluid in &duty.fluids {
+                    let mut row: Vec<Cell<'_>> = vec![(&set.model_set).into(), (&duty.cycle).into()];
+                    row.push(fluid.value.into());
+                    row.extend([fluid.beyond_definition, fluid.refined].map(|flag| Cell::from(flag.to_string())));
+                    row.push(fluid.mean_loss_w.into());
+                    row.extend(fluid.mean_losses_w.iter().map(|watts| Cell::from(*watts)));
+                    table.push(row);
+                }
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        Vec::new()
+    }
+
+    fn left_at_samples(&self) -> Vec<(&str, &str)> {
+        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+    }
+}

@@ -1,0 +1,166 @@
+//! The property of an oil that changes, and how its values are written into a gearbox.
+
+use gearloss_framework::attach::dangling;
+use gearloss_framework::description::LubricantEntry;
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::lubricant::Lubricant;
+use gearloss_framework::lubricant::index::{at_constant_index, index};
+use gearloss_framework::resolve::lookup;
+use serde_json::{Value, json};
+
+use super::FluidSweepEntry;
+use crate::analyses::{Built, Context, Stopped};
+use crate::varied::{Tie, Varied};
+
+/// Kinematic viscosity at 100 degC below which the viscosity index is not defined. \[mm2/s\]
+const DEFINED: f64 = 2.0;
+
+/// What changes.
+pub enum Swept {
+    /// The viscosity, at a constant index. Path of the oil, and what else it says of its viscosity.
+    Viscosity {
+        oil: String,
+        index: f64,
+        law: Value,
+        factor: Value,
+    },
+    /// A quantity.
+    Property(Varied),
+}
+
+impl Swept {
+    pub fn new(cx: &Context<'_>, path: &str, entry: &FluidSweepEntry, b: &Built<'_>) -> Result<Self, Stopped> {
+        let own = lookup(&b.resolved.value, "housing.oil.lubricant").and_then(Value::as_str);
+        let names: Vec<&str> = b.resolved.value["lubricants"]
+            .as_object()
+            .into_iter()
+            .flatten()
+            .map(|(k, _)| k.as_str())
+            .collect();
+        let oil = entry
+            .lubricant
+            .as_deref()
+            .or(own)
+            .or(names.first().copied())
+            .unwrap_or_default();
+        if !names.contains(&oil) {
+            let error = dangling(&format!("{path}.lubricant"), "lubricant", oil, &names);
+            return Err(cx.found(vec![error]));
+        }
+        let oil = format!("lubricants.{oil}");
+        if let Some(property) = &entry.property {
+            let varied = Varied::new(cx.language, &b.resolved, &format!("{oil}.{property}"), Tie::Value);
+            return varied.map(Self::Property).map_err(|d| {
+                let at = Diagnostic {
+                    path: format!("{path}.property"),
+                    ..d
+                };
+                cx.found(vec![at])
+            });
+        }
+        let index = entry.vi.or_else(|| own_index(&b.resolved.value, &oil)).ok_or_else(|| {
+            cx.wrong(
+                &format!("{path}.vi"),
+                format!("`{oil}` has no viscosity index"),
+                "state the index that all oils have",
+            )
+        })?;
+        let own = lookup(&b.resolved.value, &format!("{oil}.viscosity"));
+        let of = |key: &str| own.and_then(|v| v.get(key)).cloned().unwrap_or(Value::Null);
+        Ok(Self::Viscosity {
+            law: of("law"),
+            factor: of("factor"),
+            oil,
+            index,
+        })
+    }
+
+    /// Values that are listed, rising.
+    pub fn values(&self, cx: &Context<'_>, path: &str, entry: &FluidSweepEntry) -> Result<Vec<f64>, Stopped> {
+        let mut values = match self {
+            Self::Viscosity { .. } => entry.kv100.iter().map(|nu| nu * 1e6).collect(),
+            Self::Property(varied) => entry
+                .values
+                .iter()
+                .map(|value| varied.quantity(value, false))
+                .collect::<Result<Vec<f64>, String>>()
+                .map_err(|reason| {
+                    cx.wrong(
+                        &format!("{path}.values"),
+                        reason,
+                        "write quantities of the property, such as `5 MPa`",
+                    )
+                })?,
+        };
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        if values.len() < 3 {
+            let (key, help) = match self {
+                Self::Viscosity { .. } => (
+                    "kv100",
+                    "list viscosities, such as `kv100: [2 mm2/s, 4 mm2/s, 6 mm2/s]`",
+                ),
+                Self::Property(_) => ("values", "list values, each as in a gearbox"),
+            };
+            return Err(cx.wrong(&format!("{path}.{key}"), "a sweep needs three different values", help));
+        }
+        Ok(values)
+    }
+
+    pub fn overrides(&self, value: f64) -> Result<Vec<(String, Value)>, String> {
+        match self {
+            Self::Viscosity {
+                oil,
+                index,
+                law,
+                factor,
+            } => {
+                let kv40 = at_constant_index(value, *index)
+                    .ok_or_else(|| format!("no oil of {value} mm2/s has the viscosity index {index}"))?;
+                // The usual law of viscosity over temperature begins at 2 mm2/s.
+                let law = if value < DEFINED {
+                    json!("astm_d341_low")
+                } else {
+                    law.clone()
+                };
+                let mut viscosity = json!({ "kv40": kv40, "kv100": value });
+                for (key, own) in [("law", law), ("factor", factor.clone())] {
+                    if !own.is_null() {
+                        viscosity[key] = own;
+                    }
+                }
+                Ok(vec![(format!("{oil}.viscosity"), viscosity)])
+            }
+            Self::Property(varied) => Ok(varied.overrides(value).collect()),
+        }
+    }
+
+    /// Name of the property with its unit.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Viscosity { index, .. } => format!("kv100 in mm2/s at a viscosity index of {index:.1}"),
+            Self::Property(varied) => format!("{} in {}", varied.pattern, varied.unit.symbol),
+        }
+    }
+
+    /// Unit of the property.
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Viscosity { .. } => "mm2/s",
+            Self::Property(varied) => varied.unit.symbol,
+        }
+    }
+
+    /// True where the property has no definition.
+    pub fn is_beyond(&self, value: f64) -> bool {
+        matches!(self, Self::Viscosity { .. }) && value < DEFINED
+    }
+}
+
+/// Viscosity index of an oil of a resolved document; absent where it has none.
+fn own_index(document: &Value, oil: &str) -> Option<f64> {
+    let entry: LubricantEntry = serde_json::from_value(lookup(document, oil)?.clone()).ok()?;
+    let lubricant = Lubricant::new(&entry).ok()?;
+    let [kv40, kv100] = [40.0, 100.0].map(|t| lubricant.at(t).nu * 1e6);
+    index(kv40, kv100)
+}
