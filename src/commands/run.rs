@@ -20,7 +20,6 @@ mod sensitivity;
 mod shard;
 mod shown;
 mod stated_ranges;
-mod sweep;
 mod table;
 mod tournament;
 mod uncertainty;

@@ -6,6 +6,7 @@
 use std::any::{Any, TypeId};
 
 use gearloss_framework::registry::inventory;
+use gearloss_studies::analyses::ranges::PublishedCoefficient;
 use gearloss_studies::analyses::{AnyOutcome, Outcome};
 use gearloss_studies::analysis::Note;
 use gearloss_studies::table::Table;
@@ -62,6 +63,24 @@ impl Page {
     /// Adds what was outside its stated range. The terminal shows it once, at the end of a run.
     pub fn outside(&mut self, notes: &[Note]) {
         self.text.push(Text::InReport(outside(notes)));
+    }
+
+    /// Adds stated ranges that samples left: path and quantity. The terminal shows them once, at the end of a run.
+    pub fn outside_at_samples(&mut self, left: &[(&str, &str)]) {
+        for (path, name) in left {
+            let text = format!("outside: {path}: {name} leaves its stated range at some samples\n");
+            self.text.push(Text::InReport(text));
+        }
+    }
+
+    /// Adds which of the varied quantities are coefficients of formulas, with the value of the source.
+    pub fn published(&mut self, coefficients: &[PublishedCoefficient]) {
+        for coefficient in coefficients {
+            self.line(format!(
+                "`{}`: a coefficient of a formula, published {}; other values are changed from the source",
+                coefficient.pattern, coefficient.published
+            ));
+        }
     }
 
     /// Adds a picture.

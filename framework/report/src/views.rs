@@ -2,4 +2,5 @@
 
 pub mod balance;
 pub mod breakdown;
+pub mod sweep;
 pub mod thermal_limit;

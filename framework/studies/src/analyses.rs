@@ -18,6 +18,7 @@ pub mod ranges;
 pub mod rows;
 pub mod shares;
 pub mod spin_loss;
+pub mod sweep;
 pub mod temperature_sweep;
 pub mod thermal_limit;
 pub mod trial;

@@ -14,15 +14,14 @@ use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stop
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
     CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry,
-    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, Study, SweepEntry, TournamentEntry,
-    UncertaintyEntry,
+    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, Study, TournamentEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
     Parts, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points, rms_surface,
-    sensitivity, sweep, tournament, uncertainty, write,
+    sensitivity, tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -222,7 +221,6 @@ impl Runner<'_> {
             ComponentCompareEntry => component_compare::run,
             ContactPathEntry => contact_path::run,
             OperatingPointsEntry => operating_points::run,
-            SweepEntry => sweep::run,
             TournamentEntry => tournament::run,
             UncertaintyEntry => uncertainty::run,
             IdentifyEntry => identify::run,

@@ -4,8 +4,7 @@ use super::Entry;
 use crate::register_entry;
 use crate::study::{
     CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry,
-    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SweepEntry, Then, TournamentEntry,
-    UncertaintyEntry, Uses,
+    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, Then, TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -82,17 +81,6 @@ impl Entry for OperatingPointsEntry {
 }
 
 register_entry!(OperatingPointsEntry);
-
-impl Entry for SweepEntry {
-    const TYPE: &'static str = "sweep";
-    const MEANING: &'static str = "Losses and efficiency over the values of one path, or of two.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(SweepEntry);
 
 impl Entry for TournamentEntry {
     const TYPE: &'static str = "tournament";
