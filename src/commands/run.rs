@@ -14,7 +14,6 @@ mod parquet;
 mod parts;
 mod pieces;
 mod report;
-mod rms_surface;
 mod runner;
 mod sensitivity;
 mod shard;

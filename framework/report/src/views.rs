@@ -2,5 +2,6 @@
 
 pub mod balance;
 pub mod breakdown;
+pub mod rms_surface;
 pub mod sweep;
 pub mod thermal_limit;

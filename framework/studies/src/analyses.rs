@@ -15,6 +15,7 @@ pub mod measurable;
 pub mod numbers;
 pub mod progress;
 pub mod ranges;
+pub mod rms_surface;
 pub mod rows;
 pub mod shares;
 pub mod spin_loss;

@@ -14,14 +14,14 @@ use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stop
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
     CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry,
-    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, Study, TournamentEntry, UncertaintyEntry,
+    MapEntry, OperatingPointsEntry, SensitivityEntry, Study, TournamentEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points, rms_surface,
-    sensitivity, tournament, uncertainty, write,
+    Parts, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points, sensitivity,
+    tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -225,7 +225,6 @@ impl Runner<'_> {
             UncertaintyEntry => uncertainty::run,
             IdentifyEntry => identify::run,
             SensitivityEntry => sensitivity::run,
-            RmsSurfaceEntry => rms_surface::run,
             CycleAnalysisEntry => cycle::run,
             FluidSweepEntry => fluid_sweep::run,
         }

@@ -4,7 +4,7 @@ use super::Entry;
 use crate::register_entry;
 use crate::study::{
     CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry, IdentifyEntry,
-    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, Then, TournamentEntry, UncertaintyEntry, Uses,
+    MapEntry, OperatingPointsEntry, SensitivityEntry, Then, TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -151,20 +151,6 @@ impl Entry for SensitivityEntry {
 }
 
 register_entry!(SensitivityEntry);
-
-impl Entry for RmsSurfaceEntry {
-    const TYPE: &'static str = "rms_surface";
-    const MEANING: &'static str = "How well models meet a measurement over two quantities of the gearbox.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.against)
-            .at(&self.gear)
-            .bind(&self.bind)
-            .with("data", Some(&self.data))
-    }
-}
-
-register_entry!(RmsSurfaceEntry);
 
 impl Entry for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
