@@ -189,3 +189,33 @@ impl Outcome for SweepOutcome {
         self.notes.iter().flat_map(|of_set| &of_set.notes).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn note(path: &str, least: f64, greatest: f64, outside: u32) -> Note {
+        Note {
+            path: path.to_owned(),
+            name: "n_dm",
+            unit: "-",
+            least,
+            greatest,
+            points: 3,
+            outside,
+            range: None,
+        }
+    }
+
+    #[test]
+    fn notes_are_merged_by_limit_where_a_value_is_another_model() {
+        // The first value has no model at the first place, so the places of the notes differ.
+        let notes = [note("b", 1.0, 2.0, 0), note("a", 5.0, 6.0, 1), note("b", 0.0, 1.0, 2)];
+        let merged = merged(notes.iter());
+        let shown: Vec<_> = merged
+            .iter()
+            .map(|n| (n.path.as_str(), n.least, n.greatest, n.points, n.outside))
+            .collect();
+        assert_eq!(shown, [("b", 0.0, 2.0, 6, 2), ("a", 5.0, 6.0, 3, 1)]);
+    }
+}
