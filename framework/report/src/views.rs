@@ -8,6 +8,8 @@ pub mod cycle;
 pub mod fluid_sweep;
 pub mod uncertainty;
 pub mod breakdown;
+pub mod rms_surface;
+pub mod sweep;
 pub mod thermal_limit;
 pub mod compare;
 pub mod component_compare;

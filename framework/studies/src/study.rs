@@ -10,8 +10,6 @@ mod identify;
 mod names;
 mod parameters;
 mod range;
-mod rms_surface;
-mod sweep;
 mod then;
 mod tolerance;
 mod write;
@@ -33,8 +31,6 @@ pub use identify::{
 pub use names::is_device;
 pub(crate) use parameters::NameOr;
 pub use range::RangeEntry;
-pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
-pub use sweep::{SecondEntry, SweepEntry};
 pub use then::Then;
 pub use write::Write;
 pub use tolerance::{Shape, ToleranceEntry};

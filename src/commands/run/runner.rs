@@ -13,7 +13,7 @@ use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
 use gearloss_studies::analysis::{GridResult, Points, notes};
 use gearloss_studies::study::{
-    IdentifyEntry, RmsSurfaceEntry, Study, SweepEntry, Write,
+    IdentifyEntry, Study, Write,
 };
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -22,7 +22,7 @@ use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
 use super::{
-    identify, rms_surface, sweep, write,
+    identify, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -233,9 +233,7 @@ impl Runner<'_> {
             };
         }
         one_of! {
-            SweepEntry => sweep::run,
             IdentifyEntry => identify::run,
-            RmsSurfaceEntry => rms_surface::run,
         }
         Ok(())
     }

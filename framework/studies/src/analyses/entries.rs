@@ -3,19 +3,8 @@
 use super::Entry;
 use crate::register_entry;
 use crate::study::{
-    IdentifyEntry, RmsSurfaceEntry, SweepEntry, Then, Uses,
+    IdentifyEntry, Then, Uses,
 };
-
-impl Entry for SweepEntry {
-    const TYPE: &'static str = "sweep";
-    const MEANING: &'static str = "Losses and efficiency over the values of one path, or of two.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
-register_entry!(SweepEntry);
 
 impl Entry for IdentifyEntry {
     const TYPE: &'static str = "identify";
@@ -43,16 +32,3 @@ impl Entry for IdentifyEntry {
 
 register_entry!(IdentifyEntry);
 
-impl Entry for RmsSurfaceEntry {
-    const TYPE: &'static str = "rms_surface";
-    const MEANING: &'static str = "How well models meet a measurement over two quantities of the gearbox.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.against)
-            .at(&self.gear)
-            .bind(&self.bind)
-            .with("data", Some(&self.data))
-    }
-}
-
-register_entry!(RmsSurfaceEntry);

@@ -11,8 +11,9 @@ const NOISE: f64 = 1e-7;
 pub type Flat = [[usize; 2]; 2];
 
 /// The least value.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Least {
+    /// The value, in the unit of the difference.
     pub value: f64,
     /// Places along x and y.
     pub place: [usize; 2],
@@ -27,8 +28,8 @@ pub struct Least {
 }
 
 impl Least {
-    /// Of values whose first coordinate runs first, so many in a row; absent where none has a value.
-    pub fn of(values: &[Option<f64>], columns: usize, accuracy: Option<f64>) -> Option<Self> {
+    /// The least of values whose first coordinate runs first, so many in a row; absent where none has a value.
+    pub fn new(values: &[Option<f64>], columns: usize, accuracy: Option<f64>) -> Option<Self> {
         let known = || values.iter().enumerate().filter_map(|(i, value)| Some((i, (*value)?)));
         let (cell, value) = known().min_by(|a, b| a.1.total_cmp(&b.1))?;
         let place = [cell % columns, cell / columns];
@@ -80,7 +81,7 @@ mod tests {
 
     #[test]
     fn a_bowl_has_its_least_inside_and_is_flat_along_one_axis() {
-        let least = Least::of(&bowl(2.0, 1.0), 5, Some(1.0)).unwrap();
+        let least = Least::new(&bowl(2.0, 1.0), 5, Some(1.0)).unwrap();
         assert_eq!((least.place, least.ends), ([2, 1], [None, None]));
         assert_eq!(least.close, [[2, 2], [0, 2]]);
         assert_eq!(least.unseen.unwrap(), [[1, 3], [0, 3]]);
@@ -90,19 +91,19 @@ mod tests {
     fn a_slope_ends_at_its_sides_and_gaps_do_not_count() {
         let mut values = bowl(9.0, -1.0);
         assert_eq!(
-            Least::of(&values, 5, None).unwrap().ends,
+            Least::new(&values, 5, None).unwrap().ends,
             [Some(Side::Upper), Some(Side::Lower)]
         );
         values[4] = None;
-        let least = Least::of(&values, 5, None).unwrap();
+        let least = Least::new(&values, 5, None).unwrap();
         assert_eq!((least.place, least.ends), ([4, 1], [Some(Side::Upper), None]));
-        assert!(Least::of(&[None, None], 2, None).is_none());
+        assert!(Least::new(&[None, None], 2, None).is_none());
     }
 
     #[test]
     fn an_axis_along_which_nothing_changes_has_no_end() {
         let values: Vec<Option<f64>> = (0..6).map(|i| Some(if i % 3 == 2 { 1.0 } else { 2.0 })).collect();
-        let least = Least::of(&values, 3, None).unwrap();
+        let least = Least::new(&values, 3, None).unwrap();
         assert_eq!((least.depends, least.ends), ([true, false], [Some(Side::Upper), None]));
         assert_eq!(least.close, [[2, 2], [0, 1]]);
     }

@@ -2,17 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use gearloss_studies::analysis::{Rows, Statistics};
-use gearloss_studies::measured::{Measured, Seen, counted};
-use gearloss_studies::study::RmsSurfaceEntry;
-use indicatif::ProgressBar;
 use rayon::prelude::*;
 
-use super::super::{Built, Runner};
-use super::{Axis, Counted};
-use crate::interrupt;
-use crate::output::Failure;
-use gearloss_studies::analyses::trial::{Left, Trial};
+use super::{Axis, RmsSurfaceEntry};
+use crate::analyses::rows::SolvedRow;
+use crate::analyses::trial::{Left, Trial};
+use crate::analyses::{Built, Context, Stopped};
+use crate::analysis::{Rows, Statistics};
+use crate::measured::{Measured, Seen, counted};
 
 /// A row at a pair: the difference of the model from the measurement, or why there is none.
 pub type Difference = Result<f64, String>;
@@ -39,47 +36,56 @@ impl Pair {
     }
 
     /// The pair in words.
-    pub fn words(&self, axes: &[Axis; 2]) -> String {
+    fn words(&self, axes: &[Axis; 2]) -> String {
         let word = |k: usize| format!("{} = {}", axes[k].varied.pattern, axes[k].varied.words(self.at[k]));
         format!("{}, {}", word(0), word(1))
     }
 }
 
-/// What the measurement lacks does not hang on the pair.
+/// What the measurement lacks does not depend on the pair.
 const NOTHING: &str = "nothing was measured";
+
+/// Which points count.
+pub struct Counted {
+    /// Rows that have a value at every pair of every set.
+    pub places: Vec<usize>,
+    /// The others, with the reason.
+    pub left_out: Vec<(usize, String)>,
+    /// Accuracy of the measurement, in the unit of the difference.
+    pub accuracy: Option<f64>,
+}
 
 /// Solves all pairs of one set; the same whatever the number of threads.
 pub fn pairs(
-    runner: &Runner<'_>,
+    cx: &Context<'_>,
     entry: &RmsSurfaceEntry,
     built: &Built<'_>,
     axes: &[Axis; 2],
     rows: &Rows<'_>,
     seen: &mut Left,
-) -> Result<Vec<Pair>, Failure> {
+) -> Result<Vec<Pair>, Stopped> {
     let [x, y] = axes;
     let count = x.values.len() * y.values.len();
-    runner.holds("analyses", rows.measured.rows.len(), count)?;
-    let bar = runner.bar(count as u64, &built.name);
-    let trial = Trial::new(runner, built);
+    cx.holds("analyses", rows.measured.rows.len(), count)?;
+    let running = cx.running(count, &built.name);
+    let trial = Trial::new(cx, built);
     let speeds = trial.speeds(rows);
-    let speeds = &speeds.map_err(|reason| runner.wrong("analyses", reason, "leave it out of `rig`"))?[..];
-    let one = |i: usize| {
+    let speeds = &speeds.map_err(|reason| cx.wrong("analyses", reason, "leave it out of `rig`"))?[..];
+    let solve = |i: usize| {
         let at = [x.values[i % x.values.len()], y.values[i / x.values.len()]];
         let overrides: Vec<_> = x.varied.overrides(at[0]).chain(y.varied.overrides(at[1])).collect();
         let mut seen = Left::new();
-        let solved = if interrupt::pressed() {
-            Err("interrupted".to_owned())
-        } else {
+        let solved = if cx.goes_on() {
             trial.rows(rows, speeds, &overrides, &mut seen)
+        } else {
+            Err("interrupted".to_owned())
         };
-        bar.inc(1);
+        running.advance(1);
         (pair(entry, rows.measured, at, solved), seen)
     };
-    let all: Vec<(Pair, Left)> = (0..count).into_par_iter().with_max_len(1).map(one).collect();
-    ProgressBar::finish_and_clear(&bar);
-    if interrupt::pressed() {
-        return Err(Failure::Interrupted);
+    let all: Vec<(Pair, Left)> = (0..count).into_par_iter().with_max_len(1).map(solve).collect();
+    if !cx.goes_on() {
+        return Err(Stopped::Interrupted);
     }
     let mut pairs = Vec::with_capacity(count);
     for (pair, left) in all {
@@ -89,12 +95,7 @@ pub fn pairs(
     Ok(pairs)
 }
 
-fn pair(
-    entry: &RmsSurfaceEntry,
-    measured: &Measured,
-    at: [f64; 2],
-    solved: Result<Vec<gearloss_studies::analyses::rows::SolvedRow>, String>,
-) -> Pair {
+fn pair(entry: &RmsSurfaceEntry, measured: &Measured, at: [f64; 2], solved: Result<Vec<SolvedRow>, String>) -> Pair {
     let solved = match solved {
         Ok(solved) => solved,
         Err(reason) => {
@@ -139,13 +140,13 @@ fn pair(
 
 /// The rows that have a value at every pair of every set, but for pairs that have none at all.
 pub fn counted_points(
-    runner: &Runner<'_>,
-    path: &str,
+    cx: &Context<'_>,
     entry: &RmsSurfaceEntry,
     measured: &Measured,
     sets: &[(Built<'_>, [Axis; 2])],
     solved: &[Vec<Pair>],
-) -> Result<Counted, Failure> {
+) -> Result<Counted, Stopped> {
+    let path = cx.path();
     let mut faults: BTreeMap<usize, String> = BTreeMap::new();
     for ((built, axes), pairs) in sets.iter().zip(solved) {
         for pair in pairs {
@@ -164,11 +165,11 @@ pub fn counted_points(
     if places.is_empty() && faults.values().all(|why| why == NOTHING) {
         let message = format!(
             "{}: nothing gives a measured {}",
-            runner.data(path, &entry.data)?.file,
+            cx.data(&path, &entry.data)?.file,
             entry.quantity.name()
         );
         let mend = "name a column of it, or columns of torque and speed at both ports";
-        return Err(runner.wrong(&format!("{path}.data"), message, mend));
+        return Err(cx.wrong(&format!("{path}.data"), message, mend));
     }
     if let Some(why) = faults
         .values()
@@ -176,7 +177,7 @@ pub fn counted_points(
         .filter(|_| places.is_empty())
     {
         let message = format!("no point has a value at every pair; {why}");
-        return Err(runner.wrong(path, message, "leave values of `x` and `y` out"));
+        return Err(cx.wrong(&path, message, "leave values of `x` and `y` out"));
     }
     // Speeds follow from the gear state alone, so one pair tells the accuracies for all.
     let first = solved.iter().flatten().find(|pair| pair.differences.is_ok());

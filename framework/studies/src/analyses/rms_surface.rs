@@ -1,0 +1,263 @@
+//! How well models meet a measurement over two quantities of the gearbox.
+
+mod least;
+mod outcome;
+mod solve;
+
+use gearloss_framework::description::Ordered;
+use gearloss_framework::resolve::matches;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+
+use self::solve::{Counted, Pair, counted_points, pairs};
+use super::measurable::countable;
+use super::ranges::varied;
+use super::trial::Left;
+use super::{Analysis, Built, Context, Entry, Stopped};
+use crate::measured::Measured;
+use crate::register_analysis;
+use crate::study::{Data, Difference, Quantity, Uses, Write};
+use crate::varied::{Tie, Varied};
+
+pub use self::least::{Flat, Least};
+pub use self::outcome::{
+    AxisOfSurface, LeastOfSurface, PairOfSurface, PointLeftOut, RangeOfSurface, RmsSurfaceOutcome, SurfaceOfSet,
+};
+
+/// Root of the mean square of the difference from measured points, for every pair of values of two quantities of the gearbox.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct RmsSurfaceEntry {
+    /// Gearbox of every set that names none; absent, the first.
+    pub gearbox: Option<String>,
+    /// Measured points. One without a value at some pair counts at none, so that all pairs stand on the same points.
+    pub data: Data,
+    /// Columns of the data that change a value of the gearbox: column to resolved path.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// Gear state of the data where no column says it; absent, the first.
+    pub gear: Option<String>,
+    /// Sets to compare with the data; `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    #[schemars(length(min = 1))]
+    pub against: Vec<String>,
+    /// What is compared.
+    #[serde(default)]
+    pub quantity: Quantity,
+    /// How the difference counts: the model minus the measurement.
+    #[serde(default)]
+    pub difference: Difference,
+    /// Accuracy of the measurement, in the unit of the difference, where no column tells it. [-]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub accuracy: Option<f64>,
+    /// The first quantity.
+    pub x: SurfaceAxisEntry,
+    /// The second quantity.
+    pub y: SurfaceAxisEntry,
+    /// Formats to write; absent, CSV, JSON and SVG.
+    #[serde(default = "Write::all")]
+    pub write: Vec<Write>,
+}
+
+/// A quantity of the gearbox and its values.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct SurfaceAxisEntry {
+    /// Resolved path; with `*` all that it meets move together.
+    pub path: String,
+    /// How several quantities move together.
+    #[serde(default)]
+    pub tie: Tie,
+    /// Rising values, each as in a gearbox: `[4 mm2/s, 6 mm2/s]`.
+    #[schemars(length(min = 2))]
+    pub values: Vec<Value>,
+}
+
+impl Entry for RmsSurfaceEntry {
+    const TYPE: &'static str = "rms_surface";
+    const MEANING: &'static str = "How well models meet a measurement over two quantities of the gearbox.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.against)
+            .at(&self.gear)
+            .bind(&self.bind)
+            .with("data", Some(&self.data))
+    }
+}
+
+register_analysis!(RmsSurfaceEntry);
+
+impl Analysis for RmsSurfaceEntry {
+    type Outcome = RmsSurfaceOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<RmsSurfaceOutcome, Stopped> {
+        let path = cx.path();
+        countable(cx, &path, self.quantity, self.difference)?;
+        let bind: Vec<&str> = self.bind.ids().collect();
+        let measured = cx.read(&format!("{path}.data"), &self.data, &bind)?;
+        let rows = cx.study.rows(&measured, &self.bind, self.gear.as_deref(), false);
+        let mut sets = Vec::new();
+        for built in cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.against)? {
+            let axes = self.axes(cx, &measured, &built)?;
+            cx.rows_fit(&rows, built.gearbox, &cx.study.choice(built.set()))?;
+            sets.push((built, axes));
+        }
+        cx.begin()?;
+        let mut left_at_pairs = Left::new();
+        let mut solved = Vec::new();
+        for (built, axes) in &sets {
+            solved.push(pairs(cx, self, built, axes, &rows, &mut left_at_pairs)?);
+        }
+        let counted = counted_points(cx, self, &measured, &sets, &solved)?;
+        let mut surfaces = Vec::new();
+        for ((built, axes), pairs) in sets.iter().zip(solved) {
+            surfaces.push(self.surface(cx, &measured, &counted, built, axes, pairs)?);
+        }
+        Ok(RmsSurfaceOutcome {
+            head: cx.head(&sets.iter().map(|(built, _)| built).collect::<Vec<_>>()),
+            surfaces,
+            difference: self.difference,
+            measured_points: measured.rows.len(),
+            measured_notes: measured.notes,
+            left_at_pairs,
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+/// A quantity and its values, rising, in its unit.
+struct Axis {
+    varied: Varied,
+    values: Vec<f64>,
+}
+
+impl Axis {
+    fn new(cx: &Context<'_>, path: &str, entry: &SurfaceAxisEntry, built: &Built<'_>) -> Result<Self, Stopped> {
+        let varied = varied(cx, &format!("{path}.path"), (&entry.path, entry.tie), built)?;
+        let mut values: Vec<f64> = Vec::new();
+        for (i, written) in entry.values.iter().enumerate() {
+            let wrong = |message: String, mend: &str| {
+                let message = format!("{}: {message}", entry.path);
+                cx.wrong(&format!("{path}.values.{i}"), message, mend)
+            };
+            let value = varied
+                .quantity(written, false)
+                .map_err(|reason| wrong(reason, "write a quantity of the path, such as `5 mm`"))?;
+            let [least, greatest] = varied.range;
+            if value < least || value > greatest {
+                let message = format!("{} is outside of {least} to {greatest}", varied.words(value));
+                return Err(wrong(message, "leave it out"));
+            }
+            if values.last().is_some_and(|last| *last >= value) {
+                return Err(wrong(
+                    "the values do not rise all along".to_owned(),
+                    "sort them, and name each once",
+                ));
+            }
+            values.push(value);
+        }
+        Ok(Self { varied, values })
+    }
+
+    fn record(&self) -> AxisOfSurface {
+        AxisOfSurface {
+            path: self.varied.pattern.clone(),
+            paths: self.varied.paths.clone(),
+            unit: self.varied.unit.symbol,
+            values: self.values.clone(),
+            words: self.values.iter().map(|value| self.varied.words(*value)).collect(),
+        }
+    }
+}
+
+impl RmsSurfaceEntry {
+    /// Both axes under one set.
+    fn axes(&self, cx: &Context<'_>, measured: &Measured, built: &Built<'_>) -> Result<[Axis; 2], Stopped> {
+        let path = cx.path();
+        let x = Axis::new(cx, &format!("{path}.x"), &self.x, built)?;
+        let y = Axis::new(cx, &format!("{path}.y"), &self.y, built)?;
+        let shared = |a: &[String], b: &[String]| a.iter().any(|path| b.contains(path));
+        if shared(&x.varied.paths, &y.varied.paths) {
+            let message = format!(
+                "`{}` and `{}` change the same value",
+                x.varied.pattern, y.varied.pattern
+            );
+            return Err(cx.wrong(
+                &format!("{path}.y.path"),
+                message,
+                "name another quantity for one of them",
+            ));
+        }
+        for (key, axis) in [("x", &x), ("y", &y)] {
+            let wrong = |message: String, mend: &str| cx.wrong(&format!("{path}.{key}.path"), message, mend);
+            for (column, pattern) in self.bind.iter() {
+                if shared(&axis.varied.paths, &matches(&built.resolved.value, pattern)) {
+                    let message = format!("column `{column}` of the data changes `{}` too", axis.varied.pattern);
+                    return Err(wrong(
+                        message,
+                        "leave the column out of `bind`, or name another quantity",
+                    ));
+                }
+            }
+            let oil = axis.varied.paths.iter().any(|path| path == "thermal.oil");
+            if oil && measured.holds("oil_temperature") {
+                let message = "the data give the temperature of every point, so it cannot change".to_owned();
+                return Err(wrong(message, "name another quantity"));
+            }
+        }
+        Ok([x, y])
+    }
+
+    /// The surface of one set.
+    fn surface(
+        &self,
+        cx: &Context<'_>,
+        measured: &Measured,
+        counted: &Counted,
+        built: &Built<'_>,
+        [x, y]: &[Axis; 2],
+        pairs: Vec<Pair>,
+    ) -> Result<SurfaceOfSet, Stopped> {
+        let path = cx.path();
+        let rms: Vec<Option<f64>> = pairs.iter().map(|pair| pair.rms(measured, &counted.places)).collect();
+        let Some(least) = Least::new(&rms, x.values.len(), counted.accuracy) else {
+            let why = pairs.iter().find_map(|pair| pair.differences.as_ref().err());
+            let message = format!(
+                "models {}: no pair has a value: {}",
+                built.name,
+                why.map_or("no point has one", String::as_str)
+            );
+            return Err(cx.wrong(&path, message, "move the values of `x` and `y`"));
+        };
+        let left_out = |(i, reason): &(usize, String)| {
+            let row = &measured.rows[*i];
+            PointLeftOut {
+                line: row.line,
+                name: row.name.clone(),
+                reason: reason.clone(),
+                file: measured.file(row).map(str::to_owned),
+            }
+        };
+        let pairs = pairs.into_iter().zip(rms).map(|(pair, rms)| PairOfSurface {
+            x: pair.at[0],
+            y: pair.at[1],
+            rms,
+            reason: pair.differences.err(),
+        });
+        Ok(SurfaceOfSet {
+            model_set: built.name.clone(),
+            file: cx.data(&format!("{path}.data"), &self.data)?.file.to_string(),
+            quantity: self.quantity,
+            unit: self.quantity.unit(self.difference),
+            points: counted.places.len(),
+            left_out: counted.left_out.iter().map(left_out).collect(),
+            accuracy: counted.accuracy,
+            x: x.record(),
+            y: y.record(),
+            pairs: pairs.collect(),
+            least: LeastOfSurface::new(&least, &x.values, &y.values),
+            least_place: least,
+        })
+    }
+}

@@ -1,0 +1,221 @@
+//! The outcome of a sweep.
+
+use gearloss_framework::flow::Status;
+use gearloss_framework::thermal;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::analyses::numbers::word;
+use crate::analyses::ranges::PublishedCoefficient;
+use crate::analyses::{Head, Outcome};
+use crate::analysis::Note;
+use crate::cells;
+use crate::table::{Cell, Column, Table};
+
+/// Losses and efficiency at every value under each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SweepOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set at each value: the values of the second path outermost, the sets innermost.
+    pub sweep: Vec<SweepOfValue>,
+    /// The paths that are coefficients of formulas.
+    #[serde(skip)]
+    pub published: Vec<PublishedCoefficient>,
+    /// What models noted over all values, for each set.
+    #[serde(skip)]
+    pub notes: Vec<NotesOfSet>,
+}
+
+/// What models noted over all values under one set: a note for each limit and observed quantity.
+#[derive(Debug, Clone)]
+pub struct NotesOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// The notes.
+    pub notes: Vec<Note>,
+}
+
+/// Losses and efficiency under one model set at one value.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SweepOfValue {
+    /// Name of the set.
+    pub model_set: String,
+    /// Gear state.
+    pub gear: String,
+    /// Path whose value changes.
+    pub path: String,
+    /// The value as it is written in the study.
+    pub value: Value,
+    /// The second path and its value, where there are two.
+    pub second: Option<SecondValue>,
+    /// Names of the shares of the losses.
+    pub shares: Vec<String>,
+    /// The points: torques outermost.
+    pub points: Vec<PointOfSweep>,
+    /// What models noted.
+    pub notes: Vec<Note>,
+    /// Number of the value and of the second value in the study, from zero.
+    #[serde(skip)]
+    pub places: [usize; 2],
+}
+
+/// A second path and its value.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SecondValue {
+    /// The path.
+    pub path: String,
+    /// The value as it is written in the study.
+    pub value: Value,
+}
+
+/// A solved point.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct PointOfSweep {
+    /// Torque. [Nm]
+    pub torque_nm: f64,
+    /// Speed. [rpm]
+    pub speed_rpm: f64,
+    /// Temperature of the oil; absent where no balance was found. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// What became of the balance; absent where the temperature is given.
+    pub balance: Option<thermal::Outcome>,
+    /// What the transmission does.
+    pub status: Status,
+    /// Power out over power in. [-]
+    pub efficiency: Option<f64>,
+    /// Loss. [W]
+    pub loss_w: Option<f64>,
+    /// Losses in the order of the shares. [W]
+    pub losses_w: Option<Vec<f64>>,
+    /// The speed with the digits that `speed_rpm` rounds; headings show it. [rpm]
+    #[serde(skip)]
+    pub solved_speed_rpm: f64,
+}
+
+impl SweepOutcome {
+    /// What belongs to one set, in the order of the values.
+    pub fn values_of_set(&self, set: &str) -> impl Iterator<Item = &SweepOfValue> {
+        self.sweep.iter().filter(move |value| value.model_set == set)
+    }
+}
+
+impl NotesOfSet {
+    /// Those of each set, from all of its values.
+    pub(super) fn all(sweep: &[SweepOfValue]) -> Vec<Self> {
+        let first = sweep.iter().take_while(|value| value.places == [0, 0]);
+        let set = |first: &SweepOfValue| {
+            let own = sweep.iter().filter(|value| value.model_set == first.model_set);
+            Self {
+                model_set: first.model_set.clone(),
+                notes: merged(own.flat_map(|value| &value.notes)),
+            }
+        };
+        first.map(set).collect()
+    }
+}
+
+/// Notes of several transmissions that differ in some values, a note for each limit and observed quantity.
+fn merged<'n>(notes: impl Iterator<Item = &'n Note>) -> Vec<Note> {
+    let mut all: Vec<Note> = Vec::new();
+    for note in notes {
+        let key = |note: &Note| (note.path.clone(), note.name, note.range);
+        match all.iter_mut().find(|other| key(other) == key(note)) {
+            Some(known) => {
+                known.least = known.least.min(note.least);
+                known.greatest = known.greatest.max(note.greatest);
+                known.points += note.points;
+                known.outside += note.outside;
+            }
+            None => all.push(note.clone()),
+        }
+    }
+    all
+}
+
+impl Outcome for SweepOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let first = self.sweep.first();
+        let second = first.and_then(|value| value.second.as_ref());
+        let shares = first.map_or(&[][..], |value| &value.shares);
+        let mut columns = vec![
+            Column::text("model_set", "Model set"),
+            Column::text("gear", "Gear state"),
+        ];
+        let paths = first.map(|value| &value.path).into_iter();
+        let paths = paths.chain(second.map(|second| &second.path));
+        columns.extend(paths.map(|path| Column::text(path, "Value of the path as the study writes it")));
+        columns.extend([
+            Column::number("torque_nm", "Nm", "Torque"),
+            Column::number("speed_rpm", "rpm", "Speed"),
+            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+            Column::text("balance", "What became of the balance"),
+            Column::text("status", "What the transmission does"),
+            Column::number("efficiency", "-", "Power out over power in"),
+            Column::number("loss_w", "W", "Loss"),
+        ]);
+        let share = |share: &String| Column::number(format!("{share}_w"), "W", format!("Loss of {share}"));
+        columns.extend(shares.iter().map(share));
+        let mut table = Table::new(&self.head.analysis, columns);
+        for value in &self.sweep {
+            let second = value.second.as_ref().map(|second| word(&second.value));
+            for point in &value.points {
+                let mut row = cells![&value.model_set, &value.gear, word(&value.value)].to_vec();
+                row.extend(second.as_ref().map(Cell::from));
+                row.extend(cells![
+                    point.torque_nm,
+                    point.speed_rpm,
+                    point.oil_temperature_degc,
+                    point.balance.map_or("", thermal::Outcome::name),
+                    point.status.name(),
+                    point.efficiency,
+                    point.loss_w,
+                ]);
+                let losses = point.losses_w.as_ref();
+                row.extend((0..value.shares.len()).map(|i| Cell::from(losses.map(|losses| losses[i]))));
+                table.push(row);
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        self.notes.iter().flat_map(|of_set| &of_set.notes).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn note(path: &str, least: f64, greatest: f64, outside: u32) -> Note {
+        Note {
+            path: path.to_owned(),
+            name: "n_dm",
+            unit: "-",
+            least,
+            greatest,
+            points: 3,
+            outside,
+            range: None,
+        }
+    }
+
+    #[test]
+    fn notes_are_merged_by_limit_where_a_value_is_another_model() {
+        // The first value has no model at the first place, so the places of the notes differ.
+        let notes = [note("b", 1.0, 2.0, 0), note("a", 5.0, 6.0, 1), note("b", 0.0, 1.0, 2)];
+        let merged = merged(notes.iter());
+        let shown: Vec<_> = merged
+            .iter()
+            .map(|n| (n.path.as_str(), n.least, n.greatest, n.points, n.outside))
+            .collect();
+        assert_eq!(shown, [("b", 0.0, 2.0, 6, 2), ("a", 5.0, 6.0, 3, 1)]);
+    }
+}
