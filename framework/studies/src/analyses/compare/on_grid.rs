@@ -82,6 +82,16 @@ pub struct GridDifference {
     pub difference: Option<f64>,
 }
 
+/// What every set is compared with, and where.
+struct Base<'a> {
+    name: &'a str,
+    gear: &'a str,
+    torques: &'a [f64],
+    speeds: &'a [f64],
+    points: &'a [PointResult],
+    ranges_left: usize,
+}
+
 pub(super) fn compare(
     cx: &Context<'_>,
     entry: &CompareEntry,
@@ -108,17 +118,17 @@ pub(super) fn compare(
         solved.insert(0, cx.solve(b, &points)?);
     }
     cx.begin()?;
-    let seen_by_base = notes(&built[0].transmission, &solved[0].seen);
-    let ranges_left_by_base = seen_by_base.iter().filter(|note| note.outside > 0).count();
+    let seen = notes(&built[0].transmission, &solved[0].seen);
+    let base = Base {
+        name: base,
+        gear: &gear,
+        torques: &torques,
+        speeds: &speeds,
+        points: &solved[0].points,
+        ranges_left: seen.iter().filter(|note| note.outside > 0).count(),
+    };
     let others = built.iter().zip(&solved).skip(1);
-    let comparisons = others.map(|(b, other)| GridComparison {
-        base: base.to_owned(),
-        gear: gear.clone(),
-        torques: torques.clone(),
-        speeds: speeds.clone(),
-        ranges_left_by_base,
-        ..comparison(entry, b, &solved[0].points, other)
-    });
+    let comparisons = others.map(|(b, other)| comparison(entry, &base, b, other));
     let comparisons = comparisons.collect();
     Ok((cx.head(&built.iter().collect::<Vec<_>>()), comparisons))
 }
@@ -142,8 +152,8 @@ fn check_grid(cx: &Context<'_>, name: &str, grid: &Grid) -> Result<(), Stopped> 
     Ok(())
 }
 
-/// One set beside the base; what all sets have in common is left empty.
-fn comparison(entry: &CompareEntry, built: &Built<'_>, base: &[PointResult], other: &GridResult) -> GridComparison {
+/// One set beside the base.
+fn comparison(entry: &CompareEntry, base: &Base<'_>, built: &Built<'_>, other: &GridResult) -> GridComparison {
     let point = |(base, other): (&PointResult, &PointResult)| {
         let (base_model, model) = (entry.quantity.of(base), entry.quantity.of(other));
         GridDifference {
@@ -156,7 +166,7 @@ fn comparison(entry: &CompareEntry, built: &Built<'_>, base: &[PointResult], oth
                 .and_then(|(base, other)| entry.quantity.difference(entry.difference, base, other)),
         }
     };
-    let pairs = || base.iter().zip(&other.points);
+    let pairs = || base.points.iter().zip(&other.points);
     let points: Vec<GridDifference> = pairs().map(point).collect();
     let at = |found: Option<(usize, f64)>| {
         found.map(|(i, difference)| DifferenceAt {
@@ -173,8 +183,8 @@ fn comparison(entry: &CompareEntry, built: &Built<'_>, base: &[PointResult], oth
     };
     GridComparison {
         model_set: built.name.clone(),
-        base: String::new(),
-        gear: String::new(),
+        base: base.name.to_owned(),
+        gear: base.gear.to_owned(),
         quantity: entry.quantity,
         unit: entry.quantity.unit(entry.difference),
         least: at(extreme(&points, |a, b| a < b)),
@@ -185,9 +195,9 @@ fn comparison(entry: &CompareEntry, built: &Built<'_>, base: &[PointResult], oth
         notes: notes(&built.transmission, &other.seen),
         outside: pairs().map(|(a, b)| a.outside || b.outside).collect(),
         points,
-        torques: Vec::new(),
-        speeds: Vec::new(),
-        ranges_left_by_base: 0,
+        torques: base.torques.to_vec(),
+        speeds: base.speeds.to_vec(),
+        ranges_left_by_base: base.ranges_left,
     }
 }
 
