@@ -8,7 +8,6 @@ mod contact_path;
 mod cycle;
 mod fluid_sweep;
 mod folder;
-mod identify;
 mod map;
 mod operating_points;
 mod parquet;

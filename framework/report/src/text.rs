@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+pub use gearloss_studies::analyses::numbers::{figures, fixed, significant};
+
 /// A table of texts: the first column to the left, numbers to the right.
 pub struct TextTable {
     rows: Vec<Vec<String>>,
@@ -70,58 +72,12 @@ pub fn number(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(|| "-".to_owned(), |x| fixed(x, digits))
 }
 
-/// A number with some digits behind the point; in engineering notation from a thousand million on, where all its digits would say
-/// nothing, and a dash where it is none.
-pub fn fixed(x: f64, digits: usize) -> String {
-    if !x.is_finite() {
-        return "-".to_owned();
-    }
-    if x.abs() < 1e9 {
-        return format!("{x:.digits$}");
-    }
-    // Six significant digits, the exponent a multiple of three.
-    let text = format!("{x:.5e}");
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let (mantissa, exponent): (f64, i32) = (mantissa.parse().unwrap_or(x), exponent.parse().unwrap_or(0));
-    let shift = exponent.rem_euclid(3);
-    format!(
-        "{:.*}e{}",
-        5 - shift as usize,
-        mantissa * 10_f64.powi(shift),
-        exponent - shift
-    )
-}
-
 /// Where a value is that left a range; one end of the range may be open.
 pub fn beyond(least: f64, greatest: f64) -> String {
     match (least.is_finite(), greatest.is_finite()) {
         (true, false) => format!("below {}", significant(least)),
         (false, true) => format!("above {}", significant(greatest)),
         _ => format!("outside of {} to {}", significant(least), significant(greatest)),
-    }
-}
-
-/// A number in six significant digits.
-pub fn significant(x: f64) -> String {
-    figures(x, 6)
-}
-
-/// A number in some significant digits.
-pub fn figures(x: f64, count: u32) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    let magnitude = x.abs().log10().floor();
-    if (-4.0..6.0).contains(&magnitude) {
-        let digits = (f64::from(count) - 1.0 - magnitude).clamp(0.0, 9.0) as usize;
-        let text = format!("{x:.digits$}");
-        if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        }
-    } else {
-        format!("{x:.*e}", count.saturating_sub(1) as usize)
     }
 }
 

@@ -1,3 +1,4 @@
 //! How the outcomes of the analyses are shown.
 
 pub mod balance;
+pub mod identify;

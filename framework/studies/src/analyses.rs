@@ -9,6 +9,7 @@ pub mod context;
 pub mod duties;
 mod entries;
 pub mod head;
+pub mod identify;
 pub mod inputs;
 pub mod measurable;
 pub mod numbers;
@@ -91,6 +92,20 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
     fn found(&self) -> Vec<(String, Value)> {
         Vec::new()
     }
+
+    /// Further files of text, such as values for a study, that are written whatever formats the study asks for.
+    fn files(&self) -> Vec<TextFile> {
+        Vec::new()
+    }
+}
+
+/// A file of text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextFile {
+    /// Name with extension.
+    pub name: String,
+    /// What is in it.
+    pub text: String,
 }
 
 /// An [`Outcome`] of any type.
@@ -105,6 +120,8 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn left_at_samples(&self) -> Vec<(&str, &str)>;
     /// Values of the model set that it leaves for later analyses.
     fn found(&self) -> Vec<(String, Value)>;
+    /// Further files of text.
+    fn files(&self) -> Vec<TextFile>;
     /// For a downcast to its type.
     fn as_any(&self) -> &dyn Any;
     /// Writes it as JSON.
@@ -129,6 +146,9 @@ impl<O: Outcome> AnyOutcome for O {
     }
     fn found(&self) -> Vec<(String, Value)> {
         Outcome::found(self)
+    }
+    fn files(&self) -> Vec<TextFile> {
+        Outcome::files(self)
     }
     fn as_any(&self) -> &dyn Any {
         self

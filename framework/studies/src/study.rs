@@ -34,12 +34,12 @@ pub use cycle::{CycleAnalysisEntry, DriveEntry, FluidSweepEntry, ReferenceLoss};
 pub use data::Data;
 pub use files::Study;
 pub use identify::{
-    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry,
-    PosteriorEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
+    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, OverEntry, PriorEntry, ScaleEntry,
 };
 pub use map::MapEntry;
 pub use names::is_device;
 pub use operating_points::OperatingPointsEntry;
+pub(crate) use parameters::NamesOrParameters;
 pub use range::RangeEntry;
 pub use rms_surface::{RmsSurfaceEntry, SurfaceAxisEntry};
 pub use sensitivity::{Method, SensitivityEntry};

@@ -14,15 +14,15 @@ use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stop
 use gearloss_studies::analysis::{GridResult, Make, Piece, Points, held, merge, notes};
 use gearloss_studies::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
+    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, Study, SweepEntry,
     TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::stated_ranges::StatedRanges;
 use super::{
-    Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, identify, map, operating_points,
-    rms_surface, sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
+    Parts, breakdown, compare, component_compare, contact_path, cycle, fluid_sweep, map, operating_points, rms_surface,
+    sensitivity, sweep, thermal_limit, tournament, uncertainty, write,
 };
 use crate::interrupt;
 use crate::output::{Failure, Out};
@@ -227,7 +227,6 @@ impl Runner<'_> {
             SweepEntry => sweep::run,
             TournamentEntry => tournament::run,
             UncertaintyEntry => uncertainty::run,
-            IdentifyEntry => identify::run,
             SensitivityEntry => sensitivity::run,
             RmsSurfaceEntry => rms_surface::run,
             CycleAnalysisEntry => cycle::run,

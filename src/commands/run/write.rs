@@ -31,6 +31,9 @@ pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome, formats: &[Write])
     for table in outcome.tables() {
         table_files(runner, &table, formats)?;
     }
+    for file in outcome.files() {
+        keep(runner.run, &file.name, Ok(file.text.into_bytes()))?;
+    }
     if !formats.contains(&Write::Json) {
         return Ok(());
     }

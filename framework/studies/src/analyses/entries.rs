@@ -4,8 +4,8 @@ use super::Entry;
 use crate::register_entry;
 use crate::study::{
     BreakdownEntry, CompareEntry, ComponentCompareEntry, ContactPathEntry, CycleAnalysisEntry, FluidSweepEntry,
-    IdentifyEntry, MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
-    TemperatureSweepEntry, Then, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
+    MapEntry, OperatingPointsEntry, RmsSurfaceEntry, SensitivityEntry, SpinLossEntry, SweepEntry,
+    TemperatureSweepEntry, ThermalLimitEntry, TournamentEntry, UncertaintyEntry, Uses,
 };
 
 impl Entry for MapEntry {
@@ -169,32 +169,6 @@ impl Entry for UncertaintyEntry {
 }
 
 register_entry!(UncertaintyEntry);
-
-impl Entry for IdentifyEntry {
-    const TYPE: &'static str = "identify";
-    const MEANING: &'static str = "Uncertain parameters, found from measured points.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.next.as_ref().map(|next| &next.grid),
-            grid_key: "next.grid",
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("data", Some(&self.data))
-        }
-    }
-
-    fn then(&self) -> Option<Then<'_>> {
-        let set = self.then.as_deref()?;
-        Some(Then {
-            set,
-            model_sets: &self.model_sets,
-        })
-    }
-}
-
-register_entry!(IdentifyEntry);
 
 impl Entry for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
