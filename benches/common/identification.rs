@@ -5,9 +5,10 @@ use std::path::Path;
 
 use gearloss_framework::language::Language;
 use gearloss_plugins as _;
+use gearloss_studies::analyses::identify::IdentifyEntry;
 use gearloss_studies::identify::Identification;
 use gearloss_studies::measured::Measured;
-use gearloss_studies::study::{IdentifyEntry, Study};
+use gearloss_studies::study::Study;
 
 /// An analysis that is put beside those of a study: eight parameters that the rig of the two-speed example tells apart under its set `joint`, for that example's study: that set
 /// has no seals, and a factor of its tooth friction would say the same as the roughness. All end between their bounds.

@@ -13,10 +13,11 @@ use gearloss_framework::registry::Registry;
 use gearloss_framework::resolve::Choice;
 use gearloss_numerics::least_squares::{Reason, Status};
 use gearloss_plugins as _;
+use gearloss_studies::analyses::identify::IdentifyEntry;
 use gearloss_studies::analysis::Rows;
 use gearloss_studies::identify::{Fitted, Identification, ModelKink, Settings};
 use gearloss_studies::measured::Measured;
-use gearloss_studies::study::{IdentifyEntry, StudyEntry};
+use gearloss_studies::study::StudyEntry;
 use serde_json::json;
 
 const RPM: f64 = std::f64::consts::PI / 30.0;

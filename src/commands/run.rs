@@ -1,13 +1,11 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
 mod folder;
-mod identify;
 mod manifest;
 mod report;
 mod runner;
 mod shard;
 mod shard_tasks;
-mod shown;
 mod stated_ranges;
 mod table;
 mod task_file;
@@ -25,7 +23,7 @@ use std::path::{Path, PathBuf};
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::axes::{grid_axes, speeds, torques};
+use gearloss_studies::analyses::axes::{speeds, torques};
 use gearloss_studies::analyses::{Built, gear_of};
 use gearloss_studies::study::Study;
 

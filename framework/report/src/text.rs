@@ -6,7 +6,6 @@ pub use gearloss_studies::analyses::numbers::spread_over;
 use std::fmt::Write as _;
 
 pub use gearloss_studies::analyses::numbers::{beyond, figures, fixed, significant};
-
 /// A table of texts: the first column to the left, numbers to the right.
 pub struct TextTable {
     rows: Vec<Vec<String>>,

@@ -12,9 +12,9 @@ pub mod contact_path;
 pub mod context;
 pub mod cycle;
 pub mod duties;
-mod entries;
 pub mod fluid_sweep;
 pub mod head;
+pub mod identify;
 pub mod inputs;
 pub mod map;
 pub mod measurable;
@@ -26,11 +26,11 @@ pub mod rms_surface;
 pub mod rows;
 pub mod sensitivity;
 pub mod shares;
-pub mod tournament;
 pub mod spin_loss;
 pub mod sweep;
 pub mod temperature_sweep;
 pub mod thermal_limit;
+pub mod tournament;
 pub mod trial;
 pub mod uncertainty;
 
@@ -123,6 +123,20 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
     fn failures(&self) -> &[Findings] {
         &[]
     }
+
+    /// Further files of text, such as values for a study, that are written whatever formats the study asks for.
+    fn files(&self) -> Vec<TextFile> {
+        Vec::new()
+    }
+}
+
+/// A file of text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextFile {
+    /// Name with extension.
+    pub name: String,
+    /// What is in it.
+    pub text: String,
 }
 
 /// An [`Outcome`] of any type.
@@ -143,6 +157,8 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn fault(&self) -> Option<Diagnostic>;
     /// Why parts of it are missing.
     fn failures(&self) -> &[Findings];
+    /// Further files of text.
+    fn files(&self) -> Vec<TextFile>;
     /// For a downcast to its type.
     fn as_any(&self) -> &dyn Any;
     /// Writes it as JSON.
@@ -176,6 +192,9 @@ impl<O: Outcome> AnyOutcome for O {
     }
     fn failures(&self) -> &[Findings] {
         Outcome::failures(self)
+    }
+    fn files(&self) -> Vec<TextFile> {
+        Outcome::files(self)
     }
     fn as_any(&self) -> &dyn Any {
         self
@@ -211,47 +230,31 @@ pub struct AnalysisKind {
     pub origin: Origin,
     schema: fn(&mut SchemaGenerator) -> Schema,
     read: fn(Value) -> Result<Arc<dyn Written>, serde_json::Error>,
-    computed: Option<Computed>,
-}
-
-/// How an analysis is computed.
-struct Computed {
     run: fn(&dyn Any, &Context<'_>) -> Result<Box<dyn AnyOutcome>, Stopped>,
     formats: fn(&dyn Any) -> &[Write],
-    schema: fn(&mut SchemaGenerator) -> Schema,
+    outcome: fn(&mut SchemaGenerator) -> Schema,
 }
 
 inventory::collect!(AnalysisKind);
 
 impl AnalysisKind {
-    /// An entry whose computation is elsewhere.
-    pub const fn of_entry<E: Entry>(origin: Origin) -> Self {
-        Self {
-            name: E::TYPE,
-            meaning: E::MEANING,
-            origin,
-            schema: SchemaGenerator::subschema_for::<E>,
-            read: |value| Ok(Arc::new(serde_json::from_value::<E>(value)?)),
-            computed: None,
-        }
-    }
-
     /// An analysis; use [`register_analysis!`](crate::register_analysis).
     pub const fn new<A: Analysis>(origin: Origin) -> Self {
         Self {
-            computed: Some(Computed {
-                run: |entry, cx| Ok(Box::new(own::<A>(entry).run(cx)?)),
-                formats: |entry| own::<A>(entry).formats(),
-                schema: SchemaGenerator::subschema_for::<A::Outcome>,
-            }),
-            ..Self::of_entry::<A>(origin)
+            name: A::TYPE,
+            meaning: A::MEANING,
+            origin,
+            schema: SchemaGenerator::subschema_for::<A>,
+            read: |value| Ok(Arc::new(serde_json::from_value::<A>(value)?)),
+            run: |entry, cx| Ok(Box::new(own::<A>(entry).run(cx)?)),
+            formats: |entry| own::<A>(entry).formats(),
+            outcome: SchemaGenerator::subschema_for::<A::Outcome>,
         }
     }
 
     /// The schema of its outcome.
-    pub fn outcome_schema(&self, generator: &mut SchemaGenerator) -> Option<Schema> {
-        let computed = self.computed.as_ref()?;
-        Some((computed.schema)(generator))
+    pub fn outcome_schema(&self, generator: &mut SchemaGenerator) -> Schema {
+        (self.outcome)(generator)
     }
 
     /// All that are linked, in the order of their names.
@@ -289,16 +292,6 @@ macro_rules! register_analysis {
     };
 }
 
-/// Registers the entry of an analysis.
-#[macro_export]
-macro_rules! register_entry {
-    ($E:ty) => {
-        gearloss_framework::registry::inventory::submit! {
-            $crate::analyses::AnalysisKind::of_entry::<$E>(gearloss_framework::origin!())
-        }
-    };
-}
-
 /// An analysis as a study writes it.
 #[derive(Debug, Clone)]
 pub struct AnalysisEntry {
@@ -324,19 +317,17 @@ impl AnalysisEntry {
         written.downcast_ref()
     }
 
-    /// Computes the outcome; absent where the program computes it elsewhere.
+    /// Computes the outcome.
     ///
     /// # Errors
     /// As [`Analysis::run`].
-    pub fn run(&self, cx: &Context<'_>) -> Option<Result<Box<dyn AnyOutcome>, Stopped>> {
-        let computed = self.kind.computed.as_ref()?;
-        Some((computed.run)(self.written.as_ref(), cx))
+    pub fn run(&self, cx: &Context<'_>) -> Result<Box<dyn AnyOutcome>, Stopped> {
+        (self.kind.run)(self.written.as_ref(), cx)
     }
 
     /// Files that the study asks for.
     pub fn formats(&self) -> &[Write] {
-        let computed = self.kind.computed.as_ref();
-        computed.map_or(&[], |computed| (computed.formats)(self.written.as_ref()))
+        (self.kind.formats)(self.written.as_ref())
     }
 
     /// The names that it uses.

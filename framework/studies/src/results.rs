@@ -1,8 +1,8 @@
 //! The schema of results: the head, and one record of results for each analysis that is linked.
 
+use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform as _};
-use schemars::Schema;
 use serde_json::{Value, json};
 
 use crate::analyses::AnalysisKind;
@@ -15,7 +15,7 @@ pub fn schema() -> Value {
     let mut generator = SchemaSettings::draft07().for_serialize().into_generator();
     let outcomes: Vec<Schema> = AnalysisKind::linked()
         .into_iter()
-        .filter_map(|kind| kind.outcome_schema(&mut generator))
+        .map(|kind| kind.outcome_schema(&mut generator))
         .collect();
     let mut definitions: Vec<(String, Value)> = generator.take_definitions(true).into_iter().collect();
     definitions.sort_by(|a, b| a.0.cmp(&b.0));

@@ -25,15 +25,14 @@ pub use data::Data;
 pub use drive::DriveEntry;
 pub use files::Study;
 pub use identify::{
-    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, IdentifyEntry, NextEntry, OverEntry,
-    PosteriorEntry, PriorEntry, RobustEntry, RobustLoss, RuleEntry, ScaleEntry,
+    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, OverEntry, PriorEntry, ScaleEntry,
 };
 pub use names::is_device;
-pub(crate) use parameters::NameOr;
+pub(crate) use parameters::{NameOr, NamesOrParameters};
 pub use range::RangeEntry;
 pub use then::Then;
-pub use write::Write;
 pub use tolerance::{Shape, ToleranceEntry};
+pub use write::Write;
 
 use crate::analyses::AnalysisEntry;
 use crate::duty::{CycleEntry, VehicleEntry};

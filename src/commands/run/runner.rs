@@ -6,24 +6,17 @@ use std::path::PathBuf;
 
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
-use gearloss_framework::loss::Extent;
-use gearloss_framework::transmission::Transmission;
 use gearloss_report::page::{Page, Text};
 use gearloss_studies::analyses::progress::{Progress, Steps};
-use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Built, Context, Stopped};
-use gearloss_studies::analysis::{GridResult, Points, notes};
-use gearloss_studies::study::{
-    IdentifyEntry, Study, Write,
-};
+use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Context, Stopped};
+use gearloss_studies::study::{Study, Write};
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
-use super::{
-    identify, write,
-};
+use super::write;
 use crate::interrupt;
 use crate::output::{Failure, Out};
 use crate::report::Report;
@@ -156,19 +149,18 @@ impl<'a> Run<'a> {
         if let Some((set, by)) = self.study.pending(analysis).filter(|_| !self.only_checks) {
             let message = format!("the set `{set}` has no values: the analysis `{by}` found none");
             let mend = format!("correct `{by}`, or choose another set");
-            return Err(runner.wrong(&format!("analyses.{name}"), message, &mend));
+            return Err(runner.wrong(&format!("analyses.{name}"), message, &mend).into());
         }
         out.begin_copy();
         let done = match analysis.run(&runner.cx) {
-            Some(Ok(outcome)) => {
+            Ok(outcome) => {
                 let shown = runner.present(analysis, outcome.as_ref(), out);
                 drop(runner);
                 let written = tables.finish(&outcome.tables());
                 shown.and(written)
             }
-            Some(Err(Stopped::Checked)) => Ok(()),
-            Some(Err(stopped)) => Err(stopped.into()),
-            None => runner.legacy(name, analysis, out),
+            Err(Stopped::Checked) => Ok(()),
+            Err(stopped) => Err(stopped.into()),
         };
         let printed = out.end_copy();
         self.report.borrow_mut().text(&printed);
@@ -204,6 +196,9 @@ impl Runner<'_> {
             self.run.report.borrow_mut().verdict(verdict);
         }
         let formats = analysis.formats();
+        for file in outcome.files() {
+            write::keep(self.run, &file.name, Ok(file.text.into_bytes()))?;
+        }
         if formats.contains(&Write::Json) {
             write::outcome(self, outcome)?;
         }
@@ -221,50 +216,5 @@ impl Runner<'_> {
             [] => Ok(()),
             failures => Err(failures.into()),
         }
-    }
-
-    /// Runs an analysis that computes, prints and writes at once.
-    fn legacy(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
-        macro_rules! one_of {
-            ($($entry:ty => $run:path),* $(,)?) => {
-                $(if let Some(entry) = analysis.entry::<$entry>() {
-                    return $run(self, name, entry, out);
-                })*
-            };
-        }
-        one_of! {
-            IdentifyEntry => identify::run,
-        }
-        Ok(())
-    }
-
-    /// Solves all points and holds them.
-    pub(super) fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Failure> {
-        let all = self.cx.solve(built, points)?;
-        self.seen(&built.transmission, &all.seen);
-        Ok(all)
-    }
-
-    /// A bar of progress on standard error, on a terminal only.
-    pub(super) fn bar(&self, count: u64, name: &str) -> ProgressBar {
-        self.run.bars.bar(count, name)
-    }
-
-    /// Prints a sentence that a reader must not miss, and puts it where the report begins to tell of the analysis.
-    pub(super) fn verdict(&self, sentence: String, out: &mut Out) -> Result<(), Failure> {
-        out.line(&sentence)?;
-        self.run.report.borrow_mut().verdict(&sentence);
-        Ok(())
-    }
-
-    /// A fault of the study at a path.
-    pub(super) fn wrong(&self, path: &str, message: impl Into<String>, mend: &str) -> Failure {
-        self.cx.wrong(path, message, mend).into()
-    }
-
-    /// Counts the limits that were left.
-    pub(super) fn seen(&self, transmission: &Transmission, seen: &[Extent]) {
-        let left = notes(transmission, seen).iter().filter(|n| n.outside > 0).count();
-        self.run.left.set(self.run.left.get() + left);
     }
 }

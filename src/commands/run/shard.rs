@@ -110,17 +110,17 @@ fn compute(run: &Run<'_>) -> Result<usize, Failure> {
         }
         let cx = run.context(name).with_sink(&Unwanted);
         match analysis.run(&cx) {
-            Some(Ok(outcome)) => {
+            Ok(outcome) => {
                 if let Some(then) = analysis.then() {
                     run.study.keep_found(then.set, outcome.found());
                 }
             }
-            Some(Err(Stopped::Found(findings))) => {
+            Err(Stopped::Found(findings)) => {
                 Out::error().text(&findings.render())?;
                 failed += 1;
             }
-            None | Some(Err(Stopped::Elsewhere | Stopped::Checked)) => {}
-            Some(Err(stopped)) => return Err(stopped.into()),
+            Err(Stopped::Elsewhere | Stopped::Checked) => {}
+            Err(stopped) => return Err(stopped.into()),
         }
     }
     Ok(failed)

@@ -2,9 +2,6 @@
 
 use gearloss_studies::analysis::Note;
 
-use gearloss_report::page::outside;
-use gearloss_studies::analyses::trial::Left as LeftAtSamples;
-
 use super::{Run, Runner};
 use crate::output::{Failure, Out, beyond, significant};
 
@@ -129,13 +126,6 @@ fn line(group: &[&Left]) -> String {
 }
 
 impl Runner<'_> {
-    /// Keeps what left its stated range for the end of the run; the report has it at the analysis, too.
-    pub(super) fn outside(&self, notes: &[Note], out: &mut Out) {
-        out.only_copy(&outside(notes));
-        let left = notes.iter().filter(|note| note.outside > 0);
-        left.for_each(|note| self.keep_outside(note));
-    }
-
     /// Keeps a range that was left.
     pub(super) fn keep_outside(&self, note: &Note) {
         self.run.stated_ranges.borrow_mut().add(Left {
@@ -154,17 +144,6 @@ impl Runner<'_> {
             values: None,
             analyses: vec![self.name.to_owned()],
         });
-    }
-
-    /// Counts the stated ranges that trials left, and keeps them for the end of the run.
-    pub(super) fn left_at_samples(&self, left: &LeftAtSamples, out: &mut Out) {
-        self.run.left.set(self.run.left.get() + left.len());
-        for (path, name) in left {
-            out.only_copy(&format!(
-                "{OUTSIDE}{path}: {name} leaves its stated range at some samples\n"
-            ));
-            self.keep_outside_at_samples(path, name);
-        }
     }
 }
 

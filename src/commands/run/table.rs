@@ -81,13 +81,12 @@ impl<'r> Tables<'r> {
     pub fn finish(self, tables: &[Table]) -> Result<(), Failure> {
         let mut begun = self.begun.into_inner().unwrap_or_else(PoisonError::into_inner);
         for table in tables {
-            let file = match begun.iter().position(|(name, _)| *name == table.name) {
-                Some(own) => begun.swap_remove(own).1,
-                None => {
-                    let mut file = TableFiles::new(self.files, self.formats, table)?;
-                    file.rows(table)?;
-                    file
-                }
+            let file = if let Some(own) = begun.iter().position(|(name, _)| *name == table.name) {
+                begun.swap_remove(own).1
+            } else {
+                let mut file = TableFiles::new(self.files, self.formats, table)?;
+                file.rows(table)?;
+                file
             };
             file.finish()?;
         }
@@ -99,53 +98,14 @@ impl RowSink for Tables<'_> {
     fn take(&self, rows: &Table) -> Result<(), Stopped> {
         let unwritten = |failure: Failure| Stopped::Unwritten(failure.text().unwrap_or_default());
         let mut begun = self.begun.lock().unwrap_or_else(PoisonError::into_inner);
-        let own = begun.iter().position(|(name, _)| *name == rows.name);
-        let own = match own {
-            Some(own) => own,
-            None => {
-                let file = TableFiles::new(self.files, self.formats, rows).map_err(unwritten)?;
-                begun.push((rows.name.clone(), file));
-                begun.len() - 1
-            }
+        let known = begun.iter().position(|(name, _)| *name == rows.name);
+        let own = if let Some(own) = known {
+            own
+        } else {
+            let file = TableFiles::new(self.files, self.formats, rows).map_err(unwritten)?;
+            begun.push((rows.name.clone(), file));
+            begun.len() - 1
         };
         begun[own].1.rows(rows).map_err(unwritten)
-    }
-}
-
-/// A table whose rows are texts.
-pub struct TableFile<'r> {
-    files: &'r Files,
-    formats: Vec<Write>,
-    name: String,
-    header: Vec<String>,
-    rows: Vec<Vec<String>>,
-}
-
-impl<'r> TableFile<'r> {
-    pub fn new(run: &'r super::Run<'_>, name: &str, formats: &[Write], header: &[String]) -> Result<Self, Failure> {
-        Ok(Self {
-            files: &run.files,
-            formats: formats.to_vec(),
-            name: name.to_owned(),
-            header: header.to_vec(),
-            rows: Vec::new(),
-        })
-    }
-
-    pub fn push_all<R: AsRef<[String]>>(&mut self, rows: &[R]) -> Result<(), Failure> {
-        self.rows.extend(rows.iter().map(|row| row.as_ref().to_vec()));
-        Ok(())
-    }
-
-    pub fn finish(self) -> Result<(), Failure> {
-        use gearloss_studies::table::{Cell, Column};
-        let columns = self.header.iter().map(|name| Column::text(name, ""));
-        let mut table = Table::new(&self.name, columns);
-        for row in &self.rows {
-            table.push(row.iter().map(Cell::from));
-        }
-        let mut file = TableFiles::new(self.files, &self.formats, &table)?;
-        file.rows(&table)?;
-        file.finish()
     }
 }

@@ -8,21 +8,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
+use gearloss_studies::analyses::AnyOutcome;
 use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
-use gearloss_studies::analyses::{AnyOutcome, Built};
 use gearloss_studies::study::Write;
-use serde::Serialize;
-use serde_json::{Value, json};
 
 use super::folder::{cannot, temporary};
-use super::table::TableFile;
 use super::{Run, Runner};
 use crate::output::Failure;
-
-/// What stands at the head of every JSON result.
-pub fn head(runner: &Runner<'_>, built: &[&Built<'_>]) -> Value {
-    json!(runner.head(built))
-}
 
 /// Writes an outcome as JSON.
 pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome) -> Result<(), Failure> {
@@ -44,32 +36,6 @@ pub fn remove(runner: &Run<'_>, name: &str) {
             let _ = fs::remove_file(runner.files.folder.join(file));
         }
     }
-}
-
-/// Writes a table as CSV and Parquet and a value as JSON, as asked.
-pub fn write(
-    runner: &Runner<'_>,
-    name: &str,
-    formats: &[Write],
-    header: &[String],
-    rows: &[Vec<String>],
-    value: &impl Serialize,
-) -> Result<(), Failure> {
-    let mut table = TableFile::new(runner.run, name, formats, header)?;
-    table.push_all(rows)?;
-    table.finish()?;
-    write_json(runner, name, formats, value)
-}
-
-/// Writes a value as JSON, where that is asked for.
-pub fn write_json(runner: &Runner<'_>, name: &str, formats: &[Write], value: &impl Serialize) -> Result<(), Failure> {
-    if !formats.contains(&Write::Json) {
-        return Ok(());
-    }
-    let (place, mut file) = Place::new(&runner.run.files, &format!("{name}.json"))?;
-    let written = serde_json::to_writer_pretty(&mut file, value).map_err(std::io::Error::from);
-    let written = written.and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush());
-    place.done(written.map_err(|e| e.to_string()))
 }
 
 /// The folder of results, and the files that were written into it.
@@ -176,13 +142,6 @@ pub fn keep(runner: &Run<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Res
             .map_err(|e| e.to_string())
     });
     place.done(written)
-}
-
-/// A cell: the number with all its digits; nothing where it is none.
-pub fn cell(value: Option<f64>) -> String {
-    value
-        .filter(|x| x.is_finite())
-        .map_or_else(String::new, |x| format!("{x}"))
 }
 
 /// The hash of a regular file, which is read some bytes at a time.

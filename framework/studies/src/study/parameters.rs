@@ -14,7 +14,7 @@ use gearloss_framework::document::{Diagnostic, did_you_mean};
     dead_code,
     reason = "its schema alone counts: names are replaced before the study is read into types"
 )]
-pub(super) enum NamesOrParameters {
+pub(crate) enum NamesOrParameters {
     /// Names of parameters that the study states under `parameters`.
     Names(#[schemars(length(min = 1))] Vec<String>),
     /// The parameters by name.

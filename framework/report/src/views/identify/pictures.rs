@@ -1,89 +1,67 @@
 //! Pictures of identifications: parameters between their bounds, deviations before and after, losses beside the measured
 //! total, residuals, correlations, what to measure next.
 
-use gearloss_report::plot::{Bar, Interval, Line, Stroke};
-use gearloss_report::{Figure, Map};
-use gearloss_studies::study::{Difference, IdentifyEntry, Quantity};
+use gearloss_numerics::inference::{Accuracy, BandMean, Parameter};
+use gearloss_studies::analyses::identify::lines::Sheet;
+use gearloss_studies::analyses::identify::{IdentificationOfSet, IdentifyOutcome};
+use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::identify::{Identified, Observation};
+use gearloss_studies::study::Quantity;
 
-use super::super::super::solve::RPM;
-use super::super::Runner;
-use super::super::write::picture;
-use super::hold_out;
-use super::lines::Sheet;
-use super::outcome::Outcome;
-use super::tables::losses_by;
-use crate::output::{Failure, fixed};
-use gearloss_report::deviations::histograms;
-use gearloss_report::deviations::{self, Deviation};
-use gearloss_studies::analyses::numbers::tidy;
+use super::{hold_out, slug, stacks, words};
+use crate::deviations::{self, Deviation, histograms};
+use crate::page::Page;
+use crate::plot::{Interval, Line, Stroke};
+use crate::{Figure, Map};
 
 /// Correlation from which on the joint region of two parameters is drawn, and for how many pairs.
 const JOINT: (f64, usize) = (0.8, 4);
 /// Points of a drawn border.
 const BORDER: u32 = 72;
 
-pub fn write(runner: &Runner<'_>, name: &str, entry: &IdentifyEntry, o: &Outcome<'_>) -> Result<(), Failure> {
-    let put = |what: &str, figure: Figure| picture(runner, &format!("{name}-{}-{what}", o.name), figure, &entry.write);
-    put("parameters", parameters(name, o))?;
-    for quantity in o.quantities() {
+pub(super) fn draw(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mut Page) {
+    let name = outcome.head.analysis.as_str();
+    let mut put = |what: &str, figure: Figure| page.figure(format!("{name}-{}-{what}", o.model_set), figure);
+    put("parameters", parameters(name, o));
+    for quantity in o.found.quantities() {
         for (what, figure) in maps(name, o, quantity) {
-            put(&what, figure)?;
+            put(&what, figure);
         }
-        let (what, unit) = quantity.words(Difference::Points);
-        let list = |k: usize| o.deviations(quantity, k).into_iter().map(|(_, d)| d).collect();
+        let list = |k: usize| o.found.deviations(quantity, k).into_iter().map(|(_, d)| d).collect();
         let lists = vec![("before".to_owned(), list(0)), ("after".to_owned(), list(1))];
-        let title = format!("{name}: {} minus measurement", o.name);
-        put(
-            &format!("histogram-{}", slug(quantity)),
-            histograms(&title, (what, unit), lists),
-        )?;
+        let title = format!("{name}: {} minus measurement", o.model_set);
+        let what = format!("histogram-{}", slug(quantity));
+        put(&what, histograms(&title, words(quantity), lists));
     }
-    for (what, figure) in stacks(name, entry, o) {
-        put(&what, figure)?;
+    for (what, figure) in stacks::pictures(name, outcome.requested.stack_at, o) {
+        put(&what, figure);
     }
     for (what, figure) in residuals(name, o) {
-        put(what, figure)?;
+        put(what, figure);
     }
     for (what, figure) in hold_out::pictures(name, o) {
-        put(&what, figure)?;
+        put(&what, figure);
     }
-    put("correlations", correlations(name, o))?;
+    put("correlations", correlations(name, o));
     for (what, figure) in joint(name, o) {
-        put(&what, figure)?;
+        put(&what, figure);
     }
     for (what, figure) in next(name, o) {
-        put(&what, figure)?;
-    }
-    Ok(())
-}
-
-pub fn slug(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Efficiency => "efficiency",
-        Quantity::Loss => "loss",
-        Quantity::LossTorque => "loss-torque",
-        Quantity::Temperature => "temperature",
+        put(&what, figure);
     }
 }
 
 /// Where the parameters lie between their bounds, in the coordinates in which they are counted.
-fn parameters(name: &str, o: &Outcome<'_>) -> Figure {
-    let inference = &o.fitted.inference;
-    let all = inference
-        .parameters()
-        .iter()
-        .zip(o.identification.parameters())
-        .enumerate();
-    let interval = |(k, (of, identified)): (
-        usize,
-        (
-            &gearloss_numerics::inference::Parameter,
-            &gearloss_studies::identify::Identified,
-        ),
-    )| {
+fn parameters(name: &str, o: &IdentificationOfSet) -> Figure {
+    let inference = &o.found.fitted.inference;
+    let all = inference.parameters().iter().zip(&o.found.parameters).enumerate();
+    let interval = |(k, (of, identified)): (usize, (&Parameter, &Identified))| {
         let [low, high] = of.bounds;
         let place = |theta: f64| of.scale.coordinate(theta).map(|u| (u - low) / (high - low));
-        let own = o.profiles[k].as_ref().and_then(|p| p.as_ref().ok()).map(|p| p.theta);
+        let own = o.found.profiles[k]
+            .as_ref()
+            .and_then(|p| p.as_ref().ok())
+            .map(|p| p.theta);
         let ends = own.or_else(|| inference.interval(k, 0.95, 1.0).map(|i| i.ends));
         Interval {
             name: of.name.clone(),
@@ -93,7 +71,7 @@ fn parameters(name: &str, o: &Outcome<'_>) -> Figure {
         }
     };
     Figure::Intervals {
-        title: format!("{name}: parameters of {} between their bounds", o.name),
+        title: format!("{name}: parameters of {} between their bounds", o.model_set),
         x: "0: least, 1: greatest value allowed (logarithmic ones by their logarithm)".to_owned(),
         marks: vec![0.0, 1.0],
         list: all.map(interval).filter(|i| i.at.is_finite()).collect(),
@@ -101,13 +79,14 @@ fn parameters(name: &str, o: &Outcome<'_>) -> Figure {
 }
 
 /// Deviations over speed and torque before and after, a pair of maps with the same colours for each sheet.
-fn maps(name: &str, o: &Outcome<'_>, quantity: Quantity) -> Vec<(String, Figure)> {
-    let (what, unit) = quantity.words(Difference::Points);
-    let measured = o.identification.measured();
+fn maps(name: &str, o: &IdentificationOfSet, quantity: Quantity) -> Vec<(String, Figure)> {
+    let (what, unit) = words(quantity);
+    let measured = &o.found.measured;
     let mut figures = Vec::new();
-    for (number, sheet) in o.sheets.iter().enumerate() {
+    for (number, sheet) in o.found.sheets.iter().enumerate() {
         let lists = [0, 1].map(|which| -> Vec<Deviation> {
             let own = o
+                .found
                 .deviations(quantity, which)
                 .into_iter()
                 .filter(|(row, _)| sheet.rows.contains(row));
@@ -129,7 +108,7 @@ fn maps(name: &str, o: &Outcome<'_>, quantity: Quantity) -> Vec<(String, Figure)
         for (k, list) in lists.iter().enumerate() {
             let when = ["before", "after"][k];
             let title = titled(
-                format!("{name}: {what} of {} minus measurement in {unit}, {when}", o.name),
+                format!("{name}: {what} of {} minus measurement in {unit}, {when}", o.model_set),
                 sheet,
             );
             let figure = deviations::picture(title, list, unseen, Some((-most, most)));
@@ -139,7 +118,7 @@ fn maps(name: &str, o: &Outcome<'_>, quantity: Quantity) -> Vec<(String, Figure)
     figures
 }
 
-fn titled(title: String, sheet: &Sheet) -> String {
+pub(super) fn titled(title: String, sheet: &Sheet) -> String {
     if sheet.name.is_empty() {
         title
     } else {
@@ -147,8 +126,8 @@ fn titled(title: String, sheet: &Sheet) -> String {
     }
 }
 
-fn numbered(what: &str, o: &Outcome<'_>, number: usize) -> String {
-    if o.sheets.len() == 1 {
+pub(super) fn numbered(what: &str, o: &IdentificationOfSet, number: usize) -> String {
+    if o.found.sheets.len() == 1 {
         what.to_owned()
     } else {
         format!("{what}-{}", number + 1)
@@ -156,81 +135,29 @@ fn numbered(what: &str, o: &Outcome<'_>, number: usize) -> String {
 }
 
 /// Accuracy of the measurement over a sheet, root of the mean square, in the unit of deviations.
-fn accuracy(o: &Outcome<'_>, quantity: Quantity, sheet: &Sheet) -> Option<f64> {
-    if o.fitted.inference.accuracy() == gearloss_numerics::inference::Accuracy::Estimated {
+fn accuracy(o: &IdentificationOfSet, quantity: Quantity, sheet: &Sheet) -> Option<f64> {
+    if o.found.fitted.inference.accuracy() == Accuracy::Estimated {
         return None;
     }
     let unit = if quantity == Quantity::Efficiency { 100.0 } else { 1.0 };
-    let own = o.identification.observations().iter();
+    let own = o.found.observations.iter();
     let own = own.filter(|x| x.quantity == quantity && sheet.rows.contains(&x.row));
     let list: Vec<f64> = own.map(|x| unit * x.deviation).collect();
     (!list.is_empty()).then(|| (list.iter().map(|a| a * a).sum::<f64>() / list.len() as f64).sqrt())
 }
 
-/// Losses by mechanism over speed at one torque, beside the measured total, before and after.
-fn stacks(name: &str, entry: &IdentifyEntry, o: &Outcome<'_>) -> Vec<(String, Figure)> {
-    let Ok(shares) = &o.shares else {
-        return Vec::new();
-    };
-    let measured = o.identification.measured();
-    let mut figures = Vec::new();
-    for (number, sheet) in o.sheets.iter().enumerate() {
-        let lines = sheet.lines(measured);
-        let most = lines.iter().map(|(torque, _)| *torque).fold(0.0, f64::max);
-        let wanted = entry.stack_at.unwrap_or(0.5 * most);
-        let nearest = lines
-            .iter()
-            .min_by(|a, b| (a.0 - wanted).abs().total_cmp(&(b.0 - wanted).abs()));
-        let Some((torque, rows)) = nearest else { continue };
-        for (which, when) in ["before", "after"].into_iter().enumerate() {
-            let calculated = &o.calculated[which];
-            let bar = |row: &usize| {
-                let point = calculated.point(*row);
-                let seen = gearloss_studies::measured::Seen::on(&calculated.rig, measured, &measured.rows[*row], point);
-                let share = losses_by(o, which, *row, &shares.mechanisms);
-                let accuracy = seen.accuracy(Quantity::Loss).unwrap_or(0.0);
-                Bar {
-                    label: fixed(point.speed * RPM, 0),
-                    shares: share,
-                    above: String::new(),
-                    measured: seen.loss.map(|loss| (loss, accuracy)),
-                    above_measured: String::new(),
-                }
-            };
-            let title = titled(
-                format!(
-                    "{name}: losses of {} at {torque:.1} Nm beside the measured total, {when}",
-                    o.name
-                ),
-                sheet,
-            );
-            figures.push((
-                numbered(&format!("stack-{when}"), o, number),
-                Figure::Bars {
-                    title,
-                    over: "speed rpm".to_owned(),
-                    height: "loss W".to_owned(),
-                    names: shares.mechanisms.iter().map(|m| (*m).to_owned()).collect(),
-                    bars: rows.iter().map(bar).collect(),
-                },
-            ));
-        }
-    }
-    figures
-}
-
 /// Standardised residuals over torque and over speed, with the means of bands.
-fn residuals(name: &str, o: &Outcome<'_>) -> Vec<(&'static str, Figure)> {
-    let measured = o.identification.measured();
-    let figure = |what: &str, unit: &str, factor: f64, means: &[gearloss_numerics::inference::BandMean]| {
-        let at = |(observation, r): (&gearloss_studies::identify::Observation, &f64)| {
+fn residuals(name: &str, o: &IdentificationOfSet) -> Vec<(&'static str, Figure)> {
+    let measured = &o.found.measured;
+    let figure = |what: &str, unit: &str, factor: f64, means: &[BandMean]| {
+        let at = |(observation, r): (&Observation, &f64)| {
             let value = measured.value(&measured.rows[observation.row], what)?;
             Some((factor * value, *r))
         };
-        let all = o.identification.observations().iter().zip(&o.checks.standardised);
+        let all = o.found.observations.iter().zip(&o.found.checks.standardised);
         let mean = means.iter().map(|b| Some((0.5 * (b.band[0] + b.band[1]), b.mean)));
         Figure::Lines {
-            title: format!("{name}: residuals of {} over {what}", o.name),
+            title: format!("{name}: residuals of {} over {what}", o.model_set),
             x: format!("{what} {unit}"),
             y: "residual, standard deviations".to_owned(),
             lines: vec![
@@ -248,18 +175,24 @@ fn residuals(name: &str, o: &Outcome<'_>) -> Vec<(&'static str, Figure)> {
         }
     };
     vec![
-        ("residuals-torque", figure("torque", "Nm", 1.0, &o.checks.over_torque)),
-        ("residuals-speed", figure("speed", "rpm", RPM, &o.checks.over_speed)),
+        (
+            "residuals-torque",
+            figure("torque", "Nm", 1.0, &o.found.checks.over_torque),
+        ),
+        (
+            "residuals-speed",
+            figure("speed", "rpm", RPM, &o.found.checks.over_speed),
+        ),
     ]
 }
 
-fn correlations(name: &str, o: &Outcome<'_>) -> Figure {
-    let inference = &o.fitted.inference;
+fn correlations(name: &str, o: &IdentificationOfSet) -> Figure {
+    let inference = &o.found.fitted.inference;
     let names: Vec<String> = inference.parameters().iter().map(|p| p.name.clone()).collect();
     let count = names.len();
     let values = (0..count * count).map(|i| inference.correlation(i / count, i % count));
     Figure::Map(Map {
-        title: format!("{name}: correlations of the parameters of {}", o.name),
+        title: format!("{name}: correlations of the parameters of {}", o.model_set),
         x: ("parameter".to_owned(), names.clone()),
         y: ("parameter".to_owned(), names),
         values: values.collect(),
@@ -270,8 +203,8 @@ fn correlations(name: &str, o: &Outcome<'_>) -> Figure {
 }
 
 /// Joint 95 % regions of the pairs that are known together only.
-fn joint(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
-    let inference = &o.fitted.inference;
+fn joint(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
+    let inference = &o.found.fitted.inference;
     let count = inference.parameters().len();
     let mut pairs: Vec<(usize, usize, f64)> = Vec::new();
     for j in 0..count {
@@ -294,14 +227,13 @@ fn joint(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
             let angle = std::f64::consts::TAU * f64::from(i) / f64::from(BORDER);
             let (x, y) = (angle.cos(), angle.sin());
             let along = correlation * x + (1.0 - correlation * correlation).max(0.0).sqrt() * y;
-            let inside =
-                |p: &gearloss_numerics::inference::Parameter, u: f64| p.scale.theta(u.clamp(p.bounds[0], p.bounds[1]));
+            let inside = |p: &Parameter, u: f64| p.scale.theta(u.clamp(p.bounds[0], p.bounds[1]));
             Some((
                 inside(one, one.u + radius * a * x),
                 inside(other, other.u + radius * b * along),
             ))
         };
-        let units = [*j, *k].map(|k| o.identification.parameters()[k].unit.symbol);
+        let units = [*j, *k].map(|k| o.found.parameters[k].unit.symbol);
         let named = |name: &str, unit: &str| {
             if unit == "-" {
                 name.to_owned()
@@ -317,7 +249,7 @@ fn joint(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
         Some(Figure::Lines {
             title: format!(
                 "{name}: {} and {} of {} together, correlation {correlation:.2}",
-                one.name, other.name, o.name
+                one.name, other.name, o.model_set
             ),
             x: named(&one.name, units[0]),
             y: named(&other.name, units[1]),
@@ -332,8 +264,8 @@ fn joint(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
 }
 
 /// What one more point would tell, over speed and torque, with the points of the plan.
-fn next(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
-    let Some(Ok(next)) = &o.next else {
+fn next(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
+    let Some(Ok(next)) = &o.found.next else {
         return Vec::new();
     };
     let (torques, speeds) = &next.axes;
@@ -347,7 +279,7 @@ fn next(name: &str, o: &Outcome<'_>) -> Vec<(String, Figure)> {
         });
         let label = |x: f64| format!("{}", tidy(x));
         let map = Map {
-            title: format!("{name}: what one more point tells about {}{at}", o.name),
+            title: format!("{name}: what one more point tells about {}{at}", o.model_set),
             x: ("speed rpm".to_owned(), speeds.iter().map(|w| label(w * RPM)).collect()),
             y: ("torque Nm".to_owned(), torques.iter().map(|t| label(*t)).collect()),
             values: next.plan.gains[i * size..(i + 1) * size]

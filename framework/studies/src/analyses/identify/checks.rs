@@ -1,45 +1,52 @@
 //! Checks of residuals: whether the model reproduces the points as accurately as they are, and whether neighbours err together.
 
 use gearloss_numerics::inference::{
-    AndersonDarling, BandMean, LackOfFit, PureError, Succession, anderson_darling, band_means, pure_error, succession,
+    AndersonDarling, BandMean, LackOfFit, PureError, Succession, Widening, anderson_darling, band_means, pure_error,
+    succession,
 };
-use gearloss_studies::identify::{Fitted, Identification};
 
-use super::super::super::solve::RPM;
 use super::lines::{Sheet, of_residuals};
+use crate::analyses::numbers::RPM;
+use crate::identify::{Fitted, Identification, Observation};
+use crate::measured::Measured;
 
-/// Probability of a test below which it is told.
+/// Probability of a test below which it is reported.
 const SUSPECT: f64 = 0.01;
 
 /// Ratio of mean squares from which on repeated points are copies, which say nothing.
 const MOST: f64 = 1e6;
 
 /// What the residuals of a fit say against it.
+#[derive(Debug, Clone)]
 pub struct Checks {
+    /// How the scatter goes with the stated accuracy.
     pub lack: Option<LackOfFit>,
+    /// The scatter of repeated points beside the rest.
     pub pure: Option<PureError>,
+    /// Whether the residuals are normally distributed.
     pub normality: Option<AndersonDarling>,
+    /// How residuals follow each other along lines of neighbouring points.
     pub succession: Option<Succession>,
-    /// Mean standardised residuals over torque in Nm and over speed in rpm.
+    /// Mean standardised residuals over torque in Nm.
     pub over_torque: Vec<BandMean>,
+    /// The same over speed in rpm.
     pub over_speed: Vec<BandMean>,
     /// Standardised residuals.
     pub standardised: Vec<f64>,
-    /// Places of residuals that are far out, and of points of great weight.
+    /// Places of residuals that are far out.
     pub outliers: Vec<usize>,
+    /// Places of points that decide more than half of their own calculated value.
     pub weighty: Vec<usize>,
 }
 
 impl Checks {
-    pub fn of(identification: &Identification<'_>, fitted: &Fitted, sheets: &[Sheet]) -> Self {
+    pub(super) fn new(identification: &Identification<'_>, fitted: &Fitted, sheets: &[Sheet]) -> Self {
         let inference = &fitted.inference;
         let measured = identification.measured();
         let observations = identification.observations();
         let standardised = inference.standardised();
         let over = |quantity: &str, factor: f64| -> Vec<BandMean> {
-            let value = |o: &gearloss_studies::identify::Observation| {
-                factor * measured.value(&measured.rows[o.row], quantity).unwrap_or(0.0)
-            };
+            let value = |o: &Observation| factor * measured.value(&measured.rows[o.row], quantity).unwrap_or(0.0);
             let at: Vec<f64> = observations.iter().map(value).collect();
             band_means(&standardised, &at).unwrap_or_default()
         };
@@ -57,10 +64,15 @@ impl Checks {
         }
     }
 
+    /// Factors by which intervals and bands are too small, where the model does not reproduce the points or neighbours err
+    /// together.
+    pub fn widening(&self) -> Widening {
+        Widening::from_checks(self.lack.as_ref(), self.succession.as_ref())
+    }
+
     /// What there is to say, in sentences.
-    pub fn words(&self, identification: &Identification<'_>) -> Vec<String> {
-        let measured = identification.measured();
-        let line = |place: &usize| measured.line(&measured.rows[identification.observations()[*place].row]);
+    pub fn words(&self, measured: &Measured, observations: &[Observation]) -> Vec<String> {
+        let line = |place: &usize| measured.line(&measured.rows[observations[*place].row]);
         let list = |places: &[usize]| {
             let shown: Vec<String> = places.iter().take(8).map(line).collect();
             let more = if places.len() > 8 { ", ..." } else { "" };

@@ -1,14 +1,15 @@
 //! Lines of measured points: one gear state, torque and temperature, over speed.
 
-use gearloss_studies::analysis::levels;
-use gearloss_studies::identify::Identification;
-use gearloss_studies::measured::Measured;
-use gearloss_studies::study::Quantity;
+use crate::analysis::levels;
+use crate::identify::Identification;
+use crate::measured::Measured;
+use crate::study::Quantity;
 
 /// Temperatures of the oil that are farther apart belong to different lines. \[K\]
 const APART: f64 = 3.0;
 
 /// Rows of one gear state, combination of bound values, and temperature of the oil.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sheet {
     /// What they have in common, in words; empty where all rows do.
     pub name: String,
@@ -17,7 +18,7 @@ pub struct Sheet {
 }
 
 /// The sheets of a file. `gear` is the state of rows that tell none.
-pub fn sheets(measured: &Measured, gear: &str) -> Vec<Sheet> {
+pub(super) fn sheets(measured: &Measured, gear: &str) -> Vec<Sheet> {
     let oil = |i: usize| measured.value(&measured.rows[i], "oil_temperature");
     let mut order: Vec<usize> = (0..measured.rows.len()).collect();
     order.sort_by(|a, b| oil(*a).unwrap_or(0.0).total_cmp(&oil(*b).unwrap_or(0.0)).then(a.cmp(b)));
@@ -72,7 +73,7 @@ impl Sheet {
 }
 
 /// Places of residuals along all lines, one quantity after the other.
-pub fn of_residuals(identification: &Identification<'_>, sheets: &[Sheet]) -> Vec<Vec<usize>> {
+pub(super) fn of_residuals(identification: &Identification<'_>, sheets: &[Sheet]) -> Vec<Vec<usize>> {
     let quantities = [
         Quantity::Efficiency,
         Quantity::Loss,

@@ -1,0 +1,152 @@
+//! Rows that were held out of a fit, as text and pictures: their errors beside those of fitted rows.
+
+use gearloss_numerics::inference::{ErrorSummary, PlacedError};
+use gearloss_studies::analyses::identify::IdentificationOfSet;
+use gearloss_studies::analyses::identify::hold_out::ErrorsOfQuantity;
+use gearloss_studies::study::Difference;
+
+use super::{slug, words};
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::{Line, Stroke};
+use crate::text::{TextTable, figures, fixed};
+
+fn short(x: f64) -> String {
+    figures(x, 3)
+}
+
+pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
+    let Some(held) = &o.hold_out else { return };
+    for own in &held.quantities {
+        let (what, unit) = words(own.errors.quantity);
+        page.line(format!(
+            "errors of the {what} in rows that were fitted and in rows that were held out, in {unit}:"
+        ));
+        page.lines(summaries(&own.errors));
+        if own.regions.iter().any(|r| r.held_out.is_some()) {
+            page.lines(by_region(&own.errors));
+        }
+        if let Some(sentence) = &own.sentence {
+            page.verdict(format!("{name}: {sentence}"));
+        }
+    }
+    let widening = held.widening;
+    let is_widened = o.found.intervals_widened().is_some();
+    if is_widened && held.no_bands.is_none() {
+        page.line(format!(
+            "the bands are widened, because the model misses the fitted points: what the parameters are uncertain counts {:.2} times, \
+             the scatter of a measurement {:.2} times",
+            widening.parameters, widening.scatter
+        ));
+    }
+    if let Some(reason) = &held.no_bands {
+        page.line(format!("no bands of what was held out: {reason}"));
+    }
+    if let Some(first) = held.not_predicted.first() {
+        let count = held.not_predicted.len();
+        page.line(format!("{count} numbers held out are not predicted: {first}"));
+    }
+}
+
+fn summaries(own: &ErrorsOfQuantity) -> String {
+    let both = [("fitted", &own.fitted), ("held out", &own.held_out)];
+    let all = |has: &dyn Fn(&ErrorSummary) -> bool| both.iter().all(|(_, summary)| summary.as_ref().is_none_or(has));
+    let in_percent = own.is_relative() && all(&|s| s.in_percent.is_some());
+    let in_accuracies = all(&|s| s.in_accuracies.is_some());
+    let mut head = vec!["rows".to_owned(), "points".to_owned()];
+    head.extend(["rms", "bias", "greatest"].map(str::to_owned));
+    head.extend(["line", "torque Nm", "speed rpm"].map(|what| format!("its {what}")));
+    let units = [(in_percent, "%"), (in_accuracies, "/ accuracy")];
+    for (_, unit) in units.iter().filter(|(shown, _)| *shown) {
+        head.extend(["rms", "bias", "greatest"].map(|figure| format!("{figure} {unit}")));
+    }
+    let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
+    for (kind, summary) in both {
+        let Some(s) = summary else { continue };
+        let at = s.greatest;
+        let mut cells = vec![
+            kind.to_owned(),
+            s.count.to_string(),
+            short(s.rms),
+            short(s.mean),
+            short(at.error),
+        ];
+        cells.extend([at.line.to_string(), short(at.torque), fixed(at.speed, 0)]);
+        let further = [
+            s.in_percent.filter(|_| in_percent),
+            s.in_accuracies.filter(|_| in_accuracies),
+        ];
+        cells.extend(further.into_iter().flatten().flatten().map(short));
+        table.row(cells);
+    }
+    table.render()
+}
+
+fn by_region(own: &ErrorsOfQuantity) -> String {
+    let mut table = TextTable::new(&["region", "held out", "rms", "bias", "fitted", "rms", "bias"]);
+    for region in own.regions.iter().filter(|r| r.held_out.is_some()) {
+        let cells = |summary: &Option<ErrorSummary>| match summary {
+            Some(s) => [s.count.to_string(), short(s.rms), short(s.mean)],
+            None => ["0", "-", "-"].map(str::to_owned),
+        };
+        let mut row = vec![match region.over {
+            "oil_temperature" => format!("oil {}", region.name),
+            _ => region.name.clone(),
+        }];
+        row.extend(cells(&region.held_out));
+        row.extend(cells(&region.fitted));
+        table.row(row);
+    }
+    table.render()
+}
+
+/// Errors over torque and over speed: of fitted rows, of rows held out, and the ends of the bands of the latter.
+pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
+    let Some(held) = &o.hold_out else {
+        return Vec::new();
+    };
+    let mut all = Vec::new();
+    for record in &held.quantities {
+        let own = &record.errors;
+        let (what, unit) = words(own.quantity);
+        let axes: [(&str, &str, fn(&PlacedError) -> f64); 2] =
+            [("torque", "Nm", |e| e.torque), ("speed", "rpm", |e| e.speed)];
+        let factor = own.quantity.difference(Difference::Points, 0.0, 1.0).unwrap_or(1.0);
+        for (axis, axis_unit, value) in axes {
+            let dots = |held: bool| {
+                let own = own.all.iter().filter(move |e| e.is_held_out == held);
+                own.map(|e| Some((value(e), e.error))).collect::<Vec<_>>()
+            };
+            let of_quantity = held.points.iter().filter(|point| point.quantity == record.quantity);
+            let placed = own.all.iter().filter(|e| e.is_held_out);
+            let ends = of_quantity.zip(placed).flat_map(|(point, placed)| {
+                // A measurement inside of its band has an error between these ends.
+                let from_model = |end: f64| factor * (point.predicted - end);
+                let ends = point.band.map_or_else(Vec::new, |band| band.map(from_model).to_vec());
+                ends.into_iter()
+                    .map(|end| Some((value(placed), end)))
+                    .collect::<Vec<_>>()
+            });
+            let dotted = |name: &str, points: Vec<Option<(f64, f64)>>| Line {
+                name: name.to_owned(),
+                points,
+                stroke: Stroke::Dots,
+            };
+            let figure = Figure::Lines {
+                title: format!(
+                    "{name}: errors of {} over {axis}, {what}, fitted and held out",
+                    o.model_set
+                ),
+                x: format!("{axis} {axis_unit}"),
+                y: format!("calculated less measured, {unit}"),
+                lines: vec![
+                    dotted("fitted", dots(false)),
+                    dotted("held out", dots(true)),
+                    dotted("ends of 95 % bands", ends.collect()),
+                ],
+            };
+            all.push((format!("hold-out-{}-{axis}", slug(own.quantity)), figure));
+        }
+    }
+    all
+}

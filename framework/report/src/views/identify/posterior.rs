@@ -1,0 +1,52 @@
+//! The posterior beside the intervals of the fit and by profile, as text.
+
+use gearloss_studies::analyses::identify::IdentificationOfSet;
+
+use super::{short, span};
+use crate::page::Page;
+use crate::text::{TextTable, fixed};
+
+pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
+    if let Some(reason) = &o.no_posterior {
+        page.line(format!("{name}: no posterior: {reason}"));
+    }
+    let Some(posterior) = &o.posterior else { return };
+    let mut table = TextTable::new(&[
+        "parameter",
+        "unit",
+        "median",
+        "95 % of the posterior",
+        "95 % linearised",
+        "95 % by profile",
+        "independent draws",
+    ]);
+    let or_dash = |ends: Option<[f64; 2]>| ends.map_or_else(|| "-".to_owned(), span);
+    for parameter in &posterior.parameters {
+        table.row(vec![
+            parameter.name.clone(),
+            parameter.unit.to_owned(),
+            short(parameter.median),
+            span(parameter.interval),
+            or_dash(parameter.linearised),
+            or_dash(parameter.profile),
+            fixed(parameter.independent_draws, 0),
+        ]);
+    }
+    page.line(format!(
+        "{name}: posterior of {} walkers, {} steps each, {:.0} % of the moves accepted",
+        posterior.walkers,
+        posterior.steps,
+        100.0 * posterior.acceptance
+    ));
+    page.lines(table.render());
+    if !posterior.is_settled {
+        let all = posterior.parameters.iter();
+        let least = all.clone().map(|p| p.independent_draws).fold(f64::INFINITY, f64::min);
+        let slowest = all.map(|p| p.autocorrelation_steps).fold(1.0, f64::max);
+        page.verdict(format!(
+            "{name}: the posterior is not settled: {least:.0} independent draws, and a walker remembers {slowest:.0} of its {} steps; \
+             400 draws and twenty times as many steps are due: write more `steps`",
+            posterior.steps
+        ));
+    }
+}

@@ -1,0 +1,259 @@
+//! Uncertain parameters, found from measured points, with what the points say about each.
+
+pub mod checks;
+pub mod compare;
+mod entry;
+mod folds;
+pub mod found;
+pub mod hold_out;
+pub mod lines;
+pub mod next;
+pub mod outcome;
+pub mod parameter;
+pub mod posterior;
+mod record;
+pub mod search;
+mod tables;
+mod values;
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_numerics::inference::{Accuracy, Fold};
+use gearloss_numerics::least_squares::{self, Fault, Loss};
+
+pub use entry::{IdentifyEntry, NextEntry, PosteriorEntry, RobustEntry, RobustLoss, RuleEntry};
+pub use folds::{FoldOfSet, FoldsOfSet};
+pub use outcome::{IdentificationOfSet, IdentifyOutcome};
+
+use super::{Analysis, Built, Context, Stopped, gear_of};
+use crate::analysis::Rows;
+use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
+use crate::measured::Measured;
+use crate::register_analysis;
+use crate::study::{FoldsEntry, IdentifiedEntry, Write};
+use found::{Found, Prepared};
+use next::Candidates;
+use outcome::{DataOfFit, HeldOutRows, Requested};
+
+register_analysis!(IdentifyEntry);
+
+impl Analysis for IdentifyEntry {
+    type Outcome = IdentifyOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<IdentifyOutcome, Stopped> {
+        let path = cx.path();
+        let data = format!("{path}.data");
+        let bind: Vec<&str> = self.bind.ids().collect();
+        let measured = cx.read(&data, &self.data, &bind)?;
+        let file = cx.data(&data, &self.data)?.file.to_string();
+        refuse(cx, self)?;
+        let held_out = held_out(cx, self, &measured)?;
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        let built = cx.built(gearbox, &self.model_sets)?;
+        let points = Points {
+            measured: &measured,
+            held_out: held_out.as_ref(),
+            file: &file,
+        };
+        let mut identifications = Vec::new();
+        for b in &built {
+            identifications.extend(identify(cx, self, b, &points)?);
+        }
+        cx.begin()?;
+        let (comparison_of_sets, not_compared) = match compare::compare(&identifications) {
+            None => (None, None),
+            Some(Ok(compared)) => (Some(compared), None),
+            Some(Err(reason)) => (None, Some(reason)),
+        };
+        Ok(IdentifyOutcome {
+            head: cx.head(&built.iter().collect::<Vec<_>>()),
+            data: DataOfFit {
+                points: measured.rows.len(),
+                notes: measured.notes.clone(),
+                file,
+            },
+            identifications,
+            comparison_of_sets,
+            not_compared,
+            held_out: held_out.map(|choice| HeldOutRows {
+                rows: choice.held_out.rows.len(),
+                words: choice.words,
+                undecided: choice.undecided,
+            }),
+            requested: Requested {
+                stack_at: self.stack_at,
+                groups: group_words(&self.folds),
+                posterior: self.posterior.is_some(),
+                next: self.next.is_some(),
+            },
+        })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+/// Refuses what contradicts itself.
+fn refuse(cx: &Context<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
+    let path = cx.path();
+    if entry.folds == FoldsEntry::Torques(1) {
+        let message = "one group of torques cannot be predicted from others";
+        return Err(cx.wrong(&format!("{path}.folds"), message, "write 2 or more, or 0 for none"));
+    }
+    if entry.accuracy_factors && loss(entry) != Loss::Linear {
+        let message = "a robust loss takes far points as such, a factor of the accuracy takes them as scatter";
+        return Err(cx.wrong(&format!("{path}.accuracy_factors"), message, "leave one of them out"));
+    }
+    Ok(())
+}
+
+/// Measured points of an analysis.
+struct Points<'m> {
+    measured: &'m Measured,
+    held_out: Option<&'m HoldOut>,
+    /// Names of the files.
+    file: &'m str,
+}
+
+impl Points<'_> {
+    /// Those that are fitted.
+    fn to_fit(&self) -> &Measured {
+        self.held_out.map_or(self.measured, |choice| &choice.fitted)
+    }
+}
+
+/// Fits the parameters under one set; nothing where the analysis is only checked.
+fn identify(
+    cx: &Context<'_>,
+    entry: &IdentifyEntry,
+    b: &Built<'_>,
+    points: &Points<'_>,
+) -> Result<Option<IdentificationOfSet>, Stopped> {
+    let mut identification = stated(cx, entry, b, points)?;
+    if entry.accuracy_factors && identification.accuracy() == Accuracy::Estimated {
+        let message = "no accuracy is stated that could be wrong by a factor";
+        let help = "state the accuracies, or leave it out";
+        return Err(cx.wrong(&format!("{}.accuracy_factors", cx.path()), message, help));
+    }
+    posterior::check(cx, entry, &identification)?;
+    let groups = groups(cx, entry, &identification)?;
+    let candidates: Option<Result<Candidates, Stopped>> = entry.next.as_ref().map(|next| next::candidates(cx, next, b));
+    let candidates = candidates.transpose()?;
+    if cx.only_checks {
+        return Ok(None);
+    }
+    let pressed = || !cx.goes_on();
+    let settings = Settings {
+        loss: loss(entry),
+        loss_scale: entry.robust.map_or(2.0, |robust| robust.scale),
+        starts: entry.starts as usize,
+        accuracy_factors: entry.accuracy_factors,
+        interrupt: Some(&pressed),
+    };
+    let fitted = match identification.fit(&settings) {
+        Ok(fitted) => fitted,
+        Err(_) if pressed() => return Err(Stopped::Interrupted),
+        Err(fault) => return Err(fault_of_search(cx, &fault)),
+    };
+    let gear = gear_of(entry.gear.as_deref(), &b.transmission);
+    let prepared = Prepared {
+        candidates,
+        groups,
+        held_out: points.held_out,
+    };
+    let (found, beside) = Found::new(cx, entry, &settings, gear, (identification, fitted), prepared)?;
+    Ok(Some(IdentificationOfSet::new(&b.name, entry, found, beside)))
+}
+
+/// The identification under one set, before anything is fitted.
+fn stated<'s>(
+    cx: &'s Context<'_>,
+    entry: &'s IdentifyEntry,
+    b: &Built<'s>,
+    points: &'s Points<'_>,
+) -> Result<Identification<'s>, Stopped> {
+    let rows = |measured| -> Rows<'s> { cx.study.rows(measured, &entry.bind, entry.gear.as_deref(), false) };
+    let choice = cx.study.choice(b.set());
+    let gearbox: &'s Gearbox = b.gearbox;
+    cx.rows_fit(&rows(points.measured), gearbox, &choice)?;
+    let made = Identification::new(
+        cx.language,
+        gearbox,
+        choice,
+        rows(points.to_fit()),
+        entry.parameters.iter(),
+        &entry.residuals,
+    );
+    made.map_err(|faults| match faults {
+        Faults::Gearbox(findings) => Stopped::from(findings),
+        Faults::Study(list) => {
+            let path = cx.path();
+            let below = list.into_iter().map(|mut error| {
+                if error.path == "data" {
+                    error.message = format!("{}: {}", points.file, error.message);
+                }
+                error.path = format!("{path}.{}", error.path);
+                error
+            });
+            cx.found(below.collect())
+        }
+    })
+}
+
+/// A finding of the study below the analysis.
+fn below(cx: &Context<'_>, found: Diagnostic) -> Stopped {
+    let path = format!("{}.{}", cx.path(), found.path);
+    cx.found(vec![Diagnostic { path, ..found }])
+}
+
+/// The rows that are held out, where there are any.
+fn held_out(cx: &Context<'_>, entry: &IdentifyEntry, measured: &Measured) -> Result<Option<HoldOut>, Stopped> {
+    let Some(chosen) = &entry.hold_out else {
+        return Ok(None);
+    };
+    let choice = HoldOut::choose(chosen, measured).map_err(|found| below(cx, found))?;
+    // Parameters between equal bounds are held.
+    let entries = entry.parameters.iter().map(|(_, parameter)| parameter);
+    let free: Vec<_> = entries.filter(|p| p.from.is_none() || p.from != p.to).collect();
+    let of_entry = |p: &&IdentifiedEntry| p.over.as_ref().map_or(1, |over| over.torques.len());
+    let count = free.iter().map(of_entry).sum();
+    let priors = free.iter().filter(|p| p.prior.is_some()).count();
+    choice.leaves_enough(count, priors).map_err(|found| below(cx, found))?;
+    Ok(Some(choice))
+}
+
+/// Groups of which each is predicted from the others; the reason where torques make none, and nothing where none are requested.
+fn groups(
+    cx: &Context<'_>,
+    entry: &IdentifyEntry,
+    identification: &Identification<'_>,
+) -> Result<Option<Result<Vec<Fold>, String>>, Stopped> {
+    match (&entry.folds, identification.groups(&entry.folds)) {
+        (FoldsEntry::Torques(0), _) => Ok(None),
+        // Files of one torque are fitted all the same.
+        (FoldsEntry::Torques(_), found) => Ok(Some(found.map_err(|found| found.message))),
+        (FoldsEntry::By(_), found) => found.map(|folds| Some(Ok(folds))).map_err(|found| below(cx, found)),
+    }
+}
+
+/// The loss of an entry.
+fn loss(entry: &IdentifyEntry) -> Loss {
+    match entry.robust.map_or(RobustLoss::Linear, |robust| robust.loss) {
+        RobustLoss::Linear => Loss::Linear,
+        RobustLoss::SoftL1 => Loss::SoftL1,
+        RobustLoss::Huber => Loss::Huber,
+        RobustLoss::Cauchy => Loss::Cauchy,
+        RobustLoss::Arctan => Loss::Arctan,
+    }
+}
+
+/// Faults of the search, at the analysis.
+fn fault_of_search(cx: &Context<'_>, fault: &Fault) -> Stopped {
+    let path = cx.path();
+    let finding = |f: &least_squares::Finding| {
+        let message = format!("{}: {}", f.place, f.message);
+        Diagnostic::error(&path, message).mend(f.mend.clone())
+    };
+    cx.found(fault.findings.iter().map(finding).collect())
+}

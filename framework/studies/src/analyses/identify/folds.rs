@@ -1,0 +1,97 @@
+//! Groups of rows of which each is predicted from the others.
+
+use gearloss_numerics::inference::Fold;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::found::Found;
+use crate::analyses::numbers::RPM;
+use crate::study::FoldsEntry;
+
+/// Errors of groups of rows that are predicted from the others.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FoldsOfSet {
+    /// What the rows are grouped by.
+    pub by: String,
+    /// Root of the mean square of the errors over the accuracies. [-]
+    pub rms: f64,
+    /// The groups.
+    pub bands: Vec<FoldOfSet>,
+}
+
+/// One group.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FoldOfSet {
+    /// The group in words.
+    pub name: String,
+    /// Least torque; absent for other groups than those of torque. [Nm]
+    pub from_nm: Option<f64>,
+    /// Greatest torque; absent for other groups than those of torque. [Nm]
+    pub to_nm: Option<f64>,
+    /// Number of its points.
+    pub points: usize,
+    /// Root of the mean square of their errors over the accuracies. [-]
+    pub rms: f64,
+}
+
+impl FoldsOfSet {
+    /// Absent where none were requested, or there are none.
+    pub(super) fn new(found: &Found, entry: &FoldsEntry) -> Option<Self> {
+        let Some(Ok((folds, validation))) = &found.folds else {
+            return None;
+        };
+        let by_torque = fold_unit(entry) == "Nm";
+        let fold = |(fold, rms): (&Fold, f64)| {
+            let band = fold.band.filter(|_| by_torque);
+            FoldOfSet {
+                name: fold_name(fold, entry),
+                from_nm: band.map(|band| band[0]),
+                to_nm: band.map(|band| band[1]),
+                points: fold.points.len(),
+                rms,
+            }
+        };
+        Some(Self {
+            by: match entry {
+                FoldsEntry::Torques(_) => "torque".to_owned(),
+                FoldsEntry::By(by) => by.by.clone(),
+            },
+            rms: validation.rms,
+            bands: folds.iter().zip(validation.fold_rms()).map(fold).collect(),
+        })
+    }
+}
+
+/// Unit of the bands by which rows are grouped; empty where they are groups, not bands, or of a column.
+fn fold_unit(entry: &FoldsEntry) -> &'static str {
+    match entry {
+        FoldsEntry::Torques(_) => "Nm",
+        FoldsEntry::By(by) => match by.by.as_str() {
+            "torque" => "Nm",
+            "speed" => "rpm",
+            "oil_temperature" => "degC",
+            _ => "",
+        },
+    }
+}
+
+/// A group in words.
+fn fold_name(fold: &Fold, entry: &FoldsEntry) -> String {
+    let [from, to] = match (&fold.label, fold.band) {
+        (Some(label), _) => return label.clone(),
+        (None, Some(band)) => band,
+        (None, None) => return String::new(),
+    };
+    let [first, last] = [format!("{from:.1}"), format!("{to:.1}")];
+    let band = if first == last {
+        first
+    } else {
+        format!("{first} to {last}")
+    };
+    match fold_unit(entry) {
+        "rpm" if (from - to).abs() * RPM < 0.5 => format!("{:.0} rpm", from * RPM),
+        "rpm" => format!("{:.0} to {:.0} rpm", from * RPM, to * RPM),
+        "" => band,
+        unit => format!("{band} {unit}"),
+    }
+}

@@ -1,0 +1,238 @@
+//! What to measure next, from the points of a grid.
+
+use gearloss_numerics::design::{Choice, Precision, Rule};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::entry::{NextEntry, RuleEntry};
+use super::found::Found;
+use super::outcome::IdentificationOfSet;
+use crate::analyses::axes::grid_axes;
+use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::{Built, Context, Stopped};
+use crate::cells;
+use crate::identify::{Candidate, Fitted, Identification, NextPlan};
+use crate::table::{Column, Table};
+
+/// All points that the rig can run.
+pub(super) struct Candidates {
+    all: Vec<Candidate>,
+    gear: String,
+    axes: (Vec<f64>, Vec<f64>),
+    oils: Vec<Option<f64>>,
+}
+
+/// Points to be measured, with all candidates.
+#[derive(Debug, Clone)]
+pub struct Next {
+    /// All points that the rig can run.
+    pub candidates: Vec<Candidate>,
+    /// Which of them to measure, and what each would tell.
+    pub plan: NextPlan,
+    /// How many were requested.
+    pub count: u32,
+    /// Gear state.
+    pub gear: String,
+    /// Torques in Nm and speeds in rad/s of the grid.
+    pub axes: (Vec<f64>, Vec<f64>),
+    /// Temperatures, in the order of the candidates; one without value for that of the study.
+    pub oils: Vec<Option<f64>>,
+    /// What the points are to make small.
+    pub rule: RuleEntry,
+}
+
+/// What to measure next.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct NextOfSet {
+    /// What the points are to make small.
+    pub rule: RuleEntry,
+    /// Gear state.
+    pub gear: String,
+    /// Parameters that the plan is about.
+    pub parameters: Vec<String>,
+    /// Plans for other parameters of the joint region that could be made.
+    pub other_plans: usize,
+    /// How well the parameters are known now.
+    pub before: PrecisionOfSet,
+    /// How well they would be known with the points of the plan.
+    pub after: PrecisionOfSet,
+    /// The points, in the order in which they are to be measured.
+    pub points: Vec<NextPoint>,
+}
+
+/// How well parameters are known together.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct PrecisionOfSet {
+    /// Logarithm of the determinant of the covariance. [-]
+    pub ln_determinant: f64,
+    /// Sum of the variances, each over the square of its range. [-]
+    pub trace: f64,
+    /// Standard deviation of each parameter over its range. [-]
+    pub deviations_over_ranges: Vec<f64>,
+}
+
+/// A point to be measured.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct NextPoint {
+    /// Torque. [Nm]
+    pub torque_nm: f64,
+    /// Speed. [rpm]
+    pub speed_rpm: f64,
+    /// Temperature of the oil; absent, that of the study. [degC]
+    pub oil_temperature_degc: Option<f64>,
+    /// What it gains by the rule after the points before it. [-]
+    pub gain: f64,
+    /// One, and the change-over from the point before. [-]
+    pub cost: f64,
+    /// Number of plans for other parameters that lack it at least once.
+    pub lacking_in_other_plans: usize,
+}
+
+impl From<&Precision> for PrecisionOfSet {
+    fn from(precision: &Precision) -> Self {
+        Self {
+            ln_determinant: precision.ln_determinant,
+            trace: precision.trace,
+            deviations_over_ranges: precision.deviations.clone(),
+        }
+    }
+}
+
+impl Next {
+    /// As it is published; `found` is that of its set.
+    pub(super) fn record(&self, found: &Found) -> NextOfSet {
+        let point = |choice: &Choice| {
+            let at = &self.candidates[choice.candidate];
+            let mut lacking = self.plan.lacking.iter();
+            NextPoint {
+                torque_nm: at.torque,
+                speed_rpm: tidy(at.speed * RPM),
+                oil_temperature_degc: at.oil,
+                gain: choice.gain,
+                cost: choice.cost,
+                lacking_in_other_plans: lacking.find(|(k, _)| *k == choice.candidate).map_or(0, |(_, n)| *n),
+            }
+        };
+        let parameters = self.plan.parameters.iter();
+        NextOfSet {
+            rule: self.rule,
+            gear: self.gear.clone(),
+            parameters: parameters.map(|k| found.parameters[*k].name.clone()).collect(),
+            other_plans: self.plan.others,
+            before: (&self.plan.plan.before).into(),
+            after: (&self.plan.plan.after).into(),
+            points: self.plan.plan.choices.iter().map(point).collect(),
+        }
+    }
+}
+
+/// All candidates of all sets, with their places in the plan.
+pub(super) fn table(name: &str, all: &[IdentificationOfSet]) -> Table {
+    let mut table = Table::new(
+        format!("{name}-next"),
+        [
+            Column::text("model_set", "Model set"),
+            Column::text("gear", "Gear state"),
+            Column::number("torque_nm", "Nm", "Torque"),
+            Column::number("speed_rpm", "rpm", "Speed"),
+            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+            Column::number(
+                "accuracy",
+                "mixed",
+                "Standard deviation of a measurement there; of an efficiency as a share",
+            ),
+            Column::number("gain_alone", "-", "Gain of measuring it once, alone"),
+            Column::text(
+                "places_in_plan",
+                "Numbers of the points of the plan that are measured there",
+            ),
+        ],
+    );
+    for o in all {
+        let Some(Ok(next)) = &o.found.next else { continue };
+        for (i, at) in next.candidates.iter().enumerate() {
+            let choices = next.plan.plan.choices.iter().enumerate();
+            let places: Vec<String> = choices
+                .filter(|(_, choice)| choice.candidate == i)
+                .map(|(place, _)| (place + 1).to_string())
+                .collect();
+            table.push(cells![
+                &o.model_set,
+                &next.gear,
+                at.torque,
+                tidy(at.speed * RPM),
+                at.oil,
+                next.plan.deviations[i],
+                next.plan.gains[i],
+                places.join(" "),
+            ]);
+        }
+    }
+    table
+}
+
+/// The candidates of an entry, before anything is fitted.
+pub(super) fn candidates(cx: &Context<'_>, entry: &NextEntry, built: &Built<'_>) -> Result<Candidates, Stopped> {
+    let path = format!("{}.next", cx.path());
+    let grid = cx.study.grid(&path, &entry.grid)?;
+    if !grid.bind.is_empty() || grid.envelope.is_some() {
+        let message = "points to be measured come from a grid without bound values and envelope";
+        return Err(cx.wrong(&format!("{path}.grid"), message, "give it a grid of its own"));
+    }
+    let gear = cx.one_gear(&format!("{path}.grid"), grid, &built.transmission)?;
+    let (torques, speeds) = grid_axes(cx, &entry.grid, grid, &built.transmission)?;
+    let oils: Vec<Option<f64>> = match &entry.oil_temperatures[..] {
+        [] => vec![None],
+        list => list.iter().map(|oil| Some(*oil)).collect(),
+    };
+    let mut all = Vec::new();
+    for oil in &oils {
+        for torque in &torques {
+            all.extend(speeds.iter().map(|speed| Candidate {
+                torque: *torque,
+                speed: *speed,
+                oil: *oil,
+            }));
+        }
+    }
+    Ok(Candidates {
+        all,
+        gear,
+        axes: (torques, speeds),
+        oils,
+    })
+}
+
+/// What to measure next, or why nothing can be said.
+pub(super) fn plan(
+    entry: &NextEntry,
+    candidates: Candidates,
+    identification: &Identification<'_>,
+    fitted: &Fitted,
+) -> Result<Next, String> {
+    let rule = match entry.rule {
+        RuleEntry::Worst => Rule::Worst,
+        RuleEntry::Trace => Rule::Trace,
+        RuleEntry::Determinant => Rule::Determinant,
+    };
+    let change = |a: &Candidate, b: &Candidate| {
+        let torque = if a.torque == b.torque {
+            0.0
+        } else {
+            entry.cost_of_torque
+        };
+        let oil = if a.oil == b.oil { 0.0 } else { entry.cost_of_temperature };
+        torque + oil
+    };
+    let Candidates { all, gear, axes, oils } = candidates;
+    let plan = identification.next(fitted, &all, &gear, (rule, entry.points as usize), change)?;
+    Ok(Next {
+        candidates: all,
+        plan,
+        count: entry.points,
+        gear,
+        axes,
+        oils,
+        rule: entry.rule,
+    })
+}

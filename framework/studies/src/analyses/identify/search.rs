@@ -1,0 +1,209 @@
+//! How a search for parameters went.
+
+use gearloss_numerics::least_squares::{Iteration, Kinship, Minimum, Status};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::found::Found;
+use crate::identify::ModelKink;
+
+/// How the search for parameters went.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SearchOfSet {
+    /// What the fit is worth: `converged`, `singular`, `failed` or `interrupted`.
+    pub status: &'static str,
+    /// Why the search ended.
+    pub reason: &'static str,
+    /// Half of the sum of the squared residuals. [-]
+    pub cost: f64,
+    /// Evaluations of all points, all starts together.
+    pub evaluations: usize,
+    /// Those of the best start.
+    pub evaluations_of_best: usize,
+    /// Steps that were tried.
+    pub steps: usize,
+    /// Cone programs.
+    pub cone_programs: usize,
+    /// Cone programs without answer.
+    pub cone_fallbacks: usize,
+    /// Evaluations without value.
+    pub undefined: usize,
+    /// Number of the attempt that is given back, from 1.
+    pub attempt: usize,
+    /// Evaluations that finished searches without derivatives.
+    pub evaluations_without_derivatives: usize,
+    /// Models whose kinks hold the minimum.
+    pub kinks: Vec<KinkOfModel>,
+    /// How minima of the same misfit are related; absent where the lowest is alone.
+    pub kinship: Option<&'static str>,
+    /// All minima, the lowest first.
+    pub minima: Vec<MinimumOfSearch>,
+    /// What a user should know.
+    pub notes: Vec<String>,
+    /// Factors by which the accuracies were found to be wrong; none where that was not requested.
+    pub accuracy_factors: Vec<AccuracyFactor>,
+    /// All steps of the best start.
+    pub log: Vec<StepOfSearch>,
+    /// What the fit is worth.
+    #[serde(skip)]
+    pub worth: Status,
+}
+
+/// A model whose loss or slope jumps at the minimum.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct KinkOfModel {
+    /// Path of the part.
+    pub path: String,
+    /// Name of its model.
+    pub model: String,
+    /// Regimes on both sides in the model's words; absent where none is known to change.
+    pub regimes: Option<[String; 2]>,
+    /// Whether the loss itself jumps, rather than its slope alone.
+    pub jumps: bool,
+    /// Greatest change of the loss of the part that no straight line explains, over that loss. [-]
+    pub change: f64,
+    /// Lines of the measured points.
+    pub lines: Vec<u64>,
+    /// Parameters across which it lies.
+    pub parameters: Vec<String>,
+    /// The same in words.
+    pub sentence: String,
+}
+
+/// A minimum.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct MinimumOfSearch {
+    /// Half of the sum of the squared residuals. [-]
+    pub cost: f64,
+    /// Share of the starts that lead there. [-]
+    pub share_of_starts: f64,
+    /// Numbers of these starts; 0 is that of the parameters.
+    pub starts: Vec<usize>,
+    /// Values of the parameters. [unit of each parameter]
+    pub parameters: Vec<f64>,
+    /// Distance of each parameter from the lowest minimum, in its standard errors there; absent where it has none. [-]
+    pub standard_errors_away: Vec<Option<f64>>,
+}
+
+/// Factor on the stated accuracy of a quantity.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct AccuracyFactor {
+    /// Name of the quantity.
+    pub quantity: &'static str,
+    /// The factor. [-]
+    pub factor: f64,
+}
+
+/// One step that was tried.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct StepOfSearch {
+    /// Number of the attempt, from 1.
+    pub attempt: usize,
+    /// Cost before the step. [-]
+    pub cost: f64,
+    /// First-order measure before the step. [-]
+    pub first_order: f64,
+    /// Remaining shift in standard errors before the step, where there are more rows than free parameters. [-]
+    pub relative_offset: Option<f64>,
+    /// Whether the derivatives are central differences.
+    pub central_differences: bool,
+    /// How the step was found.
+    pub step: &'static str,
+    /// Whether it was corrected to second order.
+    pub corrected: bool,
+    /// Radius of the ball. [-]
+    pub radius: f64,
+    /// Length of the step in the metric of the ball. [-]
+    pub length: f64,
+    /// Fall of the cost that was expected. [-]
+    pub predicted: f64,
+    /// Fall of the cost; absent where the residuals have no value. [-]
+    pub actual: Option<f64>,
+    /// Whether the step was taken.
+    pub accepted: bool,
+}
+
+impl SearchOfSet {
+    pub(super) fn new(found: &Found) -> Self {
+        let (fit, minima) = (found.fitted.fit(), &found.fitted.minima);
+        let factors = found.fitted.factors.iter();
+        Self {
+            status: fit.status.name(),
+            reason: fit.reason.name(),
+            cost: fit.cost,
+            evaluations: minima.evaluations,
+            evaluations_of_best: fit.counts.evaluations,
+            steps: fit.counts.steps,
+            cone_programs: fit.counts.cone_solves,
+            cone_fallbacks: fit.counts.cone_failures,
+            undefined: fit.counts.undefined,
+            attempt: fit.attempt,
+            evaluations_without_derivatives: fit.counts.polishing,
+            kinks: found
+                .fitted
+                .kinks
+                .iter()
+                .map(|kink| KinkOfModel::new(found, kink))
+                .collect(),
+            kinship: minima.kinship.map(Kinship::name),
+            minima: minima.minima.iter().map(|m| MinimumOfSearch::new(found, m)).collect(),
+            notes: fit.notes.iter().chain(&minima.notes).cloned().collect(),
+            accuracy_factors: factors
+                .map(|(quantity, factor)| AccuracyFactor {
+                    quantity: quantity.name(),
+                    factor: *factor,
+                })
+                .collect(),
+            log: fit.log.iter().map(StepOfSearch::from).collect(),
+            worth: fit.status,
+        }
+    }
+}
+
+impl KinkOfModel {
+    fn new(found: &Found, kink: &ModelKink) -> Self {
+        let parameters = kink.parameters.iter();
+        Self {
+            path: kink.path.clone(),
+            model: kink.model.clone(),
+            regimes: kink.regimes.clone(),
+            jumps: kink.jumps,
+            change: kink.change,
+            lines: kink.lines.clone(),
+            parameters: parameters.map(|p| found.parameters[*p].name.clone()).collect(),
+            sentence: kink.sentence(),
+        }
+    }
+}
+
+impl MinimumOfSearch {
+    fn new(found: &Found, minimum: &Minimum) -> Self {
+        let count = minimum.fit.theta.len();
+        Self {
+            cost: minimum.fit.cost,
+            share_of_starts: minimum.share,
+            starts: minimum.starts.clone(),
+            parameters: minimum.fit.theta.clone(),
+            standard_errors_away: (0..count).map(|k| found.fitted.distance(minimum, k)).collect(),
+        }
+    }
+}
+
+impl From<&Iteration> for StepOfSearch {
+    fn from(step: &Iteration) -> Self {
+        Self {
+            attempt: step.attempt,
+            cost: step.cost,
+            first_order: step.first_order,
+            relative_offset: step.relative_offset,
+            central_differences: step.central,
+            step: step.how.name(),
+            corrected: step.corrected,
+            radius: step.radius,
+            length: step.length,
+            predicted: step.predicted,
+            actual: Some(step.actual).filter(|x| x.is_finite()),
+            accepted: step.accepted,
+        }
+    }
+}
