@@ -1,11 +1,11 @@
 //! The work of an analysis in tasks, so that results are kept from run to run and computed on several machines.
 //!
-//! An analysis computes in stages, each of many tasks that do not depend on each other ([`Context::solve_pieces`], [`Context::each`]).
-//! Without kept results all tasks run on the threads of this process. With them a run computes the tasks that are its own, keeps
+//! An analysis solves its points in stages, each of many tasks that do not depend on each other ([`Context::solve_pieces`]). Other
+//! work is not split ([`Context::undivided`]). Without kept results all tasks run on the threads of this process. With them a run computes the tasks that are its own, keeps
 //! their results, and goes on to the next stage only if all results of a stage are there.
 //!
 //! [`Context::solve_pieces`]: crate::analyses::Context::solve_pieces
-//! [`Context::each`]: crate::analyses::Context::each
+//! [`Context::undivided`]: crate::analyses::Context::undivided
 
 use crate::analyses::Stopped;
 

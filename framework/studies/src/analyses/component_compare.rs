@@ -215,6 +215,7 @@ impl Analysis for ComponentCompareEntry {
             return Err(Stopped::Several(failures));
         }
         cx.begin()?;
+        cx.undivided()?;
         let head = cx.head(&evaluated.iter().map(|e| &e.built).collect::<Vec<_>>());
         let given = cx.points(&evaluated[0].built.transmission, "", Vec::new(), Vec::new());
         let gear = evaluated[0].gear.clone();

@@ -8,9 +8,6 @@ use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::{Case, Transmission};
-use rayon::prelude::*;
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::head::{Head, InputFile};
@@ -315,46 +312,15 @@ impl<'a> Context<'a> {
         Ok(())
     }
 
-    /// Computes a stage of so many tasks on all threads, and gives their results in their order.
+    /// Comes before work that is not split into tasks: it is left to the run that completes what others have begun.
     ///
     /// # Errors
-    /// The first of a task, and an interruption.
-    pub fn each<R: Serialize + DeserializeOwned + Send>(
-        &self,
-        label: &str,
-        count: usize,
-        compute: impl Fn(usize) -> Result<R, Stopped> + Sync,
-    ) -> Result<Vec<R>, Stopped> {
-        let stage = self.next_stage();
-        let compute_all = |numbers: Vec<usize>, done: &(dyn Fn(usize, &R) -> Result<(), Stopped> + Sync)| {
-            let running = self.running(numbers.len(), label);
-            let one = |number: usize| {
-                if !self.goes_on() {
-                    return Err(Stopped::Interrupted);
-                }
-                let result = compute(number)?;
-                done(number, &result)?;
-                running.advance(1);
-                Ok(result)
-            };
-            let all: Vec<Result<R, Stopped>> = numbers.into_par_iter().with_max_len(1).map(one).collect();
-            all.into_iter().collect::<Result<Vec<R>, Stopped>>()
-        };
-        let Some(kept) = self.tasks.filter(|kept| !self.is_alone(*kept, stage, count)) else {
-            return compute_all((0..count).collect(), &|_, _| Ok(()));
-        };
-        let missing = self.missing(kept, stage, count)?;
-        compute_all(missing.own.clone(), &|number, result| {
-            let task = self.task(stage, number);
-            let bytes = postcard::to_stdvec(result).map_err(|e| Stopped::Unwritten(format!("error: {e}\n")))?;
-            kept.keep(task, &bytes)
-        })?;
-        missing.end()?;
-        let read = |number: usize| {
-            let task = self.task(stage, number);
-            postcard::from_bytes(&kept.read(task)?).map_err(|_| unlike(task))
-        };
-        (0..count).map(read).collect()
+    /// [`Stopped::Elsewhere`] in other runs.
+    pub fn undivided(&self) -> Result<(), Stopped> {
+        match self.tasks {
+            Some(kept) if !kept.completes() => Err(Stopped::Elsewhere),
+            _ => Ok(()),
+        }
     }
 
     fn next_stage(&self) -> usize {

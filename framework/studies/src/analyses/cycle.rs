@@ -102,6 +102,7 @@ impl Analysis for CycleAnalysisEntry {
             }
         }
         cx.begin()?;
+        cx.undivided()?;
         let mut all_left = Vec::new();
         if !self.inputs.is_empty() {
             for (b, own) in built.iter().zip(cycles.chunks_mut(duties.list.len())) {

@@ -186,6 +186,7 @@ impl Analysis for FluidSweepEntry {
             all_left.extend(search.left);
         }
         cx.begin()?;
+        cx.undivided()?;
         Ok(FluidSweepOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
             fluid_sweep: sets,

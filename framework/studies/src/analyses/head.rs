@@ -99,7 +99,7 @@ impl Head {
         let mut inputs = inputs(cx.study);
         inputs.extend_from_slice(read);
         Self {
-            format: crate::results::FORMAT,
+            format: "gearloss-result/1",
             gearloss: env!("CARGO_PKG_VERSION"),
             packages: cx.language.registry().packages(),
             study: cx.study.entry.title.clone(),

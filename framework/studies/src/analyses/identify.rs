@@ -60,6 +60,7 @@ impl Analysis for IdentifyEntry {
             identifications.extend(identify(cx, self, b, &points)?);
         }
         cx.begin()?;
+        cx.undivided()?;
         let (comparison_of_sets, not_compared) = match compare::compare(&identifications) {
             None => (None, None),
             Some(Ok(compared)) => (Some(compared), None),

@@ -228,7 +228,7 @@ impl MapEntry {
         let all: Vec<&Built<'_>> = planned.iter().map(|plan| &*plan.built).collect();
         let mut rows = Rows::new(cx, self, &bound, &all);
         let whole = !self.export.is_empty();
-        let mut maps = Vec::new();
+        let (mut maps, mut elsewhere) = (Vec::new(), false);
         for plan in &planned {
             let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, &rows);
             map.shown = ShownMap::new(Some(&plan.axes), whole);
@@ -238,11 +238,20 @@ impl MapEntry {
                 selection: &Selection::new(Some(&plan.axes), whole),
             };
             let take = |points: &mut Numbered<'_>| taker.take(points);
-            cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
+            let solved = cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
                 map.add(piece, &taker.rows, &mut rows)
-            })?;
+            });
+            // A run that solves its part goes on with that of the next map.
+            if let Err(Stopped::Elsewhere) = solved {
+                elsewhere = true;
+                continue;
+            }
+            solved?;
             map.notes = notes(&plan.built.transmission, &map.seen);
             maps.push(map);
+        }
+        if elsewhere {
+            return Err(Stopped::Elsewhere);
         }
         for map in &mut maps {
             map.export = ExportData::solve(cx, &self.export, map)?;

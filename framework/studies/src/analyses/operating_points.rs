@@ -187,6 +187,7 @@ impl Analysis for OperatingPointsEntry {
         let terms = self.by == By::Term;
         let all = cx.at_rows(gearbox, &self.model_sets, &self.bind, gear, &listed, terms)?;
         cx.begin()?;
+        cx.undivided()?;
         let built: Vec<&Built<'_>> = all.iter().flat_map(|s| &s.built).collect();
         let shares = together(built.iter().map(|b| &b.transmission), self.by);
         Ok(OperatingPointsOutcome {

@@ -101,6 +101,7 @@ impl Analysis for RmsSurfaceEntry {
             sets.push((built, axes));
         }
         cx.begin()?;
+        cx.undivided()?;
         let mut left_at_pairs = Left::new();
         let mut solved = Vec::new();
         for (built, axes) in &sets {

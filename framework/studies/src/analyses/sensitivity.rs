@@ -119,6 +119,7 @@ impl Analysis for SensitivityEntry {
             sensitivities.extend(self.under_set(cx, b, &points)?);
         }
         cx.begin()?;
+        cx.undivided()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());
         Ok(SensitivityOutcome { head, sensitivities })
     }

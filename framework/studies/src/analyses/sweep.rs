@@ -76,6 +76,7 @@ impl Analysis for SweepEntry {
         self.oil_is_free(cx)?;
         let all = self.solve(cx)?;
         cx.begin()?;
+        cx.undivided()?;
         let shares = together(all.iter().map(|value| &value.built.transmission), self.by);
         let quantity = |built: &Built<'_>, path: &String| Varied::new(cx.language, &built.resolved, path, Tie::Value);
         let varied: Vec<Varied> = match all.first() {

@@ -155,6 +155,7 @@ impl Analysis for ThermalLimitEntry {
             thermal_limits.push(search.all(&self.temperature, outwards(&range), &fixed));
         }
         cx.begin()?;
+        cx.undivided()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());
         Ok(ThermalLimitOutcome { head, thermal_limits })
     }

@@ -139,6 +139,7 @@ impl Analysis for TournamentEntry {
         self.check(cx)?;
         let built = cx.built(gearbox, self.model_set.as_slice())?;
         let base = &built[0];
+        cx.undivided()?;
         let tournament = match (&self.grid, &self.data) {
             (Some(grid), None) => Tournament::Spread(Box::new(self.spread(cx, grid, base)?)),
             (None, Some(data)) => Tournament::Ranking(Box::new(self.ranking(cx, data, base)?)),

@@ -204,6 +204,7 @@ impl Analysis for UncertaintyEntry {
             });
         }
         cx.begin()?;
+        cx.undivided()?;
         Ok(UncertaintyOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
             bands,

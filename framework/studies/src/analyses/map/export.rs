@@ -7,7 +7,7 @@ use gearloss_framework::document::did_you_mean;
 use gearloss_framework::registry::inventory;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::super::{Context, Stopped};
 use super::plan::{Axes, Planned};
@@ -141,6 +141,12 @@ impl ExportName {
 impl fmt::Debug for ExportName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0.name())
+    }
+}
+
+impl Serialize for ExportName {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.0.name())
     }
 }
 

@@ -251,8 +251,8 @@ fn takes_part<'a>(registry: &'a Registry, mechanism: &'a str) -> impl Iterator<I
     models.filter(|model| model.source != "the user's own" && model.name != "none")
 }
 
-/// A model with its defaults: where it cannot do without models of its own, as `path_integral` without a `tooth_friction`, once with each of
-/// them. One level deep: a model that takes another one of its own mechanism computes what that one computes, and a law that takes a
+/// A model with its defaults: where it cannot do without models of its own, as an integral over the path of contact without a law
+/// of friction, once with each of them. One level deep: a model that takes another one of its own mechanism computes what that one computes, and a law that takes a
 /// further one is for the user to name.
 fn with_nested(registry: &Registry, model: &Entry, slot: &str, left_out: &mut Vec<String>) -> Vec<(String, Value)> {
     let mut all = vec![(Vec::<String>::new(), json!({ "type": model.name }))];
