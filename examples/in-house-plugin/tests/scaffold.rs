@@ -36,7 +36,9 @@ fn scaffold() -> Option<PathBuf> {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     let root = own.join("../..");
     if !root.join("framework/core/Cargo.toml").is_file() {
-        common::skipped("new plugin is not tested: there is no ../../framework/core/Cargo.toml to build a new crate on");
+        common::skipped(
+            "new plugin is not tested: there is no ../../framework/core/Cargo.toml to build a new crate on",
+        );
         return None;
     }
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("scaffold");
