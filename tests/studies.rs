@@ -860,8 +860,6 @@ analyses:
         .output()
         .unwrap();
     let text = String::from_utf8_lossy(&shard.stderr);
-    assert!(
-        shard.status.success() && text.contains("a robust loss is no density") && !text.contains("fitted"),
-        "{text}"
-    );
+    // What waits for values of another analysis is left to the merge.
+    assert!(shard.status.success() && text.is_empty(), "{text}");
 }
