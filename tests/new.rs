@@ -371,7 +371,7 @@ fn a_new_crate_takes_gearloss_from_the_checkout_that_is_named() {
         let home = folder.join(home);
         assert_eq!(
             dependency(&home, "gearloss-framework"),
-            format!("gearloss-framework = {{ path = \"{way}/framework\", version = \"{VERSION}\" }}")
+            format!("gearloss-framework = {{ path = \"{way}/framework/core\", version = \"{VERSION}\" }}")
         );
         assert!(home.join(way).join("framework/core/Cargo.toml").is_file());
     }
