@@ -43,7 +43,7 @@ pub enum PowerFlow {
 pub enum Noting {
     /// Nothing is noted.
     Muted,
-    /// They stand in the scratch, for [`Scratch::count_seen`].
+    /// They stand in the scratch, for `Scratch::count_seen`.
     Seen,
     /// They count among those of all points.
     Counted,

@@ -19,14 +19,14 @@
 //! same bits on any number of threads.
 //!
 //! ```
-//! use gearloss_framework::least_squares::{Options, Parameter, Problem, solve};
+//! use gearloss_numerics::least_squares::{Options, Parameter, Problem, solve};
 //!
 //! let (x, y) = ([0.0, 1.0, 2.0, 3.0], [2.0, 1.21, 0.735, 0.446]);
 //! let residual = |p: &[f64]| Ok(x.iter().zip(y).map(|(x, y)| (p[0] * (-p[1] * x).exp() - y) / 0.01).collect());
 //! let parameters = vec![Parameter::new("height", 1.0).within(0.0, 10.0), Parameter::new("decay", 1.0).log()];
 //! let fit = solve(&Problem::new(residual, parameters), &Options::fit())?;
 //! assert!(fit.converged() && (fit.theta[1] - 0.5).abs() < 0.01);
-//! # Ok::<(), gearloss_framework::least_squares::Fault>(())
+//! # Ok::<(), gearloss_numerics::least_squares::Fault>(())
 //! ```
 
 mod bounded_linear;
