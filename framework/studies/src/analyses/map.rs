@@ -236,6 +236,7 @@ impl MapEntry {
                 field: &plan.points.field,
                 rows: RowsOf::new(&plan.built, &plan.points.gear, &plan.bound, &rows.parts),
                 selection: &Selection::new(Some(&plan.axes), whole),
+                wanted: rows.wanted,
             };
             let take = |points: &mut Numbered<'_>| taker.take(points);
             let solved = cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
@@ -331,6 +332,7 @@ impl MapEntry {
                     field: &Field::List(Vec::new()),
                     rows: RowsOf::new(&built[place], &gear, &bound, &rows.parts),
                     selection: &Selection::new(None, false),
+                    wanted: rows.wanted,
                 };
                 let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
                 map.add(piece, &taker.rows, &mut rows)?;
@@ -393,6 +395,8 @@ struct Rows<'c> {
     table: Table,
     /// Whether the table holds its rows: where nobody takes them, and where JSON lists the points.
     holds: bool,
+    /// Whether rows are wanted at all, by a file or by the caller.
+    wanted: bool,
 }
 
 impl<'c> Rows<'c> {
@@ -406,6 +410,7 @@ impl<'c> Rows<'c> {
         Self {
             table: Table::new(cx.name, columns(bound, &parts)),
             holds: cx.sink.is_none() || entry.write.contains(&Write::Json),
+            wanted: cx.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
             parts,
             cx,
@@ -465,6 +470,9 @@ impl<'a> Map<'a> {
             undefined.extend(taken.undefined);
         }));
         self.shown.add(picked);
+        if !rows.wanted {
+            return Ok(());
+        }
         if rows.holds {
             undefined.sort_by_key(|loss: &UndefinedLoss| loss.number);
             self.undefined.extend(undefined);

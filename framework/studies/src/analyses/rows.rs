@@ -43,7 +43,7 @@ impl Context<'_> {
         Ok(measured)
     }
 
-    /// As [`Runner::read`], for analyses that do not ask a gearbox at which speed and torque its ports turn: torque and speed have
+    /// As [`Context::read`], for analyses that do not ask a gearbox at which speed and torque its ports turn: torque and speed have
     /// to be those at the ports of the conditions.
     pub fn read_at_ports(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Stopped> {
         let measured = self.read(path, data, bind)?;
@@ -161,7 +161,7 @@ impl Trial<'_> {
         rows.speeds(&solved, rig.at_out()).map_err(|error| error.message)
     }
 
-    /// Solves every row with further overrides, as [`Runner::at_rows`] does, and adds the stated ranges that were left. The
+    /// Solves every row with further overrides, as [`Context::at_rows`] does, and adds the stated ranges that were left. The
     /// speeds are those of [`Trial::speeds`].
     pub fn rows(
         &self,

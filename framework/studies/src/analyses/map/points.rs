@@ -124,6 +124,8 @@ pub struct Taker<'a> {
     pub field: &'a Field,
     pub rows: RowsOf<'a>,
     pub selection: &'a Selection,
+    /// Whether rows are wanted.
+    pub wanted: bool,
 }
 
 /// What was taken from the points of a task.
@@ -146,7 +148,11 @@ impl Taker<'_> {
             })
         };
         Taken {
-            values: self.rows.values(points),
+            values: if self.wanted {
+                self.rows.values(points)
+            } else {
+                Vec::new()
+            },
             picked: self.selection.pick(self.field, points),
             passes: points.iter().map(|(_, point)| point.passes).sum(),
             undefined: points.iter().filter_map(undefined).collect(),
