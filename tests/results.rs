@@ -20,8 +20,9 @@ const STUDIES: [&str; 4] = [
     "tests/results/study.yaml",
 ];
 
-/// Records of rare results, which no study here has: a minimum at a kink, whose contents are tested with the models that make it.
-const RARE: [&str; 1] = ["KinkOf"];
+/// Records of rare results, which no study here has: a minimum at a kink, whose contents are tested with the models that make it,
+/// and a duty that breaks off.
+const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 
 /// Objects whose keys are the user's, or a model's.
 const OPEN: [&str; 5] = ["bound", "set", "terms_w", "value", "model"];
@@ -286,9 +287,12 @@ fn the_schemas_explain_every_key() {
         explained(schema, "");
     }
     for (name, definition) in point["definitions"].as_object().unwrap() {
+        // The words may differ: the schema of results is generated.
+        let keys = |record: &Value| record["properties"].as_object().map(|p| p.keys().cloned().collect::<BTreeSet<_>>());
         let other = &result["definitions"][name];
         // A part of a point says more than one of a map.
-        assert!(other.is_null() || other == definition || name == "Part", "{name}");
+        let same = keys(other).is_none() || keys(definition).is_none() || keys(other) == keys(definition);
+        assert!(same || name == "Part", "{name}");
     }
 }
 

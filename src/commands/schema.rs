@@ -5,8 +5,7 @@ use gearloss_framework::language::{Kind, Language};
 use crate::args::{KindArg, SchemaArgs};
 use crate::output::{End, Failure, Out};
 
-/// Documents that the program writes have no language to be published from; their schemas are kept by hand.
-const RESULT: &str = include_str!("../../schemas/result.schema.json");
+/// Schemas of what the program writes beside results.
 const POINT: &str = include_str!("../../schemas/point.schema.json");
 const CHECK: &str = include_str!("../../schemas/check.schema.json");
 const MODELS: &str = include_str!("../../schemas/models.schema.json");
@@ -16,7 +15,7 @@ pub fn run(args: &SchemaArgs, out: &mut Out) -> Result<End, Failure> {
         KindArg::Gearbox => Kind::Gearbox,
         KindArg::Study => Kind::Study,
         KindArg::Eval => Kind::Eval,
-        KindArg::Result => return written(RESULT, out),
+        KindArg::Result => return written(&results()?, out),
         KindArg::Point => return written(POINT, out),
         KindArg::Check => return written(CHECK, out),
         KindArg::Models => return written(MODELS, out),
@@ -27,8 +26,16 @@ pub fn run(args: &SchemaArgs, out: &mut Out) -> Result<End, Failure> {
 
 /// The schema of a kind of document, as a file.
 pub fn published(language: &Language, kind: Kind) -> Result<String, Failure> {
-    let schema = language.published(kind);
-    let text = serde_json::to_string_pretty(&schema).map_err(|e| Failure::Input(format!("error: {e}\n")))?;
+    text_of(&language.published(kind))
+}
+
+/// The schema of results, as a file.
+pub fn results() -> Result<String, Failure> {
+    text_of(&gearloss_studies::results::schema())
+}
+
+fn text_of(schema: &serde_json::Value) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(schema).map_err(|e| Failure::Input(format!("error: {e}\n")))?;
     Ok(text + "\n")
 }
 

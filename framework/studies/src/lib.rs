@@ -5,6 +5,7 @@ pub mod analysis;
 pub mod duty;
 pub mod identify;
 pub mod measured;
+pub mod results;
 pub mod study;
 pub mod table;
 pub mod tasks;

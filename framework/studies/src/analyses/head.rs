@@ -99,7 +99,7 @@ impl Head {
         let mut inputs = inputs(cx.study);
         inputs.extend_from_slice(read);
         Self {
-            format: "gearloss-result/1",
+            format: crate::results::FORMAT,
             gearloss: env!("CARGO_PKG_VERSION"),
             packages: cx.language.registry().packages(),
             study: cx.study.entry.title.clone(),

@@ -22,9 +22,11 @@ pub struct Note {
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// Least value seen.
+    /// Least value seen; null where it is not finite.
+    #[schemars(with = "Option<f64>")]
     pub least: f64,
-    /// Greatest value seen.
+    /// Greatest value seen; null where it is not finite.
+    #[schemars(with = "Option<f64>")]
     pub greatest: f64,
     /// At how many points it was seen.
     pub points: u32,
@@ -37,9 +39,11 @@ pub struct Note {
 /// The range in which a model is stated to hold, in the unit of the note.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Stated {
-    /// Lower end.
+    /// Lower end; null where it is not finite.
+    #[schemars(with = "Option<f64>")]
     pub least: f64,
-    /// Upper end.
+    /// Upper end; null where it is not finite.
+    #[schemars(with = "Option<f64>")]
     pub greatest: f64,
     /// Where it comes from.
     pub origin: &'static str,

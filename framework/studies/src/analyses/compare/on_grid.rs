@@ -33,7 +33,7 @@ pub struct GridComparison {
     pub mean: Option<f64>,
     /// Statistics of the differences. [unit of the differences]
     pub difference: Option<Statistics>,
-    /// Statistics of the differences of the loss. [% of the base's loss]
+    /// Statistics of the differences of the loss, of the base's loss. [%]
     pub loss_difference_percent_of_loss: Option<Statistics>,
     /// What models of the set noted.
     pub notes: Vec<Note>,

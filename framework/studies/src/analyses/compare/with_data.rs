@@ -36,7 +36,7 @@ pub struct DataComparison {
     pub unit: &'static str,
     /// Statistics of the differences. [unit of the differences]
     pub difference: Option<Statistics>,
-    /// Statistics of the differences of the loss. [% of the measured loss]
+    /// Statistics of the differences of the loss, of the measured loss. [%]
     pub loss_difference_percent_of_loss: Option<Statistics>,
     /// Differences in bands of torque, then of speed.
     pub bands: Vec<Band>,
@@ -85,7 +85,7 @@ pub struct ComparedPoint {
     pub model: Option<f64>,
     /// Model minus measurement. [unit of the differences]
     pub difference: Option<f64>,
-    /// The same difference as a loss. [% of the measured loss]
+    /// The same difference as a loss, of the measured loss. [%]
     pub loss_difference_percent_of_loss: Option<f64>,
     /// Accuracy of the measured quantity, where a column states it. [unit of the quantity]
     pub accuracy: Option<f64>,

@@ -198,7 +198,7 @@ pub struct MapPoint<'a> {
     /// What the transmission does.
     #[schemars(with = "Status")]
     status: Option<&'a str>,
-    /// Power out over power in.
+    /// Power out over power in. [-]
     efficiency: Option<f64>,
     /// Sum of all losses. [W]
     loss_w: Option<f64>,

@@ -1,0 +1,58 @@
+//! The schema of results: the head, and one record of results for each analysis that is linked.
+
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{RecursiveTransform, Transform as _};
+use serde_json::{Value, json};
+
+use crate::analyses::AnalysisKind;
+
+/// Format of a result.
+pub const FORMAT: &str = "gearloss-result/1";
+
+/// The JSON Schema (draft-07) of what is written of one analysis.
+pub fn schema() -> Value {
+    let mut generator = SchemaSettings::draft07().for_serialize().into_generator();
+    let outcomes: Vec<Schema> = AnalysisKind::linked()
+        .into_iter()
+        .map(|kind| kind.outcome_schema(&mut generator))
+        .collect();
+    let mut definitions: Vec<(String, Value)> = generator.take_definitions(true).into_iter().collect();
+    definitions.sort_by(|a, b| a.0.cmp(&b.0));
+    for (_, definition) in &mut definitions {
+        if let Ok(schema) = <&mut Schema>::try_from(definition) {
+            RecursiveTransform(close).transform(schema);
+        }
+    }
+    json!({
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": FORMAT,
+        "description": "What `gearloss run` writes of one analysis: a head, and the results under keys of the analysis' own.",
+        "anyOf": outcomes,
+        "definitions": definitions.into_iter().collect::<serde_json::Map<String, Value>>(),
+    })
+}
+
+/// Records have no other keys than theirs. One of several forms of a record has the keys of all forms, too.
+fn close(schema: &mut Schema) {
+    let forms = ["anyOf", "oneOf"].into_iter().find(|key| schema.get(*key).is_some());
+    if let (Some(key), Some(Value::Object(shared))) = (forms, schema.get("properties").cloned()) {
+        let required = schema.remove("required");
+        schema.remove("properties");
+        schema.remove("type");
+        for form in schema.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten() {
+            let Some(form) = form.as_object_mut() else { continue };
+            let mut properties = shared.clone();
+            if let Some(Value::Object(own)) = form.remove("properties") {
+                properties.extend(own);
+            }
+            let lists = [required.as_ref(), form.get("required")].into_iter().flatten();
+            let all: Vec<Value> = lists.filter_map(Value::as_array).flatten().cloned().collect();
+            form.insert("properties".to_owned(), Value::Object(properties));
+            form.insert("required".to_owned(), Value::Array(all));
+        }
+    }
+    if schema.get("properties").is_some() && schema.get("additionalProperties").is_none() {
+        schema.insert("additionalProperties".to_owned(), false.into());
+    }
+}
