@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // What may be written: the sections, models, catalogues and sets of everything that is linked.
     let language = Language::linked()?;
     let gearbox = Gearbox::read(&language, Path::new(GEARBOX))?;
-    // A wrong file or set ends here, with the line, the reason and how to mend it.
+    // A wrong file or set ends here, with the line, the reason and how to fix it.
     let transmission = gearbox.transmission(&language, &Choice::of_set("joint"))?;
     for warning in &transmission.warnings {
         println!("{}", gearbox.sources.render(warning));

@@ -27,9 +27,9 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Wrong input in one line, with how to mend it.
-    pub fn input(message: impl std::fmt::Display, mend: impl std::fmt::Display) -> Self {
-        Self::Input(format!("error: {message}\n  = mend: {mend}\n"))
+    /// Wrong input in one line, with how to fix it.
+    pub fn input(message: impl std::fmt::Display, help: impl std::fmt::Display) -> Self {
+        Self::Input(format!("error: {message}\n  = help: {help}\n"))
     }
 
     /// The text to print; none where Ctrl-C was pressed.

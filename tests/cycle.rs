@@ -228,7 +228,7 @@ fn a_faulty_file_is_refused_with_its_line() {
         for word in words {
             assert!(said.contains(word), "{name}: no `{word}` in {said}");
         }
-        assert!(said.contains("mend:") && said.contains("study.yaml:"), "{name}: {said}");
+        assert!(said.contains("help:") && said.contains("study.yaml:"), "{name}: {said}");
     }
 }
 

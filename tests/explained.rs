@@ -47,7 +47,7 @@ fn every_model_explains_the_number_of_the_solution() {
                 Err(findings) => {
                     let text = format!("{:?}", findings.list);
                     assert!(
-                        findings.list.iter().all(|d| d.mend.is_some()),
+                        findings.list.iter().all(|d| d.help.is_some()),
                         "{mechanism}/{}: {text}",
                         entry.name
                     );

@@ -154,7 +154,7 @@ fn an_oil_of_a_gearbox() {
     assert!(said.contains("rheology: { tau0: "), "{said}");
     let wrong = refused(&["fit", "traction", TRACTION, "--gearbox", gearbox, "--lubricant", "none"]);
     assert!(
-        wrong.contains("no lubricant `none`") && wrong.contains("mend: write --lubricant with one of"),
+        wrong.contains("no lubricant `none`") && wrong.contains("help: write --lubricant with one of"),
         "{wrong}"
     );
     let oil = refused(&[
@@ -306,7 +306,7 @@ fn a_stribeck_curve_without_noise_gives_back_its_coefficient() {
 }
 
 #[test]
-fn faulty_files_are_refused_with_line_and_mend() {
+fn faulty_files_are_refused_with_line_and_help() {
     let head = "pressure [GPa],temperature [degC],shear_rate [1/s],stress [MPa]\n";
     let row = "1,60,1e5,12\n1,60,1e6,24\n";
     for (name, text, said) in [
@@ -385,7 +385,7 @@ fn faulty_files_are_refused_with_line_and_mend() {
         let file = written(name, &text);
         let fault = refused(&["fit", "traction", file.to_str().unwrap(), "--oil", OIL]);
         assert!(
-            fault.contains(name) && fault.contains(said) && fault.contains("= mend: "),
+            fault.contains(name) && fault.contains(said) && fault.contains("= help: "),
             "{name}: {fault}"
         );
     }
@@ -437,6 +437,6 @@ fn faulty_files_are_refused_with_line_and_mend() {
     ] {
         let file = written(name, text);
         let fault = refused(&[&["fit", "stribeck", file.to_str().unwrap()][..], more].concat());
-        assert!(fault.contains(said) && fault.contains("= mend: "), "{name}: {fault}");
+        assert!(fault.contains(said) && fault.contains("= help: "), "{name}: {fault}");
     }
 }

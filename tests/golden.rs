@@ -70,7 +70,7 @@ fn every_class_of_input_error_says_what_where_and_how_to_mend_it() {
             one || SEVERAL.contains(&name.as_str()),
             "{name} is one mistake and gets several messages:\n{text}"
         );
-        assert!(text.contains("mend:"), "{name} does not say how to mend it:\n{text}");
+        assert!(text.contains("help:"), "{name} does not say how to fix it:\n{text}");
     }
     assert!(
         wrong.is_empty(),

@@ -470,7 +470,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.from",
-            "mend:",
+            "help:",
         ),
         (
             "x: { path: lubricants.sump.mu_ehl, from: 0.03, to: 0.2 }",
@@ -628,7 +628,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
         assert!(
             text.contains(&format!("analyses.all.{place}"))
                 && text.contains(said)
-                && text.contains("mend:")
+                && text.contains("help:")
                 && text.contains("-->"),
             "{parameters} {more}: {place}: {said}\n{text}"
         );

@@ -40,7 +40,7 @@ fn every_mistake_gets_one_message_at_its_place_with_help() {
         let errors = text.matches("error: ").count();
         assert_eq!(errors, 1, "{name} has {errors} messages:\n{text}");
         assert!(
-            text.contains("mend:") || text.contains("tip:"),
+            text.contains("help:") || text.contains("tip:"),
             "{name} gives no help:\n{text}"
         );
         let expected = folder.join("expected.txt");

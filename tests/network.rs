@@ -319,7 +319,7 @@ fn a_program_without_one_recipe_says_so() {
     let gearbox = Gearbox::read(&language, &common::file("examples/two-speed-ev/gearbox.yaml")).unwrap();
     let said = gearbox.resolve(&language, &two_speed().choice()).unwrap_err().render();
     assert!(
-        said.contains("thermal.network: two crates lay out networks") && said.contains("mend:"),
+        said.contains("thermal.network: two crates lay out networks") && said.contains("help:"),
         "{said}"
     );
 }

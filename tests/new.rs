@@ -392,7 +392,7 @@ fn a_new_crate_names_the_versions_of_the_workspace() {
 #[test]
 fn what_cannot_name_a_crate_is_refused_with_what_to_write() {
     let folder = folder("plugin-names");
-    for (name, mend) in [
+    for (name, help) in [
         ("AcmeLosses", "such as `acmelosses`"),
         ("7acme", "such as `acme`"),
         ("acme losses", "such as `acme-losses`"),
@@ -411,7 +411,7 @@ fn what_cannot_name_a_crate_is_refused_with_what_to_write() {
     ] {
         let told = refused(&folder, &["new", "plugin", name]);
         assert!(
-            told.contains("cannot name a crate") && told.contains(mend),
+            told.contains("cannot name a crate") && told.contains(help),
             "{name}: {told}"
         );
     }

@@ -440,7 +440,7 @@ fn moments_of_openfoam_become_a_table_and_a_power_law() {
         let failed = gearloss(&args);
         assert_eq!(failed.status.code(), Some(2));
         let text = String::from_utf8(failed.stderr).unwrap();
-        assert!(text.contains(said) && text.contains("mend:"), "{text}");
+        assert!(text.contains(said) && text.contains("help:"), "{text}");
     }
     std::fs::write(list, runs.replace("run2", "run9")).unwrap();
     let failed = gearloss(&[&import[..8], &["nowhere.csv"]].concat());

@@ -288,7 +288,11 @@ fn the_schemas_explain_every_key() {
     }
     for (name, definition) in point["definitions"].as_object().unwrap() {
         // The words may differ: the schema of results is generated.
-        let keys = |record: &Value| record["properties"].as_object().map(|p| p.keys().cloned().collect::<BTreeSet<_>>());
+        let keys = |record: &Value| {
+            record["properties"]
+                .as_object()
+                .map(|p| p.keys().cloned().collect::<BTreeSet<_>>())
+        };
         let other = &result["definitions"][name];
         // A part of a point says more than one of a map.
         let same = keys(other).is_none() || keys(definition).is_none() || keys(other) == keys(definition);

@@ -164,7 +164,7 @@ fn what_a_comparison_lacks_is_told() {
             "grids: {{ g: {{ gear: first, torque: 10 Nm, speed: 1000 rpm }} }}\nanalyses:\n  fit: {{ type: compare, {analysis} }}\n"
         );
         let (_, text) = run("lacks", &study, "T_in;n_in\nNm;1/min\n10;1000\n");
-        assert!(text.contains(said) && text.contains("mend:"), "{said}\n{text}");
+        assert!(text.contains(said) && text.contains("help:"), "{said}\n{text}");
     }
 }
 

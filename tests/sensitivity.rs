@@ -214,7 +214,7 @@ fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
         for said in said {
             assert!(text.contains(said), "{analysis}: {said}\n{text}");
         }
-        assert!(text.contains("mend:"), "{text}");
+        assert!(text.contains("help:"), "{text}");
     }
 }
 

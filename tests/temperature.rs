@@ -104,7 +104,7 @@ fn a_faulty_file_of_points_is_refused_with_line_and_column() {
         (POINTS.replace("3000,-16", "3000,"), "line 2, column 3 `torque`: empty"),
     ] {
         let (_, printed) = run("faulty", study, &[("points.csv", &text)]);
-        assert!(printed.contains(said) && printed.contains("mend:"), "{said}\n{printed}");
+        assert!(printed.contains(said) && printed.contains("help:"), "{said}\n{printed}");
     }
 }
 

@@ -22,7 +22,7 @@ fn part(cx: &Build<'_>) -> HousingPart {
 /// A quantity of the outside that a model cannot do without.
 fn needed(value: Option<f64>, model: &str, what: &str, example: &str, cx: &Build<'_>) -> Result<f64, Diagnostic> {
     value.ok_or_else(|| {
-        cx.error(format!("{model} needs {what}")).mend(format!(
+        cx.error(format!("{model} needs {what}")).help(format!(
             "add `housing: {{ outside: {{ {example} }} }}` with your figure"
         ))
     })

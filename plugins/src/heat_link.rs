@@ -34,7 +34,7 @@ fn of_gear(
     cx: &Build<'_>,
 ) -> Result<f64, Diagnostic> {
     own.or_else(|| part(cx).gear.as_ref().map(gear)).ok_or_else(|| {
-        cx.error(format!("the link needs {what}")).mend(format!(
+        cx.error(format!("the link needs {what}")).help(format!(
             "name the gear of the link, or write `{example}` beside `type`, with your figure"
         ))
     })
@@ -50,7 +50,7 @@ fn of_housing(
 ) -> Result<f64, Diagnostic> {
     own.or_else(|| part(cx).housing.as_ref().and_then(housing))
         .ok_or_else(|| {
-            cx.error(format!("the link needs {what}")).mend(format!(
+            cx.error(format!("the link needs {what}")).help(format!(
                 "write `{example}` beside `type` or in `housing: {{ outside: {{ ... }} }}`, with your figure"
             ))
         })
@@ -94,6 +94,6 @@ mod cases {
     ) -> Result<M, String> {
         let registry = Registry::linked().unwrap();
         let files = Files::default();
-        prepare(params, &mut Build::new(&registry, &files)).map_err(|d| format!("{d} {:?}", d.mend))
+        prepare(params, &mut Build::new(&registry, &files)).map_err(|d| format!("{d} {:?}", d.help))
     }
 }

@@ -177,7 +177,7 @@ fn outside(housing: &HousingPart) -> Result<f64, Diagnostic> {
             "thermal.network",
             format!("`auto` needs the {} of the housing outside", missing.join(" and the ")),
         )
-        .mend("add `housing: { outside: { box: [400 mm, 250 mm, 300 mm] } }` with your length, width and height, or `area`, `height` and `length` there")
+        .help("add `housing: { outside: { box: [400 mm, 250 mm, 300 mm] } }` with your length, width and height, or `area`, `height` and `length` there")
     })
 }
 

@@ -19,7 +19,7 @@ fn cycle(name: &str) -> Result<Trace, String> {
     match entry.read(&registry, |_| Err("no file".to_owned())) {
         Ok(Duty::Trace(trace)) => Ok(trace),
         Ok(Duty::Spectrum(_)) => Err("a spectrum".to_owned()),
-        Err(faults) => Err(format!("{} | {}", faults[0].message, faults[0].mend)),
+        Err(faults) => Err(format!("{} | {}", faults[0].message, faults[0].help)),
     }
 }
 

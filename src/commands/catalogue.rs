@@ -19,13 +19,13 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
         .collect();
     if found.is_empty() {
         let text = args.text.as_deref().unwrap_or_default();
-        let mend = match without_suffix(text, rows().map(|(designation, _)| designation.as_str())) {
+        let help = match without_suffix(text, rows().map(|(designation, _)| designation.as_str())) {
             Some((base, _)) => format!("there is `{base}`, without the suffix"),
             None => "give fewer letters, or none for all; other parts state their own figures, or come from a CSV under `catalogues` of \
                      the gearbox"
                 .to_owned(),
         };
-        return Err(Failure::input(format!("no designation holds `{text}`"), mend));
+        return Err(Failure::input(format!("no designation holds `{text}`"), help));
     }
     let mut keys: Vec<&str> = Vec::new();
     for (key, _) in found.iter().flat_map(|(_, row)| &row.values) {

@@ -240,9 +240,9 @@ fn parts_of(transmission: &Transmission, name: &str) -> Result<Vec<usize>, Failu
     }
     let paths: Vec<&str> = transmission.parts().iter().map(|p| p.path.as_str()).collect();
     let ids: Vec<&str> = paths.iter().filter_map(|p| p.split('.').nth(1)).collect();
-    let mend = match did_you_mean(name, paths.iter().chain(&ids).copied()) {
+    let help = match did_you_mean(name, paths.iter().chain(&ids).copied()) {
         Some(close) => format!("write {close}"),
         None => format!("name one of {}", paths.join(", ")),
     };
-    Err(Failure::input(format!("no part is called `{name}`"), mend))
+    Err(Failure::input(format!("no part is called `{name}`"), help))
 }

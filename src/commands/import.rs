@@ -49,10 +49,10 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     let mut means = Vec::new();
     for run in &list.runs {
         let folder = beside.join(&run.folder);
-        let told = |fault: String, mend: &str| {
+        let told = |fault: String, help: &str| {
             Failure::input(
                 format!("{}, line {}: {}: {fault}", runs.display(), run.line, folder.display()),
-                mend,
+                help,
             )
         };
         let samples = history(&folder).map_err(|fault| {
@@ -133,7 +133,7 @@ fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
         Failure::input(
             format!("{option} \"{text}\": {}", fault.message),
             fault
-                .mend
+                .help
                 .unwrap_or_else(|| "write a time such as \"0.5 s\"".to_owned()),
         )
     })

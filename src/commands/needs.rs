@@ -118,8 +118,8 @@ fn inputs(
         let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
         for error in list {
             let text = error
-                .mend
-                .map_or_else(|| error.message.clone(), |mend| format!("{}; {mend}", error.message));
+                .help
+                .map_or_else(|| error.message.clone(), |help| format!("{}; {help}", error.message));
             let place = error.path.split('.').take(2).collect::<Vec<_>>().join(".");
             match reasons.iter_mut().find(|(reason, _)| *reason == text) {
                 Some((_, places)) => places.push(place),

@@ -25,7 +25,7 @@ pub fn run(args: &NewArgs, out: &mut Out) -> Result<End, Failure> {
 /// Writes a file that does not exist yet, and tells so.
 fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
     use std::io::Write as _;
-    let told = |what: String, mend: String| Err(Failure::input(what, mend));
+    let told = |what: String, help: String| Err(Failure::input(what, help));
     let folder = folder(file);
     if !folder.is_dir() {
         return told(

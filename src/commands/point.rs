@@ -43,7 +43,7 @@ pub fn quantity(option: &str, text: &str, unit: &'static str) -> Result<f64, Fai
     parse_quantity(text.trim(), unit).map_err(|fault| {
         Failure::input(
             format!("{option} \"{text}\": {}", fault.message),
-            fault.mend.unwrap_or_else(|| "write a smaller number".to_owned()),
+            fault.help.unwrap_or_else(|| "write a smaller number".to_owned()),
         )
     })
 }

@@ -39,7 +39,7 @@ pub fn choice(args: &ChoiceArgs) -> Result<Choice, Findings> {
         let Some((path, value)) = text.split_once('=') else {
             let error = Diagnostic::error("", "an override without `=`")
                 .at(span(source, 0, text.len()))
-                .mend("write `--set PATH=VALUE`");
+                .help("write `--set PATH=VALUE`");
             return Err(found(vec![error], sources));
         };
         // Findings count from the first character of the value.

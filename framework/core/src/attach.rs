@@ -321,8 +321,8 @@ pub fn dangling(path: &str, what: &str, id: &str, ids: &[&str]) -> Diagnostic {
         None
     };
     match close {
-        Some(close) => error.mend(format!("write `{close}`")),
-        None if ids.is_empty() => error.mend(format!("there is none: add `{id}`, or leave the name out")),
-        None => error.mend(format!("name one of them, or add `{id}`")),
+        Some(close) => error.help(format!("write `{close}`")),
+        None if ids.is_empty() => error.help(format!("there is none: add `{id}`, or leave the name out")),
+        None => error.help(format!("name one of them, or add `{id}`")),
     }
 }

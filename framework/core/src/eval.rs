@@ -58,7 +58,7 @@ impl Evaluated {
 pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEntry, &'a Entry), Diagnostic> {
     let Some((mechanism, model)) = name.split_once('/') else {
         return Err(
-            Diagnostic::error("", format!("`{name}` is no model")).mend("write MECHANISM/MODEL, such as bearing/skf")
+            Diagnostic::error("", format!("`{name}` is no model")).help("write MECHANISM/MODEL, such as bearing/skf")
         );
     };
     let mechanism = language.registry().mechanism_named(mechanism)?;
@@ -103,15 +103,15 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         };
         let Value::Object(mut written) = walked.value else {
             return Err(found(vec![
-                Diagnostic::error("", "the input is no record").mend("write `part`, `at` or `model`"),
+                Diagnostic::error("", "the input is no record").help("write `part`, `at` or `model`"),
             ]));
         };
         if let Some(own) = written.remove("model") {
             let of = own.as_str().or_else(|| own["type"].as_str()).unwrap_or_default();
             if of != entry.name {
                 let error = Diagnostic::error("model", format!("the input is for `{of}`, not for `{}`", entry.name));
-                let mend = format!("write `model: {{ type: {} }}`, or leave `model` out", entry.name);
-                return Err(found(vec![place(error.mend(mend))]));
+                let help = format!("write `model: {{ type: {} }}`, or leave `model` out", entry.name);
+                return Err(found(vec![place(error.help(help))]));
             }
             model = Some(own);
         }
@@ -168,7 +168,7 @@ pub fn eval<M: Mechanism>(
                     format!("the context of {} has no quantity `{name}`", M::KEY),
                 );
                 return Err(match did_you_mean(name, M::QUANTITIES.iter().map(|q| q.name)) {
-                    Some(close) => error.mend(format!("write `{close}`")),
+                    Some(close) => error.help(format!("write `{close}`")),
                     None => error,
                 });
             };

@@ -16,8 +16,8 @@ pub struct FormulaFault {
     pub column: usize,
     /// What is wrong.
     pub message: String,
-    /// How to mend it.
-    pub mend: Option<String>,
+    /// How to fix it.
+    pub help: Option<String>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -76,7 +76,7 @@ impl Formula {
     /// Compiles a formula over named quantities.
     ///
     /// # Errors
-    /// With the column, what is wrong and how to mend it.
+    /// With the column, what is wrong and how to fix it.
     pub fn compile(text: &str, names: &[&str]) -> Result<Self, FormulaFault> {
         let mut parser = Parser {
             text,
@@ -97,7 +97,7 @@ impl Formula {
             return Err(FormulaFault {
                 column: 1,
                 message: "nested too deeply".to_owned(),
-                mend: Some("split the formula".to_owned()),
+                help: Some("split the formula".to_owned()),
             });
         }
         Ok(formula)
@@ -190,11 +190,11 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    fn fault(&self, message: impl Into<String>, mend: Option<String>) -> FormulaFault {
+    fn fault(&self, message: impl Into<String>, help: Option<String>) -> FormulaFault {
         FormulaFault {
             column: self.text[..self.at].chars().count() + 1,
             message: message.into(),
-            mend,
+            help,
         }
     }
 
@@ -348,8 +348,8 @@ impl Parser<'_> {
             return Ok(());
         }
         self.at = start;
-        let mend = did_you_mean(&name, self.names.iter().copied()).map(|close| format!("write `{close}`"));
-        Err(self.fault(format!("unknown quantity `{name}`"), mend))
+        let help = did_you_mean(&name, self.names.iter().copied()).map(|close| format!("write `{close}`"));
+        Err(self.fault(format!("unknown quantity `{name}`"), help))
     }
 
     fn call(&mut self, name: &str, start: usize) -> Result<(), FormulaFault> {
@@ -366,13 +366,13 @@ impl Parser<'_> {
                 .map(|(n, _)| *n)
                 .chain(TWO.iter().map(|(n, _)| *n))
                 .chain(["if"]);
-            let mend = did_you_mean(name, known.clone());
+            let help = did_you_mean(name, known.clone());
             let list: Vec<&str> = known.collect();
-            let mend = mend.map_or_else(
+            let help = help.map_or_else(
                 || format!("functions: {}", list.join(", ")),
                 |close| format!("write `{close}(`"),
             );
-            return Err(self.fault(format!("unknown function `{name}`"), Some(mend)));
+            return Err(self.fault(format!("unknown function `{name}`"), Some(help)));
         };
         for i in 0..count {
             self.comparison()?;
@@ -424,11 +424,11 @@ mod tests {
     fn faults_have_a_column_and_a_way_out() {
         let fault = |text: &str| Formula::compile(text, &["speed", "nu"]).unwrap_err();
         assert_eq!(
-            (fault("1 + sped").column, fault("1 + sped").mend.unwrap()),
+            (fault("1 + sped").column, fault("1 + sped").help.unwrap()),
             (5, "write `speed`".to_owned())
         );
-        assert_eq!(fault("2 ** 3").mend.unwrap(), "write `^`");
-        assert!(fault("sqr(2)").mend.unwrap().contains("sqrt"));
+        assert_eq!(fault("2 ** 3").help.unwrap(), "write `^`");
+        assert!(fault("sqr(2)").help.unwrap().contains("sqrt"));
         assert!(fault("(1 + 2").message.contains("missing"));
         assert!(fault("1 2").message.contains("left over"));
         assert!(fault("").message.contains("too early"));

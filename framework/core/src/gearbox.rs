@@ -131,7 +131,7 @@ impl Gearbox {
             Ok(text) => text,
             Err(e) => {
                 let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
-                    .mend("check the name of the file")
+                    .help("check the name of the file")
                     .code(Code::Unreadable);
                 return Err(Findings {
                     list: vec![error],
@@ -311,7 +311,7 @@ pub fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagn
     let key = node.get("gearloss")?;
     let written = key.text()?;
     let has = |keys: [&str; 2]| keys.iter().any(|key| node.get(key).is_some());
-    let (message, mend) = match wanted {
+    let (message, help) = match wanted {
         DocumentKind::Study if written.starts_with("study") && has(["ports", "shafts"]) => (
             "the first key says that this is a study, and the others are those of a gearbox",
             "write `gearloss: gearbox/1`".to_owned(),
@@ -333,7 +333,7 @@ pub fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagn
         ),
         _ => return None,
     };
-    Some(Diagnostic::error("gearloss", message).at(key.span).mend(mend))
+    Some(Diagnostic::error("gearloss", message).at(key.span).help(help))
 }
 
 /// A document laid over what it extends; `from` is where another one names it.
@@ -359,7 +359,7 @@ fn chain(
                 format!("{name} is a study, and only a gearbox can be extended"),
             )
             .at(span)
-            .mend("name a gearbox file, such as one under `gearboxes` of that study"),
+            .help("name a gearbox file, such as one under `gearboxes` of that study"),
             None => error,
         });
         return None;
@@ -369,7 +369,7 @@ fn chain(
     };
     let span = read.node.get("extends").map(|n| n.span);
     let error = |message: String| {
-        let error = Diagnostic::error("extends", message).mend("name a gearbox file, relative to this one");
+        let error = Diagnostic::error("extends", message).help("name a gearbox file, relative to this one");
         if let Some(span) = span { error.at(span) } else { error }
     };
     let file = folder.join(base);

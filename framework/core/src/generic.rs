@@ -227,8 +227,8 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
     let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
     let formula = Formula::compile(&params.formula, &names).map_err(|fault| {
         let error = cx.error(format!("formula, column {}: {}", fault.column, fault.message));
-        match fault.mend {
-            Some(mend) => error.mend(mend),
+        match fault.help {
+            Some(help) => error.help(help),
             None => error.note(format!("quantities: {}", names.join(", "))),
         }
     })?;
@@ -237,7 +237,7 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
         if let (true, Some(needed)) = (formula.uses(used), needed) {
             return Err(cx
                 .error(format!("`{}` is not known here", quantity.name))
-                .mend(format!("state {needed}")));
+                .help(format!("state {needed}")));
         }
     }
     built::<M>(Law::Formula(formula), cx)
@@ -263,7 +263,7 @@ impl<M: Mechanism> Lookup<M> {
                     "{file}: line 1: {} columns behind the axes",
                     lookup.tables.len()
                 ))
-                .mend("leave one column for the answer; each axis is named as a quantity"));
+                .help("leave one column for the answer; each axis is named as a quantity"));
         }
         Ok(lookup)
     }
@@ -283,7 +283,7 @@ impl<M: Mechanism> Lookup<M> {
             let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
             let quantity = M::QUANTITIES.iter().find(|q| q.name == *name).ok_or_else(|| {
                 let error = cx.error(format!("`axes`: the context of {} has no quantity `{name}`", M::KEY));
-                error.mend(match did_you_mean(name, names.iter().copied()) {
+                error.help(match did_you_mean(name, names.iter().copied()) {
                     Some(close) => format!("write `{close}`"),
                     None => format!("name one of {}", names.join(", ")),
                 })
@@ -291,7 +291,7 @@ impl<M: Mechanism> Lookup<M> {
             if let Some(needed) = cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
                 return Err(cx
                     .error(format!("`axes`: `{name}` is not known here"))
-                    .mend(format!("state {needed}")));
+                    .help(format!("state {needed}")));
             }
             axes.push(quantity);
         }
@@ -302,7 +302,7 @@ impl<M: Mechanism> Lookup<M> {
         });
         let table = Table::from_grid(grid.collect(), values, reading).map_err(|reason| {
             cx.error(reason)
-                .mend("write one value for each point of the grid, the last axis running fastest, and axes that rise")
+                .help("write one value for each point of the grid, the last axis running fastest, and axes that rise")
         })?;
         Ok(Self {
             tables: vec![table],
@@ -330,7 +330,7 @@ impl<M: Mechanism> Lookup<M> {
                     M::KEY
                 ))
                 .note(format!("quantities: {}", names.join(", ")))
-                .mend("name each axis as a quantity with its unit, such as `speed [rpm]`"));
+                .help("name each axis as a quantity with its unit, such as `speed [rpm]`"));
         }
         if let Some(later) = columns[axes..].iter().find(|c| quantity(c).is_some()) {
             return Err(cx
@@ -339,7 +339,7 @@ impl<M: Mechanism> Lookup<M> {
                     columns[axes],
                     M::KEY
                 ))
-                .mend("name each axis as a quantity; answers stand behind all axes"));
+                .help("name each axis as a quantity; answers stand behind all axes"));
         }
         let tables = Table::several_from_csv(&text, reading, axes).map_err(|reason| {
             let error = fault(reason);
@@ -360,12 +360,12 @@ impl<M: Mechanism> Lookup<M> {
             if table.unit().is_none() && unit != "-" {
                 return Err(cx
                     .error(format!("{file}: {at}: `{column}` has no unit"))
-                    .mend(format!("convert it where needed and write `{column} [{unit}]`")));
+                    .help(format!("convert it where needed and write `{column} [{unit}]`")));
             }
             if let Some(written) = table.unit().filter(|written| *written != unit) {
                 return Err(cx
                     .error(format!("{file}: {at}: `{column}` is in {written}, not in {unit}"))
-                    .mend(format!("convert it and write `{column} [{unit}]`")));
+                    .help(format!("convert it and write `{column} [{unit}]`")));
             }
         }
         let axes: Vec<&'static Quantity<M>> = columns[..axes].iter().filter_map(|c| quantity(c)).collect();
@@ -379,12 +379,12 @@ impl<M: Mechanism> Lookup<M> {
                         axis.name,
                         axis.unit
                     ))
-                    .mend(format!("convert it and write `{} [{own}]`", axis.name)));
+                    .help(format!("convert it and write `{} [{own}]`", axis.name)));
             }
             if let Some(needed) = cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
                 return Err(cx
                     .error(format!("{file}: `{}` is not known here", quantity.name))
-                    .mend(format!("state {needed}")));
+                    .help(format!("state {needed}")));
             }
         }
         let mut sums = tables[0].points();
@@ -405,7 +405,7 @@ impl<M: Mechanism> Lookup<M> {
                         "{file}: at {} the answer is {sum}, which is negative",
                         at.join(", ")
                     ))
-                    .mend("correct it: losses and coefficients are not negative"));
+                    .help("correct it: losses and coefficients are not negative"));
             }
         }
         Ok(Self { tables, axes })
@@ -447,7 +447,7 @@ fn build_table<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built,
         (Some(file), None, None) => Lookup::read_sum(&file, &reading, unit, cx)?,
         (None, Some(axes), Some(values)) => Lookup::stated(&axes.0.0, values, &reading, cx)?,
         _ => {
-            return Err(cx.error("table needs `file`, or `axes` and `values`").mend(
+            return Err(cx.error("table needs `file`, or `axes` and `values`").help(
                 "write `file: NAME.csv`, or the table itself: `axes: { speed: [0, 1000] }, values: [0.1, 0.3]`",
             ));
         }

@@ -86,7 +86,7 @@ impl Language {
                             found.push(
                                 Diagnostic::error("", format!("two catalogues of {section} have a row `{twice}`"))
                                     .note(format!("the later one is registered at {}", catalogue.origin))
-                                    .mend("leave it out of one, or state the values in the gearbox's own catalogue"),
+                                    .help("leave it out of one, or state the values in the gearbox's own catalogue"),
                             );
                         }
                         known.extend(table);

@@ -26,7 +26,7 @@ pub const ZERO_CELSIUS: f64 = 273.15;
 /// Least viscosity for which ASTM D341 with a constant, and DIN 51563, hold. \[mm2/s\]
 const THINNEST: f64 = 2.0;
 
-/// The key that is wrong or missing, why, and how to mend it.
+/// The key that is wrong or missing, why, and how to fix it.
 type Fault = (&'static str, String, String);
 
 /// A law of viscosity.
@@ -225,7 +225,7 @@ impl Lubricant {
     /// An oil from its entry.
     ///
     /// # Errors
-    /// The key that is wrong or missing, why, and how to mend it.
+    /// The key that is wrong or missing, why, and how to fix it.
     pub fn new(entry: &LubricantEntry) -> Result<Self, (&'static str, String, String)> {
         let usual = usual(entry.kind.unwrap_or_default());
         let written_density = entry.density.unwrap_or_default();

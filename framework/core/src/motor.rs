@@ -136,7 +136,7 @@ const QUANTITIES: [Wanted; 5] = [
     ("temperature", "degC"),
 ];
 
-/// How to mend a header.
+/// How to fix a header.
 const COLUMNS: &str = "a map has columns `speed [rpm],torque [Nm],loss [W]`, or `efficiency [-]`";
 
 /// A grid with fewer of its nodes stated than this is none: speeds or torques of the rows differ where they should be equal.
@@ -229,7 +229,7 @@ impl MotorMap {
 /// A map has its units in the header: there is no other place to state them.
 fn in_header(faults: Vec<MeasuredFault>) -> Vec<MeasuredFault> {
     let unit = |f: MeasuredFault| {
-        if f.mend.starts_with("state it") {
+        if f.help.starts_with("state it") {
             fault(f.message, COLUMNS)
         } else {
             f

@@ -424,7 +424,7 @@ impl Registry {
         let mut models: Vec<Entry> = models.into_iter().collect();
         let mut found = Vec::new();
         if models.is_empty() {
-            found.push(Diagnostic::error("", "no loss model is linked into this program").mend(
+            found.push(Diagnostic::error("", "no loss model is linked into this program").help(
                 "add a crate with models to the program, such as gearloss-plugins, and write `use gearloss_plugins as _;` once",
             ));
         }
@@ -456,7 +456,7 @@ impl Registry {
                         ),
                     )
                     .note(format!("registered at {}", model.origin))
-                    .mend("register the mechanism with `register_mechanism!` or `register_component!`"),
+                    .help("register the mechanism with `register_mechanism!` or `register_component!`"),
                 );
             }
         }
@@ -578,7 +578,7 @@ impl Registry {
 }
 
 fn missing(message: String, name: &str, names: &[&str]) -> Diagnostic {
-    Diagnostic::error("", message).mend(match did_you_mean(name, names.iter().copied()) {
+    Diagnostic::error("", message).help(match did_you_mean(name, names.iter().copied()) {
         Some(close) => format!("write {close}"),
         None => format!("name one of {}", names.join(", ")),
     })
@@ -587,7 +587,7 @@ fn missing(message: String, name: &str, names: &[&str]) -> Diagnostic {
 fn twice(what: &str, name: &str, one: Origin, other: Origin) -> Diagnostic {
     Diagnostic::error("", format!("two registrations of the {what} `{name}`"))
         .note(format!("one at {one}, the other at {other}"))
-        .mend("rename one of them")
+        .help("rename one of them")
 }
 
 /// Reads a struct from a resolved value, which cannot fail but for a bug. `type` is the framework's key, not the model's.

@@ -320,7 +320,7 @@ fn apply(
             match language.checked_in(value, new, &path) {
                 Ok(checked) => {
                     if !paths::write(value, &path, checked) {
-                        found.push(Diagnostic::error(&path, "cannot be set here").mend("set the key above it"));
+                        found.push(Diagnostic::error(&path, "cannot be set here").help("set the key above it"));
                         break;
                     }
                     came.insert(path, Came::Override);
@@ -342,10 +342,10 @@ fn no_place(value: &Value, pattern: &str, key: &str) -> Diagnostic {
     let record = records.iter().find_map(|path| lookup(value, path)?.as_object());
     let keys: Vec<&str> = record.into_iter().flatten().map(|(key, _)| key.as_str()).collect();
     match did_you_mean(key, keys.iter().copied()) {
-        Some(close) => error.mend(format!("write `{close}`")),
+        Some(close) => error.help(format!("write `{close}`")),
         None if keys.contains(&"type") => {
-            error.mend("a model has the keys of its own `type`: `gearloss models MECHANISM MODEL` lists them")
+            error.help("a model has the keys of its own `type`: `gearloss models MECHANISM MODEL` lists them")
         }
-        None => error.mend("`gearloss check --resolved` prints every path"),
+        None => error.help("`gearloss check --resolved` prints every path"),
     }
 }

@@ -16,36 +16,36 @@ pub enum FaultPlace {
     Bind(String),
 }
 
-/// What is wrong with a file, and how to mend it.
+/// What is wrong with a file, and how to fix it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeasuredFault {
     /// What it belongs to.
     pub place: FaultPlace,
     /// What is wrong, with line and column.
     pub message: String,
-    /// How to mend it.
-    pub mend: String,
+    /// How to fix it.
+    pub help: String,
 }
 
 impl MeasuredFault {
     /// A fault at a key of the measurement.
-    pub fn new(key: impl Into<String>, message: impl Into<String>, mend: impl Into<String>) -> Self {
+    pub fn new(key: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             place: FaultPlace::Entry(key.into()),
             message: message.into(),
-            mend: mend.into(),
+            help: help.into(),
         }
     }
 }
 
 /// A fault that belongs to no key of its own.
-pub fn fault(message: impl Into<String>, mend: impl Into<String>) -> MeasuredFault {
-    MeasuredFault::new("", message, mend)
+pub fn fault(message: impl Into<String>, help: impl Into<String>) -> MeasuredFault {
+    MeasuredFault::new("", message, help)
 }
 
 /// Factor and offset of a unit to SI.
 pub fn scale((name, due): (&str, &str), unit: Option<&str>, header: &str) -> Result<(f64, f64), MeasuredFault> {
-    let mend = |example: &str| format!("state it: `units: {{ {name}: {example} }}`");
+    let help = |example: &str| format!("state it: `units: {{ {name}: {example} }}`");
     let fault = |message: String, help: String| Err(MeasuredFault::new("", message, help));
     if due == "-" {
         return match unit {
@@ -54,16 +54,16 @@ pub fn scale((name, due): (&str, &str), unit: Option<&str>, header: &str) -> Res
             None if ["weight", "share"].contains(&name) => Ok((1.0, 0.0)),
             Some(other) => fault(
                 format!("column `{header}`: `{other}` is no unit of {name}"),
-                mend("\"%\""),
+                help("\"%\""),
             ),
             None => fault(
                 format!("column `{header}`: no unit says whether it is in percent"),
-                mend("\"%\""),
+                help("\"%\""),
             ),
         };
     }
     let Some(symbol) = unit else {
-        return fault(format!("column `{header}` has no unit"), mend(due));
+        return fault(format!("column `{header}` has no unit"), help(due));
     };
     // A temperature in kelvins; elsewhere K is a difference of temperatures.
     if due == "degC" && symbol == "K" {
@@ -79,7 +79,7 @@ pub fn scale((name, due): (&str, &str), unit: Option<&str>, header: &str) -> Res
                     "column `{header}`: `{symbol}` is no unit of {}",
                     wanted.dimension.name()
                 ),
-                mend(close.unwrap_or(due)),
+                help(close.unwrap_or(due)),
             )
         }
     }

@@ -1,4 +1,4 @@
-//! What is wrong, where, and how to mend it.
+//! What is wrong, where, and how to fix it.
 
 use std::fmt;
 
@@ -59,8 +59,8 @@ pub struct Diagnostic {
     pub spans: Vec<(Span, String)>,
     /// More about it.
     pub notes: Vec<String>,
-    /// How to mend it.
-    pub mend: Option<String>,
+    /// How to fix it.
+    pub help: Option<String>,
 }
 
 impl Diagnostic {
@@ -73,7 +73,7 @@ impl Diagnostic {
             message: message.into(),
             spans: Vec::new(),
             notes: Vec::new(),
-            mend: None,
+            help: None,
         }
     }
 
@@ -108,9 +108,9 @@ impl Diagnostic {
         self
     }
 
-    /// Says how to mend it.
-    pub fn mend(mut self, mend: impl Into<String>) -> Self {
-        self.mend = Some(mend.into());
+    /// Says how to fix it.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
         self
     }
 
@@ -137,8 +137,8 @@ impl Diagnostic {
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.title())?;
-        if let Some(mend) = &self.mend {
-            write!(f, " (mend: {mend})")?;
+        if let Some(help) = &self.help {
+            write!(f, " (help: {help})")?;
         }
         Ok(())
     }
@@ -215,8 +215,8 @@ impl Sources {
         for note in &finding.notes {
             group = group.element(Level::NOTE.message(note.as_str()));
         }
-        if let Some(mend) = &finding.mend {
-            group = group.element(Level::HELP.with_name("mend").message(mend.as_str()));
+        if let Some(help) = &finding.help {
+            group = group.element(Level::HELP.message(help.as_str()));
         }
         Renderer::plain().render(&[group])
     }
@@ -327,13 +327,13 @@ mod tests {
                 start: 8,
                 end: 13,
             })
-            .mend("write `30 mm`");
+            .help("write `30 mm`");
         let text = sources.render(&finding);
         assert!(
             text.contains("error: b: a torque") && text.contains("gear.yaml:2:4") && text.contains("^^^^^"),
             "{text}"
         );
-        assert!(text.contains("mend: write `30 mm`"), "{text}");
+        assert!(text.contains("help: write `30 mm`"), "{text}");
         assert_eq!(
             sources
                 .locate(Span {

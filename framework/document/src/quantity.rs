@@ -7,15 +7,15 @@ use super::unit::{Dimension, Unit};
 pub struct QuantityFault {
     /// What is wrong.
     pub message: String,
-    /// How to mend it.
-    pub mend: Option<String>,
+    /// How to fix it.
+    pub help: Option<String>,
 }
 
 impl QuantityFault {
-    fn new(message: impl Into<String>, mend: impl Into<String>) -> Self {
+    fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             message: message.into(),
-            mend: Some(mend.into()),
+            help: Some(help.into()),
         }
     }
 }
@@ -126,7 +126,7 @@ pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFa
     } else {
         Err(QuantityFault {
             message: format!("`{text}` is too large"),
-            mend: None,
+            help: None,
         })
     }
 }
@@ -152,12 +152,12 @@ mod tests {
     }
 
     #[test]
-    fn each_fault_says_what_and_how_to_mend() {
+    fn each_fault_says_what_and_how_to_help() {
         let fault = |text: &str| parse_quantity(text, mm()).unwrap_err();
         assert!(fault("30 Nm").message.contains("torque, not a length"));
-        assert_eq!(fault("1,25 mm").mend.unwrap(), "write `1.25 mm`");
+        assert_eq!(fault("1,25 mm").help.unwrap(), "write `1.25 mm`");
         assert!(fault("47").message.contains("number written as text"));
-        assert_eq!(fault("47 mmm").mend.unwrap(), "write `47 mm`");
+        assert_eq!(fault("47 mmm").help.unwrap(), "write `47 mm`");
         assert!(fault("1e999 mm").message.contains("too large"));
         for text in ["", "mm", " 5 mm", "5  mm", "0x10 mm", "5 mm ", "--5 mm", ".", "."] {
             assert!(parse_quantity(text, mm()).is_err(), "{text:?}");

@@ -53,7 +53,7 @@ pub fn walk_at(node: &Node, schema: &Schema, path: &str) -> Walked {
             let error = Diagnostic::error(path, "there is no such place in the document");
             walker
                 .findings
-                .push(error.mend("`gearloss check --resolved` prints every path"));
+                .push(error.help("`gearloss check --resolved` prints every path"));
             None
         }
         [first, rest @ ..] => {
@@ -144,8 +144,8 @@ fn is_id(text: &str, digits_first: bool) -> bool {
 }
 
 impl<'a> Walker<'a> {
-    fn report(&mut self, node: &Node, message: impl Into<String>, mend: impl Into<String>) {
-        let finding = Diagnostic::error(self.path.clone(), message).at(node.span).mend(mend);
+    fn report(&mut self, node: &Node, message: impl Into<String>, help: impl Into<String>) {
+        let finding = Diagnostic::error(self.path.clone(), message).at(node.span).help(help);
         self.findings.push(finding);
     }
 
@@ -219,7 +219,7 @@ impl<'a> Walker<'a> {
                     self.report(
                         node,
                         fault.message,
-                        fault.mend.unwrap_or_else(|| "write a smaller number".to_owned()),
+                        fault.help.unwrap_or_else(|| "write a smaller number".to_owned()),
                     );
                     return None;
                 }
@@ -310,7 +310,7 @@ impl<'a> Walker<'a> {
             )
             .at(node.span)
             .note(format!("words: {}", words.join(", ")))
-            .mend(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
+            .help(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
             self.findings.push(finding.code(Code::UnknownName));
             return None;
         }
@@ -355,7 +355,7 @@ impl<'a> Walker<'a> {
                             .text()
                             .is_some_and(|t| t.starts_with(|c: char| c.is_ascii_digit()))
                 });
-            let mend = if commas {
+            let help = if commas {
                 "a decimal comma splits a number in two: write a point".to_owned()
             } else if least == most {
                 format!("write {least} entries")
@@ -363,7 +363,7 @@ impl<'a> Walker<'a> {
                 format!("write {least} entries or more")
             };
             let noun = if list.len() == 1 { "entry" } else { "entries" };
-            self.report(node, format!("has {} {noun}", list.len()), mend);
+            self.report(node, format!("has {} {noun}", list.len()), help);
             return None;
         }
         let before = self.findings.len();
@@ -397,7 +397,7 @@ impl<'a> Walker<'a> {
             }
             self.within(&key.name, |w| {
                 if !is_id(&key.name, digits_first) {
-                    let (message, mend) = if is_boolean_trap(&key.name) {
+                    let (message, help) = if is_boolean_trap(&key.name) {
                         (
                             format!("`{}` is a boolean to many YAML readers", key.name),
                             "choose another name",
@@ -414,7 +414,7 @@ impl<'a> Walker<'a> {
                         )
                     };
                     w.findings
-                        .push(Diagnostic::error(w.path.clone(), message).at(key.span).mend(mend));
+                        .push(Diagnostic::error(w.path.clone(), message).at(key.span).help(help));
                 }
                 w.places.0.insert(
                     w.path.clone(),
@@ -460,7 +460,7 @@ impl<'a> Walker<'a> {
         };
         let help = format!("write it at the left margin, with whole paths: `set: {{ {whole}: ... }}`");
         let error = Diagnostic::error(format!("{}.set", self.path), "`set` is a key of the document itself");
-        self.findings.push(error.at(node.span).mend(help));
+        self.findings.push(error.at(node.span).help(help));
         true
     }
 
@@ -485,7 +485,7 @@ impl<'a> Walker<'a> {
                     let finding = Diagnostic::error(self.path.clone(), format!("a {what} needs a `type`"))
                         .at(node.span)
                         .note(format!("linked here: {}", names().collect::<Vec<_>>().join(", ")))
-                        .mend("a `model:` replaces the default wholly: write its `type`, too");
+                        .help("a `model:` replaces the default wholly: write its `type`, too");
                     self.findings.push(finding.code(Code::MissingKey));
                     None
                 }
@@ -515,7 +515,7 @@ impl<'a> Walker<'a> {
         let finding = Diagnostic::error(self.path.clone(), format!("no {what} is called `{name}`"))
             .at(node.span)
             .note(format!("linked here: {}", names.join(", ")))
-            .mend(match did_you_mean(name, names.iter().copied()) {
+            .help(match did_you_mean(name, names.iter().copied()) {
                 Some(close) => format!("write `{close}`"),
                 None => "choose one of them; `gearloss models` says what they are".to_owned(),
             });
@@ -604,8 +604,8 @@ impl<'a> Walker<'a> {
                         self.places = places;
                         for finding in &mut self.findings[before..] {
                             finding.message = format!("the default of `{name}`: {}", finding.message);
-                            finding.mend = Some(
-                                "mend the default: it is in SI, the range in the unit of the parameter's doc comment"
+                            finding.help = Some(
+                                "help the default: it is in SI, the range in the unit of the parameter's doc comment"
                                     .to_owned(),
                             );
                         }
@@ -617,7 +617,7 @@ impl<'a> Walker<'a> {
                         let first_sentence = field.doc.split(". ").next().unwrap_or_default().trim_end_matches('.');
                         let finding = Diagnostic::error(self.path.clone(), format!("`{name}` is missing"))
                             .at(node.span)
-                            .mend(format!("add `{name}:` ({first_sentence})"));
+                            .help(format!("add `{name}:` ({first_sentence})"));
                         self.findings.push(finding.code(Code::MissingKey));
                         None
                     }
@@ -647,7 +647,7 @@ impl<'a> Walker<'a> {
         };
         let mut meant = None;
         let finding = if let Some(before) = comma {
-            Diagnostic::error(path, "a decimal comma splits the number before it").mend(format!(
+            Diagnostic::error(path, "a decimal comma splits the number before it").help(format!(
                 "write `{}.{}`",
                 tidy(before),
                 key.name
@@ -670,17 +670,17 @@ impl<'a> Walker<'a> {
             let help = misplaced::help(self.schema, fields, &open, &key.name, inside && tag.is_none());
             meant = help.meant;
             match (help.words, of_others) {
-                (Some(words), _) => error.mend(words),
+                (Some(words), _) => error.help(words),
                 (None, Some((own, others))) if !others.is_empty() => error
                     .note(format!("keys of `{own}`: {}", names().collect::<Vec<_>>().join(", ")))
-                    .mend(format!(
+                    .help(format!(
                         "`{}` is a key of {}: choose another `type`, or a key of `{own}`",
                         key.name,
                         others.join(", ")
                     )),
                 _ => error
                     .note(format!("keys here: {}", names().collect::<Vec<_>>().join(", ")))
-                    .mend("choose one of these keys, or remove it"),
+                    .help("choose one of these keys, or remove it"),
             }
         };
         self.findings.push(finding.at(key.span).code(Code::UnknownKey));

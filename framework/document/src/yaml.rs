@@ -31,13 +31,13 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
             end: 0,
         };
         let error = Diagnostic::error("", format!("the text has {} MB", text.len() >> 20));
-        let mend = "a description has some kilobytes: put measured data into CSV files";
+        let help = "a description has some kilobytes: put measured data into CSV files";
         return Read {
             node: Node {
                 content: Content::Null,
                 span,
             },
-            findings: vec![error.at(span).mend(mend).code(Code::Syntax)],
+            findings: vec![error.at(span).help(help).code(Code::Syntax)],
         };
     }
     let mut reader = Reader {
@@ -88,14 +88,14 @@ impl<'a> Reader<'a> {
                     .text
                     .lines()
                     .any(|line| line.trim_start_matches(' ').starts_with('\t'));
-                let mend = if tabs {
+                let help = if tabs {
                     "indent with spaces; YAML has no tabs"
                 } else {
                     "look at this place and just before it: a bracket, brace, quote or colon is missing, or the indentation is off"
                 };
                 let finding = Diagnostic::error("", format!("this is not YAML: {}", error.info()))
                     .at(span)
-                    .mend(mend);
+                    .help(help);
                 self.findings.push(finding);
                 Err(Broken)
             }
@@ -111,8 +111,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn report(&mut self, span: Span, message: &str, mend: &str) {
-        self.findings.push(Diagnostic::error("", message).at(span).mend(mend));
+    fn report(&mut self, span: Span, message: &str, help: &str) {
+        self.findings.push(Diagnostic::error("", message).at(span).help(help));
     }
 
     fn document(&mut self) -> Result<Node, Broken> {
@@ -238,7 +238,7 @@ impl<'a> Reader<'a> {
                     Diagnostic::error("", format!("the key `{name}` stands twice"))
                         .at(key_span)
                         .label(key.span, "first here")
-                        .mend("rename one of them or merge both"),
+                        .help("rename one of them or merge both"),
                 ),
                 None => entries.push((Key { name, span: key_span }, value)),
             }

@@ -42,10 +42,10 @@ fn check_2_9_fewer_rows_than_free_parameters() {
     assert!(
         text.contains("1 rows, priors counted, for 2 free parameters; fix parameters, or give some of them a prior")
     );
-    // Either of which mends it.
-    let mut mended = parameters(&[-2.0, 1.0], &[-INF, -INF], &[INF, INF]);
-    mended[0] = mended[0].clone().prior(0.5, 0.1);
-    let fit = solve(&Problem::new(move |x: &[f64]| Ok(one(x)), mended), &Options::exact()).unwrap();
+    // Either of which fixes it.
+    let mut fixed = parameters(&[-2.0, 1.0], &[-INF, -INF], &[INF, INF]);
+    fixed[0] = fixed[0].clone().prior(0.5, 0.1);
+    let fit = solve(&Problem::new(move |x: &[f64]| Ok(one(x)), fixed), &Options::exact()).unwrap();
     assert!(fit.converged() && (fit.theta[0] - 0.5).abs() < 1e-8 && (fit.theta[1] - 0.25).abs() < 1e-8);
     let fit = solve(
         &problem(one, &[-2.0, 1.0], &[-2.0, -INF], &[-2.0, INF]),

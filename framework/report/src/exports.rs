@@ -42,7 +42,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
                 }
                 Err(refusal) => {
                     let path = format!("analyses.{}.export", outcome.head.analysis);
-                    return page.fault(Diagnostic::error(path, refusal.message).mend(refusal.help));
+                    return page.fault(Diagnostic::error(path, refusal.message).help(refusal.help));
                 }
             }
         }

@@ -299,7 +299,7 @@ pub(crate) mod tests {
     fn nothing_is_guessed() {
         let refused = |entry: &MeasuredEntry, text: &str| {
             let faults = entry.read(text.as_bytes(), &[]).unwrap_err();
-            let told = faults.iter().map(|fault| format!("{}: {}", fault.message, fault.mend));
+            let told = faults.iter().map(|fault| format!("{}: {}", fault.message, fault.help));
             told.collect::<Vec<_>>().join("\n")
         };
         let plain = entry(&[], &[]);
@@ -330,7 +330,7 @@ pub(crate) mod tests {
         let text = b"torque [Nm],speed [rpm],loss [W]\n1,2,3\n1,2,\n1,x,3\n";
         let mut rig = entry(&[], &[]);
         let refused = rig.read(text, &[]).unwrap_err().remove(0);
-        assert!(refused.message.contains("line 3, column 3 `loss`: empty") && refused.mend.contains("skip"));
+        assert!(refused.message.contains("line 3, column 3 `loss`: empty") && refused.help.contains("skip"));
         rig.faulty_rows = FaultyRows::Skip;
         let read = rig.read(text, &[]).unwrap();
         assert_eq!(read.rows.len(), 1);
@@ -425,8 +425,8 @@ pub(crate) mod tests {
                 .collect::<Vec<_>>(),
             "{faults:?}"
         );
-        assert!(faults[0].mend.starts_with("write `efficiency`"), "{}", faults[0].mend);
-        assert_eq!(faults[3].mend, "write `P_los`");
+        assert!(faults[0].help.starts_with("write `efficiency`"), "{}", faults[0].help);
+        assert_eq!(faults[3].help, "write `P_los`");
         assert!(
             faults[4]
                 .message

@@ -51,7 +51,7 @@ impl Varied {
         if paths.is_empty() {
             let key = pattern.rsplit('.').next().unwrap_or(pattern);
             return Err(Diagnostic::error(pattern, format!("nothing here has a key `{key}`"))
-                .mend("`gearloss check --resolved` prints every path"));
+                .help("`gearloss check --resolved` prints every path"));
         }
         // Of several, a factor moves those that have a value.
         let has_value = |path: &String| lookup(&resolved.value, path).is_some_and(|value| !value.is_null());
@@ -70,7 +70,7 @@ impl Varied {
         for path in paths {
             let Some((unit, least, greatest)) = language.number_at(&resolved.value, &path) else {
                 return Err(Diagnostic::error(pattern, format!("`{path}` is no number"))
-                    .mend("name the path of a quantity; `gearloss check --resolved` prints every path"));
+                    .help("name the path of a quantity; `gearloss check --resolved` prints every path"));
             };
             let base = lookup(&resolved.value, &path)
                 .and_then(Value::as_f64)
@@ -79,7 +79,7 @@ impl Varied {
                 Tie::Factor if base.is_none() => {
                     return Err(
                         Diagnostic::error(pattern, format!("`{path}` has no value to be multiplied"))
-                            .mend("state it in the gearbox, or leave `tie: factor` out"),
+                            .help("state it in the gearbox, or leave `tie: factor` out"),
                     );
                 }
                 Tie::Factor => {}

@@ -68,7 +68,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Pump, Diagnostic> {
         }),
         _ => Err(cx
             .error("pump needs one of `flow` and `displacement`")
-            .mend("write `flow: 8 l/min` or `displacement: 12 cm3`")),
+            .help("write `flow: 8 l/min` or `displacement: 12 cm3`")),
     }
 }
 

@@ -54,8 +54,8 @@ impl Iso14179 {
         let mut law = rows::load_law(part, self.exponent, self.axial_factor, self.f1.is_some())?;
         law.z = self.f1.unwrap_or(law.z);
         if self.f2.is_some() && !flanged(part) {
-            let mend = "leave f2 out; f1 counts the axial load of other bearings";
-            return Err(("f2 belongs to cylindrical roller bearings".to_owned(), mend.to_owned()));
+            let help = "leave f2 out; f1 counts the axial load of other bearings";
+            return Err(("f2 belongs to cylindrical roller bearings".to_owned(), help.to_owned()));
         }
         let f0 = self.f0.map_or_else(|| rows::f0(part), Ok)?;
         Palmgren::new(
@@ -72,7 +72,7 @@ fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic>
     let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
     params
         .model(part)
-        .map_err(|(message, mend)| cx.error(message).mend(mend))
+        .map_err(|(message, help)| cx.error(message).help(help))
 }
 
 register!(Bearing, "iso14179_2", Iso14179,

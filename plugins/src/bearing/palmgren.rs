@@ -85,8 +85,8 @@ impl Palmgren {
             // A constant f1 does not ask for it.
             None if law.exponent == 0.0 => 1.0,
             None => {
-                let mend = "add `c0:`, or a `designation` of a catalogue";
-                return Err(("a ball bearing needs `c0`".to_owned(), mend.to_owned()));
+                let help = "add `c0:`, or a `designation` of a catalogue";
+                return Err(("a ball bearing needs `c0`".to_owned(), help.to_owned()));
             }
         };
         let d_m = part.mean_diameter().mm();

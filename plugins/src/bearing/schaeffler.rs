@@ -125,7 +125,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic> {
     let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
     params
         .model(part)
-        .map_err(|(message, mend)| cx.error(message).mend(mend))
+        .map_err(|(message, help)| cx.error(message).help(help))
 }
 
 register!(Bearing, "schaeffler", Params,

@@ -356,7 +356,7 @@ impl Model {
 
 fn prepare(params: Skf, cx: &mut Build<'_>) -> Result<Model, Diagnostic> {
     let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
-    Model::new(&params, part).map_err(|(message, mend)| cx.error(message).mend(mend))
+    Model::new(&params, part).map_err(|(message, help)| cx.error(message).help(help))
 }
 
 impl BearingModel for Model {

@@ -39,7 +39,7 @@ impl SealRow {
     /// The constants for an outside diameter in mm and one or two seals.
     ///
     /// # Errors
-    /// Where the table has no row for that diameter: what is wrong, and how to mend it.
+    /// Where the table has no row for that diameter: what is wrong, and how to fix it.
     pub fn new(code: Code, outside: f64, seals: u32) -> Result<Self, (String, String)> {
         // Least and greatest outside diameter, beta, K_S1, K_S2.
         let rows: &[(f64, f64, f64, f64, f64)] = match code {

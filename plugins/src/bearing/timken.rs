@@ -66,16 +66,16 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Timken, Diagnostic> {
     if part.kind != BearingKind::TaperedRoller {
         return Err(cx
             .error("timken covers tapered roller bearings")
-            .mend("give this bearing a model of its own, such as `model: { type: skf }`"));
+            .help("give this bearing a model of its own, such as `model: { type: skf }`"));
     }
     let k = params.k.or(part.y.map(|y| y / 1.028)).ok_or_else(|| {
         cx.error("timken needs `k`, or `y` of the bearing")
-            .mend("add `k:` to the model or `y:` to the bearing")
+            .help("add `k:` to the model or `y:` to the bearing")
     })?;
     if k <= 0.0 {
         return Err(cx
             .error("K of the bearing is zero")
-            .mend("correct `y:` of the bearing, or add `k:` to the model"));
+            .help("correct `y:` of the bearing, or add `k:` to the model"));
     }
     Ok(Timken {
         coefficients: params.coefficients,

@@ -86,22 +86,22 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Discs, Diagnostic> {
     let (Some(inner), Some(outer), Some(gap)) = (part.inner_diameter, part.outer_diameter, part.gap) else {
         return Err(cx
             .error("disc_gap needs `inner_diameter`, `outer_diameter` and `gap` of the clutch")
-            .mend("add them to the clutch"));
+            .help("add them to the clutch"));
     };
     if outer <= inner {
         return Err(cx
             .error("the outer diameter is not greater than the inner")
-            .mend("exchange `inner_diameter` and `outer_diameter`, or correct one"));
+            .help("exchange `inner_diameter` and `outer_diameter`, or correct one"));
     }
     if params.film == Film::Full && params.flow.is_some() {
         return Err(cx
             .error("a full film needs no `flow`")
-            .mend("leave `flow` out, or choose `film: coverage`"));
+            .help("leave `flow` out, or choose `film: coverage`"));
     }
     if params.film != Film::PressureBalance && params.mist_viscosity > 0.0 {
         return Err(cx
             .error("`mist_viscosity` belongs to the pressure balance")
-            .mend("leave it out, or choose `film: pressure_balance`"));
+            .help("leave it out, or choose `film: pressure_balance`"));
     }
     let faces = f64::from(part.faces);
     let flow = match (params.flow, params.film) {
@@ -110,7 +110,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Discs, Diagnostic> {
         (None, _) => {
             return Err(cx
                 .error("disc_gap needs `flow`, the oil fed to the gaps")
-                .mend("add `flow: 3 l/min` with your figure, or choose `film: full`"));
+                .help("add `flow: 3 l/min` with your figure, or choose `film: full`"));
         }
     };
     Ok(Discs {

@@ -73,7 +73,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Changenet, Diagnostic> 
     let Some(volume) = part.oil_volume else {
         return Err(cx
             .error("changenet_2007 needs the oil volume")
-            .mend("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
+            .help("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
     };
     Ok(Changenet {
         coefficients: params.coefficients,

@@ -90,7 +90,7 @@ fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic
     let Some(volume) = part.oil_volume else {
         return Err(cx
             .error("changenet_2011 needs the oil volume")
-            .mend("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
+            .help("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
     };
     Ok(Churning {
         coefficients: params.coefficients,

@@ -168,12 +168,12 @@ fn prepare(params: Diab, cx: &mut Build<'_>) -> Result<Diab, Diagnostic> {
     if params.form == Form::Analytical && params.flanges.is_some() {
         return Err(cx
             .error("`flanges` belong to the dimensional law")
-            .mend("leave `flanges` out, or write `form: dimensional`"));
+            .help("leave `flanges` out, or write `form: dimensional`"));
     }
     if params.form == Form::Dimensional && params.xi != 1.0 {
         return Err(cx
             .error("`xi` belongs to the analytical law")
-            .mend("leave `xi` out, or write `form: analytical`"));
+            .help("leave `xi` out, or write `form: analytical`"));
     }
     Ok(params)
 }

@@ -41,8 +41,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Dimensional, Diagnostic
     let names = &NAMES[..if volume.is_some() { 5 } else { 4 }];
     let c_m = Formula::compile(&params.c_m, names).map_err(|fault| {
         let error = cx.error(format!("c_m, column {}: {}", fault.column, fault.message));
-        match fault.mend {
-            Some(mend) => error.mend(mend),
+        match fault.help {
+            Some(help) => error.help(help),
             None => error.note(format!(
                 "names: {}{}",
                 names.join(", "),

@@ -75,12 +75,12 @@ fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Splash, Diagnostic> {
     let Some(mate) = &part.mate else {
         return Err(cx
             .error("iso14179_2 is asked for a pair")
-            .mend("add `mate:` to the part"));
+            .help("add `mate:` to the part"));
     };
     let (Some(area), Some(perimeter)) = (part.section_area, part.section_perimeter) else {
         return Err(cx
             .error("iso14179_2 needs the section of the gear case")
-            .mend("add `housing: { section: { area: 420 cm2, perimeter: 85 cm } }` with your figures"));
+            .help("add `housing: { section: { area: 420 cm2, perimeter: 85 cm } }` with your figures"));
     };
     let pinion_first = part.gear.z <= mate.z;
     Ok(Splash {

@@ -83,7 +83,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Shore, Diagnostic> {
     let (Some(radial), Some(axial)) = (part.radial_clearance, part.axial_clearance) else {
         return Err(cx
             .error("shore needs the gaps between gear and wall")
-            .mend("add `housing: { clearance: { radial: 8 mm, axial: 12 mm } }` with your figures"));
+            .help("add `housing: { clearance: { radial: 8 mm, axial: 12 mm } }` with your figures"));
     };
     Ok(Shore {
         coefficients: params.coefficients,

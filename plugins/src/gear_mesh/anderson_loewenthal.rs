@@ -133,10 +133,10 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<OnePoint, Diagnostic> {
     if part.pair.internal {
         return Err(cx
             .error("anderson_loewenthal is for external pairs")
-            .mend("give this mesh a model of its own, such as `wimmer`"));
+            .help("give this mesh a model of its own, such as `wimmer`"));
     }
     if params.f_limits.is_some_and(|[least, most]| least > most) {
-        return Err(cx.error("`f_limits` fall").mend("write the least coefficient first"));
+        return Err(cx.error("`f_limits` fall").help("write the least coefficient first"));
     }
     let model = OnePoint::new(&part.pair, params.f_limits, params.coefficients);
     if model.ratio * 0.5 * model.diameter * model.angle.sin() <= 0.25 * model.path {

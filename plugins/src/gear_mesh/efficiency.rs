@@ -50,7 +50,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Efficiency, Diagnostic>
         }
         _ => Err(cx
             .error("efficiency needs one of `value` and `file`")
-            .mend("write `value: 0.985`, or `file:` with a table")),
+            .help("write `value: 0.985`, or `file:` with a table")),
     }
 }
 

@@ -126,7 +126,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Tabulated, Diagnostic> 
     if let Some(quick) = name.filter(|name| QUICK.contains(name)) {
         return Err(cx
             .error(format!("`{quick}` is as quick itself as a table of it"))
-            .mend(format!("write `type: {quick}` in place of `tabulated`")));
+            .help(format!("write `type: {quick}` in place of `tabulated`")));
     }
     let of = cx.slot("of", &params.of)?;
     let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
@@ -143,7 +143,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Tabulated, Diagnostic> 
         if least >= greatest {
             return Err(cx
                 .error(format!("`{key}` does not rise from its first to its second value"))
-                .mend("write the least and then the greatest"));
+                .help("write the least and then the greatest"));
         }
     }
     if let Some(oil) = &part.oil {
@@ -154,7 +154,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Tabulated, Diagnostic> 
                     "the viscosity of `{}` does not fall over `temperatures`",
                     oil.id
                 ))
-                .mend("narrow `temperatures` to where the oil's law of viscosity holds"));
+                .help("narrow `temperatures` to where the oil's law of viscosity holds"));
         }
     }
     Ok(Tabulated {

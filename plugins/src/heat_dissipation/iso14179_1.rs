@@ -77,7 +77,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
         Place::ShaftFan => {
             return Err(cx
                 .error("iso14179_1 needs the speed of the air that the fan blows")
-                .mend("add `housing: { outside: { air_speed: 5 m/s } }` with your figure"));
+                .help("add `housing: { outside: { air_speed: 5 m/s } }` with your figure"));
         }
     };
     Ok(Ready { k, air, area })

@@ -110,7 +110,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Annulus, Diagnostic> {
     if params.gap > params.radius {
         return Err(cx
             .error("the gap is wider than the radius of the rotor, which no data cover")
-            .mend("check the units of `gap` and `radius`"));
+            .help("check the units of `gap` and `radius`"));
     }
     let mean_radius = params.radius + 0.5 * params.gap;
     Ok(Annulus {

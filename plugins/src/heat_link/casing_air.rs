@@ -75,17 +75,17 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Casing, Diagnostic> {
         (Shape::Cylinder, None, None) => {
             return Err(cx
                 .error("the link needs the diameter of the cylinder")
-                .mend("write `diameter: 250 mm` with your figure, or `shape: plate`"));
+                .help("write `diameter: 250 mm` with your figure, or `shape: plate`"));
         }
         (Shape::Plate, _, Some(_)) => {
             return Err(cx
                 .error("a plate has no diameter")
-                .mend("write `shape: cylinder`, or leave `diameter` out"));
+                .help("write `shape: cylinder`, or leave `diameter` out"));
         }
         (Shape::Cylinder, Some(_), _) => {
             return Err(cx
                 .error("a cylinder that lies has no height of its own")
-                .mend("write its `diameter` in place of `height`"));
+                .help("write its `diameter` in place of `height`"));
         }
     };
     let air_speed = params

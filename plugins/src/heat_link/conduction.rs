@@ -51,17 +51,17 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Conduction, Diagnostic>
         (None, Some(_)) => {
             return Err(cx
                 .error("the bore is as wide as the shaft")
-                .mend("make `inner_diameter` less than `diameter`"));
+                .help("make `inner_diameter` less than `diameter`"));
         }
         (None, None) => {
             return Err(cx
                 .error("the link needs its cross-section")
-                .mend("write `diameter: 40 mm` or `area: 500 mm2` with your figure"));
+                .help("write `diameter: 40 mm` or `area: 500 mm2` with your figure"));
         }
         (Some(_), _) => {
             return Err(cx
                 .error("the cross-section is stated twice")
-                .mend("write `area`, or `diameter` with its `inner_diameter`"));
+                .help("write `area`, or `diameter` with its `inner_diameter`"));
         }
     };
     Ok(Conduction {

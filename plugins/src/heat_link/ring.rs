@@ -53,7 +53,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ring, Diagnostic> {
     if params.outer_diameter <= params.inner_diameter {
         return Err(cx
             .error("the ring has no thickness")
-            .mend("make `outer_diameter` greater than `inner_diameter`"));
+            .help("make `outer_diameter` greater than `inner_diameter`"));
     }
     let around = 2.0 * PI * params.conductivity * params.width;
     Ok(Ring {

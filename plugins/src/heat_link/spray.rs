@@ -90,12 +90,12 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Spray, Diagnostic> {
         (None, None) => {
             return Err(cx
                 .error("the link needs a heat transfer coefficient")
-                .mend("write `alpha: 1000 W/(m2 K)` or `jet: { diameter: 2 mm, radius: 10 mm, speed: 5 m/s }` with your figures"));
+                .help("write `alpha: 1000 W/(m2 K)` or `jet: { diameter: 2 mm, radius: 10 mm, speed: 5 m/s }` with your figures"));
         }
         (Some(_), Some(_)) => {
             return Err(cx
                 .error("the heat transfer coefficient is stated twice")
-                .mend("write `alpha` or `jet`"));
+                .help("write `alpha` or `jet`"));
         }
     };
     Ok(Spray {

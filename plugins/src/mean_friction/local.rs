@@ -67,7 +67,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
             .error(format!(
                 "`{law}` is a law of sliding, and nothing slides at the pitch point"
             ))
-            .mend("write `at: path`, or choose a law of mixed friction"));
+            .help("write `at: path`, or choose a law of mixed friction"));
     }
     let part = cx.part::<MeanFriction>().ok_or_else(|| cx.error("bug: no pair"))?;
     let path = Path::new(&part.pair, params.load_sharing, friction.order()).map_err(|fault| cx.error(fault))?;

@@ -60,18 +60,18 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Estimate, Diagnostic> {
     if !part.has_level {
         return Err(cx
             .error("estimate needs the level of the oil")
-            .mend("state `housing.oil.level` and `housing.oil.measured_from`"));
+            .help("state `housing.oil.level` and `housing.oil.measured_from`"));
     }
     let name = params.planet.value["type"].as_str().unwrap_or("none").to_owned();
     if part.bodies > 1 && name != "none" {
         return Err(cx
             .error("estimate knows the speed of one planet body only")
-            .mend("write `planet: none` and give the planets' gears a churning model of their own"));
+            .help("write `planet: none` and give the planets' gears a churning model of their own"));
     }
     if cx.is_pair(&name) {
         return Err(cx
             .error(format!("`{name}` is asked for meshes, not for a single gear"))
-            .mend("choose a law of a single gear, such as `changenet_2011`"));
+            .help("choose a law of a single gear, such as `changenet_2011`"));
     }
     let reach = part.planets.iter().map(|p| p.gear.tip_diameter).fold(0.0, f64::max);
     let mut planets = Vec::new();

@@ -58,18 +58,18 @@ fn prepare(law: PowerLaw, cx: &mut Build<'_>) -> Result<PowerLaw, Diagnostic> {
     if law.volume.is_some() && !known {
         return Err(cx
             .error("the law counts the volume of the oil, which is not known here")
-            .mend("state `housing.oil.volume`, or leave `volume` and `volume_exponent` out"));
+            .help("state `housing.oil.volume`, or leave `volume` and `volume_exponent` out"));
     }
     if law.volume.is_none() && (law.volume_exponent != 0.0 || law.volumes.is_some()) {
         return Err(cx
             .error("`volume_exponent` or `volumes` without `volume`")
-            .mend("state the volume at the point of reference"));
+            .help("state the volume at the point of reference"));
     }
     let rising = |range: Option<[f64; 2]>| range.is_none_or(|[least, greatest]| least < greatest);
     if ![law.speeds, law.viscosities, law.volumes].into_iter().all(rising) {
         return Err(cx
             .error("a range of the law does not rise")
-            .mend("write the least value first"));
+            .help("write the least value first"));
     }
     Ok(law)
 }

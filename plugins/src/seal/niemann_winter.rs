@@ -47,7 +47,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<NiemannWinter, Diagnost
         }
         _ => Err(cx
             .error("niemann_winter needs one of `lambda_l` and `file`")
-            .mend("write `lambda_l: 7.69e-3`, which is the law of Linke, or your own figure")),
+            .help("write `lambda_l: 7.69e-3`, which is the law of Linke, or your own figure")),
     }
 }
 

@@ -41,7 +41,7 @@ struct Skf(SealRow);
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Skf, Diagnostic> {
     SealRow::new(params.code, params.outside.mm(), params.seals)
         .map(Skf)
-        .map_err(|(message, mend)| cx.error(message).mend(mend))
+        .map_err(|(message, help)| cx.error(message).help(help))
 }
 
 impl SealModel for Skf {

@@ -34,21 +34,21 @@ fn prepare(_params: ConeGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
     if part.kind != CouplingKind::Synchronizer {
         return Err(cx
             .error("cone_gap is for synchronizers")
-            .mend("write `model: { type: ring_gap }` for a ring or a dog clutch with a gap, `model: none` for one without drag"));
+            .help("write `model: { type: ring_gap }` for a ring or a dog clutch with a gap, `model: none` for one without drag"));
     }
     let (Some(diameter), Some(width), Some(angle), Some(gap)) =
         (part.cone_diameter, part.cone_width, part.cone_angle, part.gap)
     else {
         return Err(cx
             .error("cone_gap needs cone_diameter, cone_width, cone_angle and gap")
-            .mend("add them to the coupling"));
+            .help("add them to the coupling"));
     };
     let half = 0.5 * width * angle.tan();
     let (r1, r2) = (0.5 * diameter - half, 0.5 * diameter + half);
     if r1 < 0.0 {
         return Err(cx
             .error("the cone is wider than its tip allows: its small end would have a negative radius")
-            .mend("correct cone_diameter (mean), cone_width (along the axis) or cone_angle (half angle)"));
+            .help("correct cone_diameter (mean), cone_width (along the axis) or cone_angle (half angle)"));
     }
     Ok(Film {
         factor: part.oil_fill * f64::from(part.cones) * cone(r1, r2, angle, gap),

@@ -34,7 +34,7 @@ fn prepare(_params: RingGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
     let (Some(diameter), Some(length), Some(gap)) = (part.cone_diameter, part.cone_width, part.gap) else {
         return Err(cx
             .error("ring_gap needs cone_diameter (of the gap), cone_width (its length) and gap")
-            .mend("add them to the coupling"));
+            .help("add them to the coupling"));
     };
     let slant = length / part.cone_angle.unwrap_or(0.0).cos();
     let factor = part.oil_fill * f64::from(part.cones) * ring(0.5 * diameter, slant, gap);

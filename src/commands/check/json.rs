@@ -139,7 +139,7 @@ fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -
         );
         gearbox.places.place(
             Diagnostic::warning(note.path, message)
-                .mend("choose a larger bearing, or check the rating")
+                .help("choose a larger bearing, or check the rating")
                 .code(Code::Gearbox),
         )
     });
@@ -194,7 +194,7 @@ fn found(list: &[Diagnostic], sources: &Sources) -> Vec<Value> {
                 "code": finding.code.unwrap_or(Code::Other),
                 "path": finding.path,
                 "message": finding.message,
-                "help": finding.mend,
+                "help": finding.help,
                 "notes": finding.notes,
                 "file": file,
                 "line": line,

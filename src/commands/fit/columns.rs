@@ -140,9 +140,9 @@ impl Columns {
     }
 
     /// Wrong input in a line of the file; line and place of a row by its number from zero.
-    pub fn wrong(&self, row: Option<usize>, message: &str, mend: impl std::fmt::Display) -> Failure {
+    pub fn wrong(&self, row: Option<usize>, message: &str, help: impl std::fmt::Display) -> Failure {
         let line = row.map_or(self.head, |row| self.rows[row].0);
-        Failure::input(format!("{}: line {line}: {message}", self.file), mend)
+        Failure::input(format!("{}: line {line}: {message}", self.file), help)
     }
 
     /// A quantity in SI, one number for each point; only temperatures may be zero or below.
@@ -150,12 +150,12 @@ impl Columns {
         let Some(column) = self.names.iter().position(|(name, _)| name == quantity.name) else {
             let there: Vec<&str> = self.names.iter().map(|(name, _)| name.as_str()).collect();
             let near = did_you_mean(quantity.name, there.iter().copied());
-            let mend = match near {
+            let help = match near {
                 Some(near) => format!("rename `{near}`, or add {}", quantity.header()),
                 None => format!("add the column {}", quantity.header()),
             };
             let message = format!("no column `{}`; there are: {}", quantity.name, there.join(", "));
-            return Err(self.wrong(None, &message, mend));
+            return Err(self.wrong(None, &message, help));
         };
         let unit = self.names[column].1.as_str();
         let Some((factor, zero)) = quantity.conversion(unit) else {

@@ -49,5 +49,5 @@ pub fn oil(args: &OilArgs) -> Result<Lubricant, Failure> {
     let entry: LubricantEntry = serde_json::from_value(resolved.value["lubricants"][id].clone())
         .map_err(|e| failed(Diagnostic::error(path.as_str(), e.to_string())))?;
     Lubricant::new(&entry)
-        .map_err(|(key, message, mend)| failed(Diagnostic::error(format!("{path}.{key}"), message).mend(mend)))
+        .map_err(|(key, message, help)| failed(Diagnostic::error(format!("{path}.{key}"), message).help(help)))
 }

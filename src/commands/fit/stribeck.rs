@@ -85,8 +85,8 @@ fn points(columns: &Columns, rq: Option<&str>) -> Result<Vec<StribeckPoint>, Fai
             return Err(columns.wrong(None, "`film` without a roughness", "add --rq, such as --rq \"0.28 um\""));
         }
         (_, false, false) => {
-            let mend = "add the one, or the other with --rq";
-            return Err(columns.wrong(None, "neither `lambda` nor `film [nm]`", mend));
+            let help = "add the one, or the other with --rq";
+            return Err(columns.wrong(None, "neither `lambda` nor `film [nm]`", help));
         }
     };
     let (mu, film) = (columns.numbers(&MU)?, columns.numbers(&MU_FILM)?);

@@ -83,10 +83,10 @@ fn study_of(file: &Path) -> String {
 }
 
 fn unnamed() -> Failure {
-    let mut mend = "name one: gearloss new gearbox LAYOUT, with".to_owned();
+    let mut help = "name one: gearloss new gearbox LAYOUT, with".to_owned();
     for layout in Layout::value_variants().iter().filter_map(ValueEnum::to_possible_value) {
-        let help = layout.get_help().map(ToString::to_string).unwrap_or_default();
-        mend += &format!("\n      {:<19}{help}", layout.get_name());
+        let about = layout.get_help().map(ToString::to_string).unwrap_or_default();
+        help += &format!("\n      {:<19}{about}", layout.get_name());
     }
-    Failure::input("no layout is named", mend)
+    Failure::input("no layout is named", help)
 }

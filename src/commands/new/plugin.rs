@@ -110,10 +110,10 @@ fn is_checkout(path: &Path) -> bool {
 
 /// Makes the folders of the crate. One that is there serves where it is empty, but for what git keeps in it.
 fn make(home: &Path) -> Result<(), Failure> {
-    let cannot = |why: String, mend: &str| {
+    let cannot = |why: String, help: &str| {
         Err(Failure::input(
             format!("cannot write to {}: {why}", home.display()),
-            mend,
+            help,
         ))
     };
     let other = "name another folder with -o DIR";

@@ -148,8 +148,8 @@ impl<'a> Run<'a> {
         };
         if let Some((set, by)) = self.study.pending(analysis).filter(|_| !self.only_checks) {
             let message = format!("the set `{set}` has no values: the analysis `{by}` found none");
-            let mend = format!("correct `{by}`, or choose another set");
-            return Err(runner.wrong(&format!("analyses.{name}"), message, &mend).into());
+            let help = format!("correct `{by}`, or choose another set");
+            return Err(runner.wrong(&format!("analyses.{name}"), message, &help).into());
         }
         out.begin_copy();
         let done = match analysis.run(&runner.cx) {

@@ -145,7 +145,7 @@ impl TaskResults for ShardTasks {
             .unwrap_or_else(|| Err(std::io::ErrorKind::NotFound.into()));
         result.map_err(|e| {
             Stopped::Unwritten(format!(
-                "error: cannot read a result of `{}`: {e}\n  = mend: run its shard again, and merge then\n",
+                "error: cannot read a result of `{}`: {e}\n  = help: run its shard again, and merge then\n",
                 task.analysis
             ))
         })

@@ -54,7 +54,7 @@ impl Attach for Clearance {
             let path = names.path().to_owned();
             names.report(
                 crate::document::Diagnostic::error(format!("{path}.between"), "both ends are the same member")
-                    .mend("name two members, or one member and `housing`"),
+                    .help("name two members, or one member and `housing`"),
             );
             return None;
         }

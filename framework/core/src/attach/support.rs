@@ -160,7 +160,7 @@ impl Attach for Support {
                     format!("{path}.outer"),
                     "a support cannot carry a member on itself",
                 )
-                .mend("name another member, or leave `outer` out for the housing"),
+                .help("name another member, or leave `outer` out for the housing"),
             );
             return None;
         }

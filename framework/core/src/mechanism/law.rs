@@ -112,7 +112,7 @@ fn within<M: Mechanism>(law: &Law<M>, quantity: &Quantity<M>, value: f64) -> Res
             quantity.greatest
         ),
     )
-    .mend(format!("change {}", from.join(" or "))))
+    .help(format!("change {}", from.join(" or "))))
 }
 
 /// Refuses a law whose quantities contradict each other.
@@ -151,7 +151,7 @@ fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_>, stated: &[&'static str]) ->
             written(quantity, follows)
         ),
     )
-    .mend(format!(
+    .help(format!(
         "leave one of them out, so that it follows from the others: {}",
         law.text
     )))

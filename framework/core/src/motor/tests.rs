@@ -71,7 +71,7 @@ fn faults_of_a_map_tell_line_and_column() {
         .unwrap_err()
         .remove(0);
     assert_eq!(unit.message, "line 1, column `speed` has no unit");
-    assert_eq!(unit.mend, COLUMNS);
+    assert_eq!(unit.help, COLUMNS);
     assert_eq!(
         messages("n [rpm],torque [Nm],eta [-]\n1,1,1\n"),
         [

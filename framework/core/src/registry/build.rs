@@ -145,7 +145,7 @@ impl<'a> Build<'a> {
     pub fn text(&self, file: &str) -> Result<Arc<str>, Diagnostic> {
         self.files.text(file).map_err(|reason| {
             self.error(reason)
-                .mend("names of files are relative to the document that names them")
+                .help("names of files are relative to the document that names them")
         })
     }
 
@@ -223,8 +223,8 @@ impl<'a> Build<'a> {
             let missing = self.error(format!("no {} model is called `{name}`", M::KEY));
             let missing = missing.note(format!("linked here: {}", names.join(", ")));
             return Err(match did_you_mean(name, names.iter().copied()) {
-                Some(close) => missing.mend(format!("write `{close}`")),
-                None => missing.mend("choose one of them"),
+                Some(close) => missing.help(format!("write `{close}`")),
+                None => missing.help("choose one of them"),
             });
         };
         let outer = self.around;
@@ -234,7 +234,7 @@ impl<'a> Build<'a> {
                     .error(format!(
                         "`{name}` is asked for meshes, the model around it for single gears"
                     ))
-                    .mend("choose a law of a single gear"));
+                    .help("choose a law of a single gear"));
             }
             self.around = Some(entry.scope);
         }

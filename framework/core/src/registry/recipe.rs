@@ -30,10 +30,10 @@ pub(super) fn only(recipes: &[NetworkRecipe]) -> Result<&NetworkRecipe, Diagnost
     match recipes {
         [only] => Ok(only),
         [] => Err(Diagnostic::error(PATH, "no crate of this program lays out networks")
-            .mend("link a crate that does, such as gearloss-plugins, or write `nodes` and `links` in place of `auto`")),
+            .help("link a crate that does, such as gearloss-plugins, or write `nodes` and `links` in place of `auto`")),
         [one, other, ..] => Err(Diagnostic::error(PATH, "two crates lay out networks")
             .note(format!("one at {}, the other at {}", one.origin, other.origin))
-            .mend("link one of them only, or write `nodes` and `links` in place of `auto`")),
+            .help("link one of them only, or write `nodes` and `links` in place of `auto`")),
     }
 }
 

@@ -134,7 +134,7 @@ pub(super) fn fill(
                 found.push(dangling(&path, "section of components", section, &known));
             }
             Err(reason) => {
-                found.push(Diagnostic::error(path, reason).mend("file names are relative to the gearbox document"));
+                found.push(Diagnostic::error(path, reason).help("file names are relative to the gearbox document"));
             }
         }
     }
@@ -166,7 +166,7 @@ pub(super) fn fill(
                         if section == LUBRICANTS { "oils" } else { section }
                     ));
                     if let Some((base, suffix)) = without_suffix(&designation, names.iter().copied()) {
-                        found.push(error.mend(format!(
+                        found.push(error.help(format!(
                             "write `{base}`, whose dimensions and ratings these are; no row says what `{suffix}` changes, such as seals, \
                              clearance or cage: state it in keys and in the model of this entry"
                         )));

@@ -99,7 +99,7 @@ pub fn called_own<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<Dia
             format!("model_sets.{name}"),
             format!("`{name}` stands for the gearbox's own models, so no set can be called so"),
         )
-        .mend("give the set another name")
+        .help("give the set another name")
     })
 }
 
@@ -121,8 +121,8 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
             let error = Diagnostic::error(path, format!("no set of models is called `{name}`"))
                 .note(format!("there are: {}", names.join(", ")));
             return Err(match did_you_mean(name, names.iter().copied()) {
-                Some(close) => error.mend(format!("write `{close}`")),
-                None => error.mend("name one of them, or add it under `model_sets`"),
+                Some(close) => error.help(format!("write `{close}`")),
+                None => error.help("name one of them, or add it under `model_sets`"),
             });
         };
         if chain.contains(&known.as_str()) {
@@ -131,7 +131,7 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
                 "sets extend each other in a circle",
             )
             .note(format!("the circle: {}", chain.join(", ")))
-            .mend("leave one `extends` out"));
+            .help("leave one `extends` out"));
         }
         chain.push(known);
         next = set.get("extends").and_then(Value::as_str);

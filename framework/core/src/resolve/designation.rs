@@ -60,7 +60,7 @@ pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &Cata
     } else {
         error.note(format!("nearest by name: {}", listed(&close)))
     };
-    error.mend(format!(
+    error.help(format!(
         "{here}, name a CSV under `catalogues`, or write another designation if that is the bearing"
     ))
 }
@@ -99,8 +99,8 @@ fn listed(rows: &[(&str, &CatalogueRow)]) -> String {
 
 fn spelling(error: Diagnostic, close: Option<&str>, here: &str) -> Diagnostic {
     match close {
-        Some(close) => error.mend(format!("write `{close}`, or {here}")),
-        None => error.mend(format!("{here}, or name a CSV under `catalogues`")),
+        Some(close) => error.help(format!("write `{close}`, or {here}")),
+        None => error.help(format!("{here}, or name a CSV under `catalogues`")),
     }
 }
 
@@ -143,11 +143,11 @@ mod tests {
                 "nearest by name: 16012 (60 mm), 6013 (65 mm)"
             ]
         );
-        assert!(found.mend.unwrap().starts_with("state it here"));
+        assert!(found.help.unwrap().starts_with("state it here"));
         // No row has a bore of 250 mm, and two digits are swapped.
         let found = suggest(Diagnostic::error("", "unknown"), "6250", &rows, "state it here");
-        assert!(found.mend.unwrap().starts_with("write `6205`"));
+        assert!(found.help.unwrap().starts_with("write `6205`"));
         let found = suggest(Diagnostic::error("", "unknown"), "62O5", &rows, "state it here");
-        assert!(found.mend.unwrap().starts_with("write `6205`"));
+        assert!(found.help.unwrap().starts_with("write `6205`"));
     }
 }

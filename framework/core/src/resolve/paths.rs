@@ -126,7 +126,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
         let Some(next) = next else {
             if let Some(file) = file_of(at, &good, key) {
                 let error = Diagnostic::error(pattern, format!("the values of the table are in the file `{file}`"));
-                return error.mend(
+                return error.help(
                     "only values of the document have paths: write the table there, as `axes:` and `values:` of `type: table` in \
                      place of `file:`",
                 );
@@ -134,7 +134,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             if let Some(list) = at.as_array() {
                 let last = list.len().saturating_sub(1);
                 let error = Diagnostic::error(pattern, format!("`{good}` is a list and has no entry `{key}`"));
-                return error.mend(format!("write a number from 0 to {last}, or `*` for all"));
+                return error.help(format!("write a number from 0 to {last}, or `*` for all"));
             }
             let place = if good.is_empty() {
                 "the resolved document".to_owned()
@@ -144,7 +144,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             let error = Diagnostic::error(pattern, format!("{place} has no `{key}`"));
             let keys: Vec<&str> = at.as_object().into_iter().flatten().map(|(k, _)| k.as_str()).collect();
             if ["models", "model_sets"].contains(&key) {
-                return error.mend(
+                return error.help(
                     "in the resolved document each component has its own model: write `meshes.*.model.x_l`, say",
                 );
             }
@@ -154,8 +154,8 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
                 error.note(format!("there are: {}", keys.join(", ")))
             };
             return match did_you_mean(key, keys.iter().copied()) {
-                Some(close) => error.mend(format!("write `{close}`")),
-                None => error.mend("`gearloss check --resolved` prints every path"),
+                Some(close) => error.help(format!("write `{close}`")),
+                None => error.help("`gearloss check --resolved` prints every path"),
             };
         };
         if !good.is_empty() {
@@ -205,7 +205,7 @@ mod tests {
         );
         let said = |path: &str| {
             let error = no_match(&value, path);
-            format!("{}; {}", error.message, error.mend.unwrap_or_default())
+            format!("{}; {}", error.message, error.help.unwrap_or_default())
         };
         assert_eq!(
             said("seals.D1.model.values.2"),

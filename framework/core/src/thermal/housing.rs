@@ -102,7 +102,7 @@ impl Housing {
     fn check(&self, thermal: &Thermal, found: &mut Vec<Diagnostic>) {
         if self.ways.is_empty() {
             found.push(
-                Diagnostic::error("thermal.mode", "a balance needs a way on which heat leaves").mend(
+                Diagnostic::error("thermal.mode", "a balance needs a way on which heat leaves").help(
                     "add `heat_dissipation: { casing: { type: constant, alpha: 20 W/(m2 K), area: 500 cm2 } }` under `thermal`",
                 ),
             );
@@ -116,7 +116,7 @@ impl Housing {
                         self.coldest()
                     ),
                 )
-                .mend("raise it above the surroundings"),
+                .help("raise it above the surroundings"),
             );
         }
     }

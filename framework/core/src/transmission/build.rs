@@ -67,7 +67,7 @@ impl Transmission {
                             gears[1 - i]
                         ),
                     )
-                    .mend("name both gears under `gears` of a node, or the mesh under `parts`"),
+                    .help("name both gears under `gears` of a node, or the mesh under `parts`"),
                 );
             }
         }
@@ -113,7 +113,7 @@ impl Transmission {
         } else if entry.thermal.mode == ThermalMode::Network {
             found.push(
                 Diagnostic::error("thermal.mode", "no network is described")
-                    .mend("add `network: auto` under `thermal`, or nodes and links"),
+                    .help("add `network: auto` under `thermal`, or nodes and links"),
             );
         }
         let states = if found.is_empty() {
@@ -224,19 +224,19 @@ fn unused(entry: &GearboxEntry, laid_out: bool, found: &mut Vec<Diagnostic>, war
     if !laid_out && !thermal.sources.is_empty() {
         found.push(
             Diagnostic::error("thermal.sources", "a network does not know where this heat comes in")
-                .mend("write it under `thermal.network.sources`, with the node that it warms"),
+                .help("write it under `thermal.network.sources`, with the node that it warms"),
         );
     }
     if thermal.oil_to_surface != 0.0 {
         warnings.push(
             Diagnostic::warning("thermal.oil_to_surface", "a network has links in its place")
-                .mend("link the oil to the casing, and leave it out"),
+                .help("link the oil to the casing, and leave it out"),
         );
     }
     if thermal.heat_dissipation.as_ref().is_some_and(|ways| !ways.0.is_empty()) {
         warnings.push(
             Diagnostic::warning("thermal.heat_dissipation", "a network has links in its place")
-                .mend("link the casing to `ambient`, by `casing_air` say, and leave it out"),
+                .help("link the casing to `ambient`, by `casing_air` say, and leave it out"),
         );
     }
 }
@@ -275,7 +275,7 @@ fn ports(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -
             None => found.push(dangling(&path, "shaft", shaft, &ids)),
             Some(member) if ports.iter().any(|p| p.member == member) => {
                 found
-                    .push(Diagnostic::error(path, format!("`{shaft}` is a port already")).mend("name each shaft once"));
+                    .push(Diagnostic::error(path, format!("`{shaft}` is a port already")).help("name each shaft once"));
             }
             Some(member) => ports.push(Port {
                 name: name.to_owned(),
@@ -285,13 +285,13 @@ fn ports(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -
     }
     if entry.shafts.is_empty() {
         found.push(
-            Diagnostic::error("shafts", "no shaft is described").mend("add `shafts:`, or `extends:` with a base file"),
+            Diagnostic::error("shafts", "no shaft is described").help("add `shafts:`, or `extends:` with a base file"),
         );
     }
     if entry.ports.is_empty() {
         found.push(
             Diagnostic::error("ports", "no port is named")
-                .mend("add `ports: { input: SHAFT, output: SHAFT }`, or `extends:` with a base file"),
+                .help("add `ports: { input: SHAFT, output: SHAFT }`, or `extends:` with a base file"),
         );
     }
     ports
@@ -313,12 +313,12 @@ fn joined(
         if !known.contains(&name.as_str()) {
             found.push(dangling(&path, "port", name, &known));
         } else if names[..i].contains(name) {
-            found.push(Diagnostic::error(path, format!("`{name}` is named twice")).mend("name each port once"));
+            found.push(Diagnostic::error(path, format!("`{name}` is named twice")).help("name each port once"));
         }
     }
     if known.contains(&WHEELS) && !names.iter().any(|name| name == WHEELS) {
         let message = format!("the ports of `wheels` become one port of that name, and there is one called `{WHEELS}`");
-        found.push(Diagnostic::error(format!("ports.{WHEELS}"), message).mend("call the port otherwise"));
+        found.push(Diagnostic::error(format!("ports.{WHEELS}"), message).help("call the port otherwise"));
     }
     let (wheels, mut ports): (Vec<Port>, Vec<Port>) = ports.into_iter().partition(|port| names.contains(&port.name));
     ports.push(Port {
@@ -498,7 +498,7 @@ fn drags(
                 };
                 found.push(
                     Diagnostic::error(path, format!("`{name}` is not asked for {where_it_is}"))
-                        .mend(format!("write it in `{section}` or in `models`")),
+                        .help(format!("write it in `{section}` or in `models`")),
                 );
                 continue;
             }
@@ -518,7 +518,7 @@ fn drags(
                             path.clone(),
                             format!("{} is counted here and by `{other}`", both.join(" and ")),
                         )
-                        .mend("switch one of them off with `none`"),
+                        .help("switch one of them off with `none`"),
                     );
                 }
             }
@@ -630,7 +630,7 @@ fn drags(
                         mesh_path.clone(),
                         format!("{} is counted here and by `{gear_path}`", both.join(" and ")),
                     )
-                    .mend("switch one of them off with `none`"),
+                    .help("switch one of them off with `none`"),
                 );
             }
         }

@@ -59,7 +59,7 @@ impl Transmission {
                     let name = &self.ports[*port].name;
                     found.push(
                         Diagnostic::error(path.clone(), format!("the {what} at `{name}` is given twice"))
-                            .mend("give it once"),
+                            .help("give it once"),
                     );
                 }
             }
@@ -70,7 +70,7 @@ impl Transmission {
                 let name = &self.ports[*port].name;
                 found.push(
                     Diagnostic::error(path.clone(), format!("`{name}` stands still in `{gear}`"))
-                        .mend("give no speed there, or take it out of `standstill`"),
+                        .help("give no speed there, or take it out of `standstill`"),
                 );
             }
         }
@@ -171,12 +171,12 @@ impl Transmission {
         Err(if others.len() > 1 {
             error
                 .note(format!("ports: {}, {}", self.ports[reference].name, others.join(", ")))
-                .mend(format!(
+                .help(format!(
                     "write `conditions: {{ wheels: [{}] }}` in the study where these turn at one speed, or leave ports out of `ports` that transmit nothing",
                     others.join(", ")
                 ))
         } else {
-            error.mend("name a gear state that joins the ports; `spin_loss` has all of them without load")
+            error.help("name a gear state that joins the ports; `spin_loss` has all of them without load")
         })
     }
 
@@ -191,7 +191,7 @@ impl Transmission {
         match fault {
             FlowFault::Count { needed, given } => {
                 let (needed, given) = (needed.saturating_sub(ruled), given.saturating_sub(ruled));
-                let mend = if needed == 0 {
+                let help = if needed == 0 {
                     format!("give no torque in `{}`: the drags decide all of them", state.name)
                 } else {
                     format!("give {needed} of the torques at {}", names.join(", "))
@@ -200,7 +200,7 @@ impl Transmission {
                     path,
                     format!("`{}` takes {needed} given torques, not {given}", state.name),
                 )
-                .mend(mend)
+                .help(help)
             }
             FlowFault::Redundant { loops } => {
                 let rows: Vec<String> = loops
@@ -220,13 +220,13 @@ impl Transmission {
                     format!("parallel paths share torque in `{}`, and nothing says how", state.name),
                 )
                 .note(format!("the loop: {}", rows.join("; ")))
-                .mend("add `torque_shares: [{ member: ..., meshes: [..., ...], parts: [0.5, 0.5] }]`")
+                .help("add `torque_shares: [{ member: ..., meshes: [..., ...], parts: [0.5, 0.5] }]`")
             }
             FlowFault::Singular => Diagnostic::error(
                 path,
                 format!("the given torques depend on each other in `{}`", state.name),
             )
-            .mend("give a torque at another port, or correct the torque shares"),
+            .help("give a torque at another port, or correct the torque shares"),
         }
     }
 }

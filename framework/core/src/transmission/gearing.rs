@@ -100,12 +100,12 @@ pub fn gearing(
             let message = "a gear that is fixed to its shaft has no bearings of its own";
             found.push(
                 Diagnostic::error(format!("gears.{id}.bearings"), message)
-                    .mend("write `bearings: none` at the shaft, or `mounted: loose` here"),
+                    .help("write `bearings: none` at the shaft, or `mounted: loose` here"),
             );
         }
         if gear.profile_shift_sign.is_some() && gear.kind == GearKind::External {
             let message = "only a ring has two signs of its profile shift";
-            found.push(Diagnostic::error(format!("gears.{id}.profile_shift_sign"), message).mend("remove it"));
+            found.push(Diagnostic::error(format!("gears.{id}.profile_shift_sign"), message).help("remove it"));
         }
     }
     let mut hands: Vec<Option<f64>> = entry
@@ -136,7 +136,7 @@ pub fn gearing(
         let [first, second] = pair_of;
         if first == second {
             found.push(
-                Diagnostic::error(format!("{path}.gears"), "a gear cannot mesh with itself").mend("name two gears"),
+                Diagnostic::error(format!("{path}.gears"), "a gear cannot mesh with itself").help("name two gears"),
             );
             continue;
         }
@@ -146,7 +146,7 @@ pub fn gearing(
                     format!("{path}.gears"),
                     format!("`{}` is a ring and stands first", gears[first].id),
                 )
-                .mend(format!("write gears: [{}, {}]", gears[second].id, gears[first].id)),
+                .help(format!("write gears: [{}, {}]", gears[second].id, gears[first].id)),
             );
             continue;
         }
@@ -183,7 +183,7 @@ pub fn gearing(
                         apart * 1e3
                     ),
                 )
-                .mend("correct one of them, or leave `centre_distance` out"),
+                .help("correct one of them, or leave `centre_distance` out"),
             );
             continue;
         }
@@ -195,7 +195,7 @@ pub fn gearing(
             });
             if on_planet {
                 found.push(
-                    Diagnostic::error(format!("{path}.gears"), "a gear on a planet body cannot be loose").mend(
+                    Diagnostic::error(format!("{path}.gears"), "a gear on a planet body cannot be loose").help(
                         "leave `mounted: loose` out; a planet that turns on another planet is a shaft of its own",
                     ),
                 );
@@ -216,7 +216,7 @@ pub fn gearing(
                         -facewidth * 1e3
                     ),
                 )
-                .mend("correct `at` of one of them"),
+                .help("correct `at` of one of them"),
             );
             continue;
         }
@@ -253,7 +253,7 @@ pub fn gearing(
             }
             Err(faults) => {
                 let ring = &entry.gears.0[second].1;
-                let mend =
+                let help =
                     if ring.profile_shift.is_some() && turned(&spec).is_some_and(|other| Pair::new(&other).is_ok()) {
                         other_sign(ring.profile_shift_sign)
                     } else {
@@ -262,11 +262,11 @@ pub fn gearing(
                 found.extend(faults.iter().map(|fault| match fault {
                     PairFault::RingTip => {
                         let ring = &gears[second].id;
-                        Diagnostic::error(format!("gears.{ring}"), fault.to_string()).mend(
+                        Diagnostic::error(format!("gears.{ring}"), fault.to_string()).help(
                             "add `tip_diameter: ... mm`, the bore of its teeth: without shift and shortening the reference diameter less two modules",
                         )
                     }
-                    _ => Diagnostic::error(path.clone(), fault.to_string()).mend(mend),
+                    _ => Diagnostic::error(path.clone(), fault.to_string()).help(help),
                 }));
                 continue;
             }
@@ -290,7 +290,7 @@ pub fn gearing(
                             pitch * 1e3
                         ),
                     )
-                    .mend("give all meshes of a gear one module, pressure angle and helix angle"),
+                    .help("give all meshes of a gear one module, pressure angle and helix angle"),
                 ),
                 Some(_) => {}
                 None => pitches[gear] = Some((pair.base_pitch, path.clone())),
@@ -357,7 +357,7 @@ fn unsigned_shift(id: &str, gear: &GearEntry) -> Option<Diagnostic> {
                 -shift
             ),
         )
-        .mend(
+        .help(
             "add `profile_shift_sign: iso21771` if the value is meant after ISO 21771 or DIN 3960, or `outward` to keep the meaning",
         )
     })
@@ -410,7 +410,7 @@ fn hand_of(
                 gears[first].id, gears[second].id
             ),
         )
-        .mend(if sign > 0.0 {
+        .help(if sign > 0.0 {
             "an external pair has opposite hands"
         } else {
             "a ring has the hand of its pinion"
@@ -430,7 +430,7 @@ fn hand_of(
         .note(format!(
             "`{path}` has a helix angle; its thrust goes one way or the other by the hand"
         ))
-        .mend("add `hand: right` or `hand: left` to one gear of the pair")),
+        .help("add `hand: right` or `hand: left` to one gear of the pair")),
     }
 }
 
@@ -481,15 +481,15 @@ fn one_orbit<'a>(
                 warnings.push(
                     Diagnostic::warning(path, message)
                         .note("speeds and torques hold all the same, since no model looks at the teeth; loads of planet bearings do not")
-                        .mend("check the numbers of teeth, or give both meshes one centre distance"),
+                        .help("check the numbers of teeth, or give both meshes one centre distance"),
                 );
                 continue;
             }
-            let mend = match ring {
+            let help = match ring {
                 Some(mesh) => other_sign(entry.gears.0[mesh.gears[1]].1.profile_shift_sign),
                 None => "give both meshes one centre distance; profile shifts close it",
             };
-            found.push(Diagnostic::error(path, message).mend(mend));
+            found.push(Diagnostic::error(path, message).help(help));
         }
     }
 }

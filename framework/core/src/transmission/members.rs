@@ -42,7 +42,7 @@ impl Members {
                 if shafts.iter().any(|s| s == id) {
                     found.push(
                         Diagnostic::error(format!("gears.{id}"), format!("`{id}` is a shaft and a loose gear"))
-                            .mend("rename one of them: both turn on their own"),
+                            .help("rename one of them: both turn on their own"),
                     );
                 }
                 of_gear.push(Some(names.len()));
@@ -68,7 +68,7 @@ impl Members {
                             format!("{path}.planets"),
                             format!("`{planet}` is the carrier, or a planet already"),
                         )
-                        .mend("name each planet body once"),
+                        .help("name each planet body once"),
                     ),
                     Some(body) => {
                         planets[body] = Some(OnCarrier {
@@ -83,7 +83,7 @@ impl Members {
             if axes[i].is_none() && planets[i].is_none() {
                 found.push(
                     Diagnostic::error(format!("shafts.{name}"), "`axis` is missing")
-                        .mend("add `axis: [y, z]`; only a planet body has none, because its axis moves"),
+                        .help("add `axis: [y, z]`; only a planet body has none, because its axis moves"),
                 );
             }
         }

@@ -51,7 +51,7 @@ impl NodeNames {
                         path.clone(),
                         "`ambient` is there already: the surroundings, as warm as `thermal.ambient`",
                     )
-                    .mend("give the node another name"),
+                    .help("give the node another name"),
                 );
             }
             let before = names.gears.len();
@@ -64,7 +64,7 @@ impl NodeNames {
                             format!("{path}.gears"),
                             format!("`{gear}` belongs to `{first}` already"),
                         )
-                        .mend("name each gear at one node"),
+                        .help("name each gear at one node"),
                     );
                 }
                 if entry.gears.get(gear).is_none() {
@@ -77,7 +77,7 @@ impl NodeNames {
             {
                 found.push(
                     Diagnostic::error(format!("{path}.oil"), format!("`{first}` is the oil already"))
-                        .mend("say `oil: true` at one node, and name parts under `oil_of` of the others"),
+                        .help("say `oil: true` at one node, and name parts under `oil_of` of the others"),
                 );
             }
         }
@@ -85,7 +85,7 @@ impl NodeNames {
             Some(node) => names.oil = node,
             None => found.push(
                 Diagnostic::error("thermal.network.nodes", "no node is the oil of the housing")
-                    .mend("write `oil: true` at the node of the sump"),
+                    .help("write `oil: true` at the node of the sump"),
             ),
         }
         names
@@ -159,7 +159,7 @@ pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>
                         format!("`{pattern}` meets no part that loses power"),
                     )
                     .note(format!("there are: {}", parts.join(", ")))
-                    .mend(match did_you_mean(pattern, parts.iter().copied()) {
+                    .help(match did_you_mean(pattern, parts.iter().copied()) {
                         Some(close) => format!("write `{close}`"),
                         None => "name a part, such as `bearings.B1` or `meshes.*`".to_owned(),
                     }),

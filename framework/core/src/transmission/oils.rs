@@ -112,8 +112,8 @@ impl<'a> OilNumbers<'a> {
         for (id, lubricant) in entry.lubricants.iter() {
             match Lubricant::new(lubricant) {
                 Ok(lubricant) => lubricants.push(Arc::new(lubricant)),
-                Err((key, message, mend)) => {
-                    findings.push(Diagnostic::error(format!("lubricants.{id}.{key}"), message).mend(mend));
+                Err((key, message, help)) => {
+                    findings.push(Diagnostic::error(format!("lubricants.{id}.{key}"), message).help(help));
                 }
             }
         }
@@ -155,7 +155,7 @@ impl<'a> OilNumbers<'a> {
                     if over.speeds.len() != over.levels.len() || over.speeds.windows(2).any(|w| w[1] <= w[0]) {
                         findings.push(
                             Diagnostic::error(path, "speeds and levels do not fit")
-                                .mend("give rising speeds and as many levels"),
+                                .help("give rising speeds and as many levels"),
                         );
                         Surface::Dry
                     } else {
@@ -174,7 +174,7 @@ impl<'a> OilNumbers<'a> {
         }
         if names.is_empty() {
             findings
-                .push(Diagnostic::error("lubricants", "no lubricant is described").mend(
+                .push(Diagnostic::error("lubricants", "no lubricant is described").help(
                     "add one, such as `lubricants: { sump: { viscosity: { kv40: 32 mm2/s, kv100: 6 mm2/s } } }`",
                 ));
         }
@@ -254,7 +254,7 @@ impl Places for OilNumbers<'_> {
                 None => {
                     self.findings.push(
                         Diagnostic::error(path, "no oil: the housing names none")
-                            .mend("add `housing: { oil: { lubricant: ... } }`, or `lubricant:` here"),
+                            .help("add `housing: { oil: { lubricant: ... } }`, or `lubricant:` here"),
                     );
                     return None;
                 }

@@ -60,7 +60,7 @@ pub fn sharing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnost
                     format!("planetary_sets.{id}.load_sharing"),
                     format!("one planet of {count} cannot carry {} times the mean", set.load_sharing),
                 )
-                .mend(format!("write a number from 1 to {count}")),
+                .help(format!("write a number from 1 to {count}")),
             );
         } else if set.load_sharing > 1.0 {
             for planet in &set.planets {
@@ -257,7 +257,7 @@ pub fn assembly(
                             apart * 1e3
                         ),
                     )
-                    .mend("take fewer planets or smaller ones"),
+                    .help("take fewer planets or smaller ones"),
                 );
             }
             // Of one gear between a sun and a ring the condition is known; a stepped planet can be turned to fit.
@@ -280,7 +280,7 @@ pub fn assembly(
                                 set.count
                             ),
                         )
-                        .mend("change a number of teeth or of planets; losses are computed for equal spacing"),
+                        .help("change a number of teeth or of planets; losses are computed for equal spacing"),
                     );
                 }
             }

@@ -31,7 +31,7 @@ pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64) -> Option<
             ),
         )
         .note("forces and losses are computed for the shared width")
-        .mend("check `at` and `facewidth` of both gears")
+        .help("check `at` and `facewidth` of both gears")
     })
 }
 
@@ -41,7 +41,7 @@ pub fn no_involute(path: &str, faults: &[PairFault]) -> Option<Diagnostic> {
     Some(
         Diagnostic::warning(path, fault.to_string())
             .note("no model looks at these teeth, so they count as pitch circles that roll on each other")
-            .mend("check the numbers of teeth and the centre distance; a loss model of the teeth will need them right"),
+            .help("check the numbers of teeth and the centre distance; a loss model of the teeth will need them right"),
     )
 }
 
@@ -69,7 +69,7 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2]) -> O
             pair.centre_distance * 1e3
         ),
     )
-    .mend("check the numbers of teeth, the module and the centre distance, or state `profile_shift` of both gears");
+    .help("check the numbers of teeth, the module and the centre distance, or state `profile_shift` of both gears");
     Some(match fitting_teeth(spec, pair) {
         Some((teeth, shift)) => warning.note(format!(
             "with {teeth} teeth in place of {} the second gear would need x2 = {shift:.3}",
@@ -136,6 +136,6 @@ pub fn oil_level(
                 -depth * 1e3
             ),
         )
-        .mend("check the level and `measured_from`; leave the level out where oil is only sprayed"),
+        .help("check the level and `measured_from`; leave the level out where oil is only sprayed"),
     )
 }

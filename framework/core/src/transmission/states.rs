@@ -278,13 +278,13 @@ pub(crate) fn explain(
                 format!("{} can turn freely against the rest in `{}`", list(columns), state.name),
             );
             if among.is_empty() {
-                error.mend(format!(
+                error.help(format!(
                     "engage a coupling, or write `{}: {{ engaged: [...], standstill: [{}] }}`",
                     state.name,
                     columns.first().map(name).unwrap_or_default()
                 ))
             } else {
-                error.mend(format!(
+                error.help(format!(
                     "prescribe the speed of {}, too",
                     among.iter().map(port).collect::<Vec<_>>().join(" or ")
                 ))
@@ -309,12 +309,12 @@ pub(crate) fn explain(
                 ),
             )
             .note(format!("tied by {}", rows(by)))
-            .mend("prescribe one of them")
+            .help("prescribe one of them")
         }
         Fault::Locked { port: locked, rows: by } => {
             Diagnostic::error(path, format!("{} cannot turn in `{}`", port(locked), state.name))
                 .note(format!("locked by {}", rows(by)))
-                .mend("engage fewer couplings, or correct the tooth numbers of the loop")
+                .help("engage fewer couplings, or correct the tooth numbers of the loop")
         }
     }
 }
@@ -348,7 +348,7 @@ fn shares(
                     format!("{path}.parts"),
                     format!("{} parts with the sum {sum}", share.parts.len()),
                 )
-                .mend("give a part above zero for each mesh; together they are one"),
+                .help("give a part above zero for each mesh; together they are one"),
             );
             continue;
         }
@@ -365,7 +365,7 @@ fn shares(
                                 format!("{path}.meshes"),
                                 format!("`{name}` has no gear on `{}`", share.member),
                             )
-                            .mend("name meshes of this member"),
+                            .help("name meshes of this member"),
                         );
                         None
                     }

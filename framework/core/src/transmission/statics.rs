@@ -93,7 +93,7 @@ pub fn shaft_loads(
                     Some(at) => member.forces.push((at, up.map(|u| -u * shaft.mass * GRAVITY))),
                     None => found.push(
                         Diagnostic::error(format!("shafts.{name}"), "a mass without `mass_at`")
-                            .mend("add `mass_at:`, the place of the centre of mass along the shaft"),
+                            .help("add `mass_at:`, the place of the centre of mass along the shaft"),
                     ),
                 }
             }
@@ -110,7 +110,7 @@ pub fn shaft_loads(
                             format!("shafts.{name}.sections.{k}"),
                             "the section has no length or no wall",
                         )
-                        .mend("write `from` below `to` and `inner` below `outer`"),
+                        .help("write `from` below `to` and `inner` below `outer`"),
                     );
                 }
                 member.sections.push(Section {
@@ -157,7 +157,7 @@ pub fn shaft_loads(
                             members.names[support.inner as usize], members.names[outer as usize]
                         ),
                     )
-                    .mend("give both members one axis"),
+                    .help("give both members one axis"),
                 );
             }
         }
@@ -241,7 +241,7 @@ fn unsupported(
                 found.push(
                     Diagnostic::error(path, format!("the {what} is loaded and has no bearings"))
                         .note("without them its bearing loads and losses would be missing from every result")
-                        .mend(
+                        .help(
                             "add its bearings, with `model: none` where they lose nothing; or write `bearings: none` here",
                         ),
                 );
@@ -249,7 +249,7 @@ fn unsupported(
             }
             (false, Some(Unsupported::None)) => found.push(
                 Diagnostic::error(format!("{path}.bearings"), "`none` is said of what has bearings")
-                    .mend("leave `bearings: none` out, or take out its bearings"),
+                    .help("leave `bearings: none` out, or take out its bearings"),
             ),
             _ => {}
         }
@@ -260,7 +260,7 @@ fn unsupported(
                 if !taken {
                     warnings.push(
                         Diagnostic::warning(path.clone(), format!("no bearing takes thrust towards {words} places"))
-                            .mend("set `axial:` of a bearing to left, right or both"),
+                            .help("set `axial:` of a bearing to left, right or both"),
                     );
                 }
             }
@@ -281,7 +281,7 @@ fn unsupported(
                         bare.join(", ")
                     ),
                 )
-                .mend("add bearings between the planets and the carrier, or write `bearings: none` at these shafts"),
+                .help("add bearings between the planets and the carrier, or write `bearings: none` at these shafts"),
             );
         }
     }
@@ -295,7 +295,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
         LoadFault::Cycle { members: circle } => {
             let names: Vec<&str> = circle.iter().map(|m| name(*m).as_str()).collect();
             Diagnostic::error("bearings", format!("{} carry each other in a circle", names.join(", ")))
-                .mend("one of them needs a bearing in the housing; exchange `shaft` and `outer` of a bearing")
+                .help("one of them needs a bearing in the housing; exchange `shaft` and `outer` of a bearing")
         }
         LoadFault::Mechanism { member, supports } => Diagnostic::error(
             at(*member),
@@ -305,7 +305,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
                 list(supports)
             ),
         )
-        .mend("give it two bearings at different places, or one alone with `takes_moment: true`"),
+        .help("give it two bearings at different places, or one alone with `takes_moment: true`"),
         LoadFault::AxialIndeterminate {
             member,
             supports,
@@ -320,7 +320,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
                     list(supports)
                 ),
             )
-            .mend("leave it to one of them by `axial:`, or state `axial_share` of each")
+            .help("leave it to one of them by `axial:`, or state `axial_share` of each")
         }
         LoadFault::NoSection { member, range } => Diagnostic::error(
             format!("{}.sections", at(*member)),
@@ -334,7 +334,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
             "more than two supports, a hinge or a tilting stiffness: the stiffness of the shaft decides the loads"
                 .to_owned(),
         )
-        .mend("add `sections: [{ from: ..., to: ..., outer: ... }]`"),
+        .help("add `sections: [{ from: ..., to: ..., outer: ... }]`"),
         LoadFault::MomentAtHinge { member, at: place } => Diagnostic::error(
             format!("{}.hinges", at(*member)),
             format!(
@@ -342,7 +342,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
                 place * 1e3
             ),
         )
-        .mend("move the hinge or the load"),
+        .help("move the hinge or the load"),
     }
 }
 
@@ -363,7 +363,7 @@ pub fn load_factors(
             if over.torques.len() != over.factors.len() || over.torques.windows(2).any(|w| w[1] <= w[0]) {
                 found.push(
                     Diagnostic::error(path, "torques and factors do not fit")
-                        .mend("give rising torques and as many factors"),
+                        .help("give rising torques and as many factors"),
                 );
                 return LoadFactor::Constant(1.0);
             }

@@ -68,7 +68,7 @@ impl Sheet {
                         Ok(unit) => Some(unit),
                         Err(f) => {
                             let message = format!("line {}, {}", table.header_line, f.message);
-                            found.push(fault(message, f.mend));
+                            found.push(fault(message, f.help));
                             return None;
                         }
                     }
@@ -190,9 +190,9 @@ impl Sheet {
 }
 
 /// One fault for each of the first messages, and how many there are beyond.
-pub fn told(messages: Vec<String>, mend: &str) -> Vec<MeasuredFault> {
+pub fn told(messages: Vec<String>, help: &str) -> Vec<MeasuredFault> {
     let beyond = messages.len().saturating_sub(TOLD);
-    let mut faults: Vec<_> = messages.into_iter().take(TOLD).map(|m| fault(m, mend)).collect();
+    let mut faults: Vec<_> = messages.into_iter().take(TOLD).map(|m| fault(m, help)).collect();
     if let (Some(last), 1..) = (faults.last_mut(), beyond) {
         last.message = format!("{}; {beyond} more of this kind follow", last.message);
     }

@@ -60,14 +60,14 @@ impl<'p> Evaluator<'p> {
         let residual = data
             .and_then(|data| evaluator.complete(data, &space.start))
             .map_err(|message| {
-                let mend = "start where every residual has a value";
-                Finding::new("residuals at the start", message, mend)
+                let help = "start where every residual has a value";
+                Finding::new("residuals at the start", message, help)
             })?;
         let (rows, free) = (residual.len(), space.len());
         if rows < free {
             let message = format!("{rows} rows, priors counted, for {free} free parameters");
-            let mend = "fix parameters, or give some of them a prior";
-            return Err(Finding::new("residuals", message, mend).into());
+            let help = "fix parameters, or give some of them a prior";
+            return Err(Finding::new("residuals", message, help).into());
         }
         // The first call is never interrupted: there would be no point to give back.
         evaluator.interrupt = interrupt;

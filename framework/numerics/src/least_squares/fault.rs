@@ -9,8 +9,8 @@ pub struct Finding {
     pub place: String,
     /// What.
     pub message: String,
-    /// How to mend it.
-    pub mend: String,
+    /// How to fix it.
+    pub help: String,
 }
 
 /// Everything that is wrong with a problem, found at once.
@@ -21,19 +21,19 @@ pub struct Fault {
 }
 
 impl Finding {
-    pub(super) fn new(place: impl Into<String>, message: impl Into<String>, mend: impl Into<String>) -> Self {
+    pub(super) fn new(place: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             place: place.into(),
             message: message.into(),
-            mend: mend.into(),
+            help: help.into(),
         }
     }
 }
 
 impl Fault {
-    /// One thing that is wrong: where, what, and how to mend it.
-    pub fn of(place: impl Into<String>, message: impl Into<String>, mend: impl Into<String>) -> Self {
-        Finding::new(place, message, mend).into()
+    /// One thing that is wrong: where, what, and how to fix it.
+    pub fn of(place: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Finding::new(place, message, help).into()
     }
 }
 
@@ -49,8 +49,8 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, finding) in self.findings.iter().enumerate() {
             let separator = if i == 0 { "" } else { "\n" };
-            let Finding { place, message, mend } = finding;
-            write!(f, "{separator}{place}: {message}; {mend}")?;
+            let Finding { place, message, help } = finding;
+            write!(f, "{separator}{place}: {message}; {help}")?;
         }
         Ok(())
     }

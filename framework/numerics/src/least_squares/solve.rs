@@ -56,8 +56,8 @@ pub(super) fn search(problem: &Problem<'_>, options: &Options<'_>, space: &Space
             Ok(noise) => noise,
             Err(Miss::Interrupted) => f64::EPSILON,
             Err(Miss::Undefined(message)) => {
-                let mend = "say how noisy they are, or start elsewhere";
-                return Err(Finding::new("residuals beside the start", message, mend).into());
+                let help = "say how noisy they are, or start elsewhere";
+                return Err(Finding::new("residuals beside the start", message, help).into());
             }
         },
     };

@@ -148,8 +148,8 @@ impl<'p> Space<'p> {
 /// All that makes no sense with one parameter.
 fn check(p: &Parameter) -> Vec<Finding> {
     let mut found = Vec::new();
-    let mut find = |message: String, mend: &str| {
-        found.push(Finding::new(format!("parameter `{}`", p.name), message, mend));
+    let mut find = |message: String, help: &str| {
+        found.push(Finding::new(format!("parameter `{}`", p.name), message, help));
     };
     if !p.start.is_finite() {
         find(format!("its start is {}", p.start), "give a number");

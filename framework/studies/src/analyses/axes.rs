@@ -8,12 +8,12 @@ use super::{Context, Stopped};
 /// Values of an axis, or the fault with its path.
 pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Stopped> {
     values.map_err(|reason| {
-        let mend = if reason.contains("rating") {
+        let help = if reason.contains("rating") {
             "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis values of its own"
         } else {
             "give a step that leads from one end to the other"
         };
-        cx.wrong(path, reason, mend)
+        cx.wrong(path, reason, help)
     })
 }
 

@@ -283,14 +283,14 @@ pub fn needs_balance(cx: &Context<'_>, built: &Built<'_>) -> Result<(), Stopped>
             "the study fixes the temperature, so there is no balance",
         )
         .note(format!("`{path}` asks for one"))
-        .mend("leave it out, or give this analysis a study of its own");
+        .help("leave it out, or give this analysis a study of its own");
         return Err(cx.found(vec![error]));
     }
     if built.transmission.thermal_mode == ThermalMode::Balance {
         return Ok(());
     }
     let error = Diagnostic::error(path, "the gearbox has a fixed temperature, and no balance")
-        .mend("write `thermal: { mode: balance, heat_dissipation: { ... } }` in the gearbox");
+        .help("write `thermal: { mode: balance, heat_dissipation: { ... } }` in the gearbox");
     Err(cx.found(vec![error]))
 }
 

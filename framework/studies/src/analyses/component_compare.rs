@@ -257,8 +257,8 @@ impl ComponentCompareEntry {
     fn check_names(&self, cx: &Context<'_>) -> Result<(), Stopped> {
         let path = format!("{}.models", cx.path());
         if self.models.is_empty() {
-            let mend = "write `models: { ours: { type: skf } }`, say";
-            return Err(cx.wrong(&path, "no model is named", mend));
+            let help = "write `models: { ours: { type: skf } }`, say";
+            return Err(cx.wrong(&path, "no model is named", help));
         }
         if self.models.iter().any(|(name, _)| name == "measured") {
             let message = "`measured` is the name of the measured points";

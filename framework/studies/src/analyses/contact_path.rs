@@ -208,8 +208,8 @@ impl ContactPathEntry {
                 "{} at this point, so no torque of the mesh is known",
                 solution.status().name()
             );
-            let mend = "give the torque at another port, or with the other sign";
-            return Err(cx.wrong(&cx.path(), message, mend));
+            let help = "give the torque at another port, or with the other sign";
+            return Err(cx.wrong(&cx.path(), message, help));
         }
         let model = &built.resolved.value["meshes"][&self.mesh]["model"];
         let load_sharing = sharing(model);

@@ -400,8 +400,8 @@ impl<'a> Context<'a> {
     }
 
     /// A fault of the study at a path.
-    pub fn wrong(&self, path: &str, message: impl Into<String>, mend: &str) -> Stopped {
-        self.found(vec![Diagnostic::error(path, message.into()).mend(mend)])
+    pub fn wrong(&self, path: &str, message: impl Into<String>, help: &str) -> Stopped {
+        self.found(vec![Diagnostic::error(path, message.into()).help(help)])
     }
 
     /// Findings about the study.

@@ -188,7 +188,7 @@ impl Outcome for CycleOutcome {
             duty.cycle, broken.time_s, broken.reason
         );
         let error = Diagnostic::error(format!("analyses.{}", self.head.analysis), message);
-        Some(error.mend("the results up to there are kept; look at the point with `explain`"))
+        Some(error.help("the results up to there are kept; look at the point with `explain`"))
     }
 }
 

@@ -72,7 +72,7 @@ impl<'a> Duties<'a> {
                     found.extend(
                         faults
                             .into_iter()
-                            .map(|f| Diagnostic::error(&at, f.message).mend(f.mend)),
+                            .map(|f| Diagnostic::error(&at, f.message).help(f.help)),
                     );
                     continue;
                 }
@@ -85,7 +85,7 @@ impl<'a> Duties<'a> {
                     port: cycle.port().map(str::to_owned),
                     about: cycle.about().map(str::to_owned),
                 }),
-                Err(fault) => found.push(Diagnostic::error(&at, fault.message).mend(fault.mend)),
+                Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help)),
             }
         }
         if !found.is_empty() {
@@ -113,8 +113,8 @@ impl<'a> Duties<'a> {
                 "`{}` goes on in time, and the balance of the gearbox knows none",
                 read.name
             );
-            let mend = "write `thermal: { mode: network, network: auto }` in the gearbox, or `conditions: { oil_temperature: ... }`";
-            return Err(cx.wrong(path, message, mend));
+            let help = "write `thermal: { mode: network, network: auto }` in the gearbox, or `conditions: { oil_temperature: ... }`";
+            return Err(cx.wrong(path, message, help));
         }
         // Keys that need temperatures that go on, or that follow.
         let goes_on = oil == OilTemperature::Network && in_time.is_some();
@@ -134,11 +134,11 @@ impl<'a> Duties<'a> {
                 OilTemperature::Fixed(_) => "the temperature of the oil is given, so that nothing follows from it",
                 OilTemperature::Balance => "the balance of the gearbox has surroundings of its own",
             };
-            let mend = match oil {
+            let help = match oil {
                 OilTemperature::Network => "leave it out",
                 _ => "leave it out, or let the gearbox have a thermal network",
             };
-            return Err(cx.wrong(&format!("{path}.{key}"), message, mend));
+            return Err(cx.wrong(&format!("{path}.{key}"), message, help));
         }
         let told = |read: &&Read| read.intervals.iter().any(|i| i.given.oil_temperature.is_some());
         if let (OilTemperature::Network, Some(read)) = (oil, self.list.iter().find(told)) {
@@ -146,8 +146,8 @@ impl<'a> Duties<'a> {
                 "`{}` tells temperatures of the oil, which the thermal network finds itself",
                 read.name
             );
-            let mend = "leave them out, or give all of them by `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is compared";
-            return Err(cx.wrong(&format!("cycles.{}", read.name), message, mend));
+            let help = "leave them out, or give all of them by `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is compared";
+            return Err(cx.wrong(&format!("cycles.{}", read.name), message, help));
         }
         for read in &self.list {
             can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(cx, read, list))?;
@@ -175,8 +175,8 @@ impl<'a> Duties<'a> {
                     _ => "a heat exchanger in the thermal network",
                 };
                 let message = format!("`{column}` of `{}` needs {what}", read.name);
-                let mend = "leave the column out, or describe what uses it";
-                return Err(cx.wrong(&format!("cycles.{}.columns", read.name), message, mend));
+                let help = "leave the column out, or describe what uses it";
+                return Err(cx.wrong(&format!("cycles.{}.columns", read.name), message, help));
             }
             let Duty::Trace(trace) = &read.duty else { continue };
             let nodes: Vec<&str> = match network {

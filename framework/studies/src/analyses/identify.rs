@@ -254,7 +254,7 @@ fn fault_of_search(cx: &Context<'_>, fault: &Fault) -> Stopped {
     let path = cx.path();
     let finding = |f: &least_squares::Finding| {
         let message = format!("{}: {}", f.place, f.message);
-        Diagnostic::error(&path, message).mend(f.mend.clone())
+        Diagnostic::error(&path, message).help(f.help.clone())
     };
     cx.found(fault.findings.iter().map(finding).collect())
 }

@@ -270,8 +270,8 @@ impl MapEntry {
             }
             (Some(grid), None) => on_grid(cx, self, grid, gearbox),
             _ => {
-                let mend = "write `grid: NAME`, or `points: { file: ... }`";
-                Err(cx.wrong(&path, "a map needs either `grid` or `points`", mend))
+                let help = "write `grid: NAME`, or `points: { file: ... }`";
+                Err(cx.wrong(&path, "a map needs either `grid` or `points`", help))
             }
         }
     }

@@ -20,8 +20,8 @@ pub fn note(omitted: usize, what: &str) -> String {
 pub fn countable(cx: &Context<'_>, path: &str, quantity: Quantity, difference: Difference) -> Result<(), Stopped> {
     if (quantity, difference) == (Quantity::Temperature, Difference::Percent) {
         let message = "a temperature has no percentage";
-        let mend = "write `difference: points`, which counts kelvins";
-        return Err(cx.wrong(&format!("{path}.difference"), message, mend));
+        let help = "write `difference: points`, which counts kelvins";
+        return Err(cx.wrong(&format!("{path}.difference"), message, help));
     }
     Ok(())
 }

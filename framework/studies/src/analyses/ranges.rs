@@ -17,7 +17,7 @@ pub struct Range {
 impl Range {
     /// `path` is the entry's place in the study.
     pub fn new(cx: &Context<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
-        let wrong = |message: String, mend: &str| cx.wrong(path, format!("{}: {message}", entry.path), mend);
+        let wrong = |message: String, help: &str| cx.wrong(path, format!("{}: {message}", entry.path), help);
         let varied = varied(cx, path, (&entry.path, entry.tie), b)?;
         let about = || {
             varied.start().ok_or_else(|| {

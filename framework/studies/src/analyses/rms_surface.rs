@@ -138,9 +138,9 @@ impl Axis {
         let varied = varied(cx, &format!("{path}.path"), (&entry.path, entry.tie), built)?;
         let mut values: Vec<f64> = Vec::new();
         for (i, written) in entry.values.iter().enumerate() {
-            let wrong = |message: String, mend: &str| {
+            let wrong = |message: String, help: &str| {
                 let message = format!("{}: {message}", entry.path);
-                cx.wrong(&format!("{path}.values.{i}"), message, mend)
+                cx.wrong(&format!("{path}.values.{i}"), message, help)
             };
             let value = varied
                 .quantity(written, false)
@@ -191,7 +191,7 @@ impl RmsSurfaceEntry {
             ));
         }
         for (key, axis) in [("x", &x), ("y", &y)] {
-            let wrong = |message: String, mend: &str| cx.wrong(&format!("{path}.{key}.path"), message, mend);
+            let wrong = |message: String, help: &str| cx.wrong(&format!("{path}.{key}.path"), message, help);
             for (column, pattern) in self.bind.iter() {
                 if shared(&axis.varied.paths, &matches(&built.resolved.value, pattern)) {
                     let message = format!("column `{column}` of the data changes `{}` too", axis.varied.pattern);

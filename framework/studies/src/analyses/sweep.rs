@@ -124,7 +124,7 @@ impl SweepEntry {
             format!("{}.path", cx.path()),
             "the conditions fix the temperature, so it cannot change",
         )
-        .mend("leave `conditions.oil_temperature` out");
+        .help("leave `conditions.oil_temperature` out");
         Err(cx.found(vec![error]))
     }
 

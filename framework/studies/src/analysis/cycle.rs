@@ -294,7 +294,7 @@ fn wheels(t: &Transmission) -> Result<usize, Diagnostic> {
         let others: Vec<&str> = names.iter().copied().filter(|name| name != reference).collect();
         Diagnostic::error("ports", "a vehicle needs the port that drives its wheels")
             .note(format!("there are: {}", names.join(", ")))
-            .mend(format!(
+            .help(format!(
                 "write `conditions: {{ wheels: [{}] }}` in the study where both wheels are ports, or call the one port `output`",
                 others.join(", ")
             ))

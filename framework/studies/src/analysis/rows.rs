@@ -121,7 +121,7 @@ impl Rows<'_> {
             (_, true) => "speed_out",
             _ => return Ok(()),
         };
-        let wrong = |message: String, help: &str| Err(Diagnostic::error("", message).mend(help));
+        let wrong = |message: String, help: &str| Err(Diagnostic::error("", message).help(help));
         if self.torque_at != self.speed_at {
             let message = format!(
                 "`{out}` alone does not say at which port it was measured: the conditions give the torque at `{}` and the speed at `{}`",
@@ -293,7 +293,7 @@ impl Rows<'_> {
                 "",
                 "a rig has something at `out`, but this gearbox has not two ports",
             )
-            .mend("leave what belongs to `out` out of `rig`")),
+            .help("leave what belongs to `out` out of `rig`")),
             speed => Ok([point.reference_speed, speed.unwrap_or(0.0)]),
         };
         solved.rows.iter().map(of).collect()

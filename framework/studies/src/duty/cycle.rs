@@ -178,11 +178,11 @@ impl ShippedCycleEntry {
     fn read(&self, registry: &Registry) -> Result<Trace, Vec<MeasuredFault>> {
         let Some(cycle) = registry.cycle(&self.shipped) else {
             let names: Vec<&str> = registry.cycles().iter().map(|c| c.name).collect();
-            let mend = match did_you_mean(&self.shipped, names.iter().copied()) {
+            let help = match did_you_mean(&self.shipped, names.iter().copied()) {
                 Some(close) => format!("write `{close}`"),
                 None => format!("there are: {}", names.join(", ")),
             };
-            return Err(vec![fault(format!("no cycle is called `{}`", self.shipped), mend)]);
+            return Err(vec![fault(format!("no cycle is called `{}`", self.shipped), help)]);
         };
         let entry = FileCycleEntry {
             columns: Ordered(vec![("vehicle_speed".to_owned(), "speed".to_owned())]),

@@ -115,7 +115,7 @@ impl SpectrumFile {
 
 /// The loads one behind the other, with their times or shares of a duration.
 pub(super) fn intervals(loads: &[SpectrumPoint], duration: f64) -> Result<Vec<Interval>, Vec<MeasuredFault>> {
-    let mend = "state a `share` for each load, or a `time` for each";
+    let help = "state a `share` for each load, or a `time` for each";
     let times: Vec<f64> = if loads.iter().all(|l| l.share.is_some() && l.time.is_none()) {
         let shares: Vec<f64> = loads.iter().filter_map(|l| l.share).collect();
         let sum: f64 = shares.iter().sum();
@@ -132,11 +132,11 @@ pub(super) fn intervals(loads: &[SpectrumPoint], duration: f64) -> Result<Vec<In
     } else {
         return Err(vec![fault(
             "some loads have a share and some a time, or both, or none",
-            mend,
+            help,
         )]);
     };
     if times.iter().all(|time| *time <= 0.0) {
-        return Err(vec![fault("no load lasts", mend)]);
+        return Err(vec![fault("no load lasts", help)]);
     }
     let mut start = 0.0;
     let mut intervals = Vec::new();

@@ -97,7 +97,7 @@ impl Trace {
         }
         samples.retain(inside);
         if samples.len() < 2 {
-            let mend = if found < 2 {
+            let help = if found < 2 {
                 "check the file, its header and its separator"
             } else {
                 "widen `start` and `end`"
@@ -106,7 +106,7 @@ impl Trace {
             let rows = if count == 1 { "row" } else { "rows" };
             return Err(vec![fault(
                 format!("{count} {rows} of {found} count; a series over time needs two"),
-                mend,
+                help,
             )]);
         }
         let mut wrong = gaps(&samples, entry.gap);

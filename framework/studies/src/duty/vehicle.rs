@@ -169,14 +169,14 @@ impl VehicleEntry {
     /// # Errors
     /// If no road load is stated, or two are.
     pub fn vehicle(&self, path: &str) -> Result<Vehicle, Diagnostic> {
-        let mend = "state `coast_down`, or `drag_area` and `rolling_resistance`";
+        let help = "state `coast_down`, or `drag_area` and `rolling_resistance`";
         let road_load = match (self.coast_down, self.drag_area, self.rolling_resistance) {
             (Some(coast_down), None, None) => {
                 if self.air_density.is_some() {
                     let at = format!("{path}.air_density");
                     return Err(
                         Diagnostic::error(at, "a coast-down test holds the air's density already")
-                            .mend("leave `air_density` out"),
+                            .help("leave `air_density` out"),
                     );
                 }
                 RoadLoad::CoastDown(coast_down)
@@ -186,14 +186,14 @@ impl VehicleEntry {
                 rolling_resistance,
                 air_density: self.air_density.unwrap_or(AIR_DENSITY),
             },
-            (None, None, None) => return Err(Diagnostic::error(path, "no road load is stated").mend(mend)),
+            (None, None, None) => return Err(Diagnostic::error(path, "no road load is stated").help(help)),
             (None, Some(_), None) => {
-                return Err(Diagnostic::error(path, "`rolling_resistance` is missing beside `drag_area`").mend(mend));
+                return Err(Diagnostic::error(path, "`rolling_resistance` is missing beside `drag_area`").help(help));
             }
             (None, None, Some(_)) => {
-                return Err(Diagnostic::error(path, "`drag_area` is missing beside `rolling_resistance`").mend(mend));
+                return Err(Diagnostic::error(path, "`drag_area` is missing beside `rolling_resistance`").help(help));
             }
-            (Some(_), ..) => return Err(Diagnostic::error(path, "the road load is stated twice").mend(mend)),
+            (Some(_), ..) => return Err(Diagnostic::error(path, "the road load is stated twice").help(help)),
         };
         Ok(Vehicle {
             mass: self.mass,

@@ -55,11 +55,11 @@ impl HoldOut {
                 "the rows that are held out are chosen in several ways"
             };
             return Err(Diagnostic::error("hold_out", message)
-                .mend("write one of `column`, `where`, `every` and `random`, such as `hold_out: torque > 1000 Nm`"));
+                .help("write one of `column`, `where`, `every` and `random`, such as `hold_out: torque > 1000 Nm`"));
         }
         if rows.seed.is_some() && rows.random.is_none() {
             return Err(Diagnostic::error(place("seed"), "nothing is drawn at random here")
-                .mend("leave `seed` out, or write `random`"));
+                .help("leave `seed` out, or write `random`"));
         }
         let (chosen, words) = choice(&rows, measured, &place)?;
         let of_kind = |held: bool| Measured {
@@ -82,7 +82,7 @@ impl HoldOut {
         if found.held_out.rows.is_empty() {
             return Err(
                 Diagnostic::error("hold_out", format!("none of {all} rows is held out ({})", found.words))
-                    .mend("hold out rows that the data have, or leave `hold_out` out"),
+                    .help("hold out rows that the data have, or leave `hold_out` out"),
             );
         }
         if found.fitted.rows.is_empty() {
@@ -90,7 +90,7 @@ impl HoldOut {
                 "hold_out",
                 format!("all {all} rows are held out: nothing is left to be fitted"),
             )
-            .mend("hold out fewer rows"));
+            .help("hold out fewer rows"));
         }
         Ok(found)
     }
@@ -105,7 +105,7 @@ impl HoldOut {
             return Ok(());
         }
         let message = format!("{left} rows are left to be fitted, for {parameters} parameters");
-        Err(Diagnostic::error("hold_out", message).mend("hold out fewer rows, or identify fewer parameters"))
+        Err(Diagnostic::error("hold_out", message).help("hold out fewer rows, or identify fewer parameters"))
     }
 }
 
@@ -134,14 +134,14 @@ fn choice(
                 row.line
             );
             Err(Diagnostic::error(place("column"), message)
-                .mend("write 1, true or yes in rows that are held out, 0, false, no or nothing in the others"))
+                .help("write 1, true or yes in rows that are held out, 0, false, no or nothing in the others"))
         };
         let held = measured.rows.iter().map(held).collect::<Result<_, _>>()?;
         return Ok((held, format!("column `{column}`")));
     }
     if let Some(text) = &rows.condition {
         let wrong = |found: crate::measured::ConditionFault| {
-            Diagnostic::error(place("where"), format!("`{text}`, {}", found.message)).mend(found.help)
+            Diagnostic::error(place("where"), format!("`{text}`, {}", found.message)).help(found.help)
         };
         let condition = Condition::parse(text).map_err(wrong)?;
         condition.check(measured).map_err(wrong)?;
@@ -177,11 +177,11 @@ fn tidy_percent(share: f64) -> String {
 fn column_place(measured: &Measured, name: &str) -> Result<usize, Diagnostic> {
     measured.column(name).ok_or_else(|| {
         let headers: Vec<&str> = measured.columns.iter().map(|c| c.header.as_str()).collect();
-        let mend = match did_you_mean(name, headers.iter().copied()) {
+        let help = match did_you_mean(name, headers.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the columns are {}", headers.join(", ")),
         };
-        Diagnostic::error("", format!("the file has no column `{name}`")).mend(mend)
+        Diagnostic::error("", format!("the file has no column `{name}`")).help(help)
     })
 }
 
@@ -208,7 +208,7 @@ impl Identification<'_> {
         let measured = self.measured();
         let rows: Vec<&Row> = self.observations.iter().map(|o| &measured.rows[o.row]).collect();
         let too_few = |path: &str, message: String| {
-            Diagnostic::error(path, message).mend("group by what differs between rows, or write `folds: 0` for none")
+            Diagnostic::error(path, message).help("group by what differs between rows, or write `folds: 0` for none")
         };
         let values = |quantity: &str| {
             rows.iter()
@@ -226,7 +226,7 @@ impl Identification<'_> {
         let few = |message: String| too_few("folds.by", message);
         if by.seed.is_some() && by.by != "random" {
             return Err(Diagnostic::error("folds.seed", "nothing is drawn at random here")
-                .mend("leave `seed` out, or write `by: random`"));
+                .help("leave `seed` out, or write `by: random`"));
         }
         let found = match by.by.as_str() {
             "random" => {
@@ -248,7 +248,7 @@ impl Identification<'_> {
             quantity if measured.holds(quantity) => {
                 let Some(values) = values(quantity) else {
                     return Err(Diagnostic::error("folds.by", format!("some rows have no `{quantity}`"))
-                        .mend("group by another quantity, or leave these rows out"));
+                        .help("group by another quantity, or leave these rows out"));
                 };
                 return folds(&values, most).map_err(few);
             }
@@ -261,7 +261,7 @@ impl Identification<'_> {
     fn labelled(by: &FoldsBy, texts: Vec<String>, most: usize) -> Result<Vec<Fold>, Diagnostic> {
         let few = |message: String| {
             Diagnostic::error("folds.by", message)
-                .mend("group by what differs between rows, or write `folds: 0` for none")
+                .help("group by what differs between rows, or write `folds: 0` for none")
         };
         let numbers: Option<Vec<f64>> = texts
             .iter()
@@ -275,7 +275,7 @@ impl Identification<'_> {
                 "folds.count",
                 format!("the groups of `{}` are given by its values", by.by),
             )
-            .mend("leave `count` out"));
+            .help("leave `count` out"));
         }
         let name = |text: String| match (by.by.as_str(), text.as_str()) {
             ("sign", _) => text,
@@ -287,7 +287,7 @@ impl Identification<'_> {
         if found.len() > GROUPS {
             let message = format!("`{}` makes {} groups, and each is a fit", by.by, found.len());
             return Err(
-                Diagnostic::error("folds.by", message).mend(format!("group by a column with {GROUPS} values at most"))
+                Diagnostic::error("folds.by", message).help(format!("group by a column with {GROUPS} values at most"))
             );
         }
         Ok(found)
@@ -313,18 +313,18 @@ fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, 
     let at = column_place(measured, name).map_err(|found| {
         let words = "torque, speed, oil_temperature, sign, random";
         if words.split(", ").any(|word| word == name) {
-            return Diagnostic::error("folds.by", format!("the data hold no `{name}`")).mend(format!(
+            return Diagnostic::error("folds.by", format!("the data hold no `{name}`")).help(format!(
                 "name its column under `columns: {{ {name}: ... }}`, or group by another quantity"
             ));
         }
-        let mend = match did_you_mean(name, words.split(", ")) {
+        let help = match did_you_mean(name, words.split(", ")) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!(
                 "write one of {words}, or a column of the file: {}",
-                found.mend.unwrap_or_default()
+                found.help.unwrap_or_default()
             ),
         };
-        Diagnostic::error("folds.by", found.message).mend(mend)
+        Diagnostic::error("folds.by", found.message).help(help)
     })?;
     Ok(rows
         .iter()

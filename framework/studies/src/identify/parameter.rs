@@ -112,8 +112,8 @@ fn usual_size(unit: &Unit, range: [f64; 2]) -> Option<f64> {
 }
 
 /// A path of the study below the analysis, with what is wrong there.
-fn fault(place: &str, message: impl Into<String>, mend: impl Into<String>) -> Diagnostic {
-    Diagnostic::error(place, message).mend(mend)
+fn fault(place: &str, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(place, message).help(help)
 }
 
 impl Identified {

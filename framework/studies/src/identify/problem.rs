@@ -94,7 +94,7 @@ impl<'a> Identification<'a> {
         }
         found.extend(Identified::twice(&parameters));
         if parameters.is_empty() && found.is_empty() {
-            found.push(Diagnostic::error("parameters", "there is nothing to identify").mend("name a parameter"));
+            found.push(Diagnostic::error("parameters", "there is nothing to identify").help("name a parameter"));
         }
         for parameter in &parameters {
             if let Target::Over { port, .. } = &parameter.target
@@ -305,7 +305,7 @@ impl<'a> Identification<'a> {
 
     /// Refuses quantities that follow from the same measured numbers.
     fn counted_once(&self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
-        let wrong = |message: String, mend: &str| Err(vec![Diagnostic::error("residuals", message).mend(mend)]);
+        let wrong = |message: String, help: &str| Err(vec![Diagnostic::error("residuals", message).help(help)]);
         let powers: Vec<Quantity> = residuals
             .iter()
             .copied()
@@ -363,7 +363,7 @@ impl<'a> Identification<'a> {
 
     /// Chooses what is fitted, with its standard deviations at the start.
     fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
-        let data = |message: String, mend: &str| vec![Diagnostic::error("data", message).mend(mend)];
+        let data = |message: String, help: &str| vec![Diagnostic::error("data", message).help(help)];
         self.counted_once(residuals)?;
         let start = self.calculate(&self.start());
         let start = start.map_err(|reason| data(reason, "begin with other values"))?;
@@ -401,13 +401,13 @@ impl<'a> Identification<'a> {
                 ));
             }
             if found.len() == before {
-                let mend = "name a column of it, or columns of torque and speed at both ports";
-                return Err(data(format!("nothing gives a measured {what}"), mend));
+                let help = "name a column of it, or columns of torque and speed at both ports";
+                return Err(data(format!("nothing gives a measured {what}"), help));
             }
             if *quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {
                 return Err(vec![
                     Diagnostic::error("residuals", "the temperature of the oil is given, not calculated")
-                        .mend("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
+                        .help("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
                 ]);
             }
             let below = |(o, _): &&(Observation, Option<f64>)| {
@@ -460,8 +460,8 @@ impl<'a> Identification<'a> {
         if let Some(parameter) = prior.filter(|_| with == 0) {
             let place = format!("parameters.{}.prior", parameter.base_name());
             let message = "a prior and the points count together only by their accuracies, and none is stated";
-            let mend = "state the instruments under `rig`, or columns such as `loss_accuracy`, or leave the prior out";
-            return Err(vec![Diagnostic::error(place, message).mend(mend)]);
+            let help = "state the instruments under `rig`, or columns such as `loss_accuracy`, or leave the prior out";
+            return Err(vec![Diagnostic::error(place, message).help(help)]);
         }
         if with == 0 && self.observations.len() <= free {
             return Err(data(

@@ -173,7 +173,7 @@ impl<'a> Finder<'a> {
         self.faults.push(MeasuredFault {
             place,
             message,
-            mend: help.into(),
+            help: help.into(),
         });
     }
 
@@ -280,7 +280,7 @@ impl<'a> Finder<'a> {
         match scale((name, due), stated.as_deref(), header) {
             Ok(unit) => Some(unit),
             Err(fault) => {
-                self.fault(self.key("units", name), &fault.message, fault.mend);
+                self.fault(self.key("units", name), &fault.message, fault.help);
                 None
             }
         }

@@ -186,7 +186,7 @@ impl MeasuredEntry {
         let table = match text::table(bytes, self.form(), notes) {
             Ok(table) => table,
             Err(wrong) => {
-                faults.push(fault(format!("{}: {}", file.name, wrong.message), wrong.mend));
+                faults.push(fault(format!("{}: {}", file.name, wrong.message), wrong.help));
                 return None;
             }
         };

@@ -46,7 +46,7 @@ impl Study {
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
         let text = read_text(file, LONGEST_TEXT).map_err(|e| {
             let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
-            Findings::from(vec![error.mend("check the name of the file").code(Code::Unreadable)])
+            Findings::from(vec![error.help("check the name of the file").code(Code::Unreadable)])
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));
         Self::of_text(language, text, &file.display().to_string(), folder)
@@ -157,7 +157,7 @@ impl Study {
             None => self.gearboxes.first().ok_or_else(|| {
                 self.findings(vec![
                     Diagnostic::error("gearboxes", "no gearbox is named")
-                        .mend("add `gearboxes: { ours: gearbox.yaml }`"),
+                        .help("add `gearboxes: { ours: gearbox.yaml }`"),
                 ])
             }),
             Some(name) => self
@@ -395,7 +395,7 @@ impl Study {
                 let order = |analysis: &str| self.entry.analyses.index(analysis);
                 if order(name) <= order(&by) {
                     let message = format!("the set `{set}` has no values before the analysis `{by}`");
-                    found.push(Diagnostic::error(&path, message).mend(format!("write this analysis below `{by}`")));
+                    found.push(Diagnostic::error(&path, message).help(format!("write this analysis below `{by}`")));
                 }
             }
             for set in sets {
@@ -498,7 +498,7 @@ impl Study {
                 Ok(bytes) => contents.push(bytes),
                 Err(e) => {
                     let error = Diagnostic::error(format!("{place}.file"), format!("{}: cannot read: {e}", file.file));
-                    faults.push(error.mend("file names are relative to the study"));
+                    faults.push(error.help("file names are relative to the study"));
                 }
             }
         }
@@ -604,7 +604,7 @@ fn diagnostics(faults: Vec<MeasuredFault>, own: &str, analysis: &str) -> Vec<Dia
             FaultPlace::Entry(key) => format!("{own}.{key}"),
             FaultPlace::Bind(column) => format!("{analysis}.bind.{column}"),
         };
-        Diagnostic::error(path, fault.message).mend(fault.mend)
+        Diagnostic::error(path, fault.message).help(fault.help)
     };
     faults.into_iter().map(at_place).collect()
 }

@@ -27,7 +27,7 @@ pub(super) fn devices(entry: &StudyEntry) -> Vec<Diagnostic> {
                 format!("{section}.{id}"),
                 format!("`{id}` names a device on Windows, so no file of results can be called so"),
             )
-            .mend(format!("call it `{id}_`, or by another name"))
+            .help(format!("call it `{id}_`, or by another name"))
         });
         said.collect()
     };

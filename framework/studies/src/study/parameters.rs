@@ -85,7 +85,7 @@ pub(super) fn replace_names(study: &mut Value) -> Result<TakenOver, Vec<Diagnost
             match stated.get(&parameter) {
                 None => found.push(unknown(&place, &parameter, &stated)),
                 Some(_) if identifies && named.contains_key(&parameter) => found
-                    .push(Diagnostic::error(place, format!("`{parameter}` stands here twice")).mend("name it once")),
+                    .push(Diagnostic::error(place, format!("`{parameter}` stands here twice")).help("name it once")),
                 Some(whole) if identifies => {
                     named.insert(parameter, whole.clone());
                 }
@@ -106,11 +106,11 @@ fn unknown(place: &str, name: &str, stated: &Map<String, Value>) -> Diagnostic {
     let names: Vec<&str> = stated.keys().map(String::as_str).collect();
     let error = Diagnostic::error(place, format!("the study has no parameter `{name}`"));
     match did_you_mean(name, names.iter().copied()) {
-        Some(close) => error.mend(format!("write `{close}`")),
-        None if names.is_empty() => error.mend(format!(
+        Some(close) => error.help(format!("write `{close}`")),
+        None if names.is_empty() => error.help(format!(
             "state it: `parameters: {{ {name}: {{ path: ..., from: ..., to: ... }} }}`"
         )),
-        None => error.mend(format!(
+        None => error.help(format!(
             "name one of {}, or add it under `parameters`",
             names.join(", ")
         )),
@@ -122,11 +122,11 @@ fn range(name: &str, whole: &Value) -> Result<Value, Diagnostic> {
     let stated = |key: &str| whole.get(key).is_some_and(|value| !value.is_null());
     if stated("over") {
         let message = format!("`{name}` has one value for each of some torques, and a range is due");
-        return Err(Diagnostic::error("", message).mend("write the quantity with a range of its own"));
+        return Err(Diagnostic::error("", message).help("write the quantity with a range of its own"));
     }
     if !(stated("from") && stated("to")) {
         let message = format!("the parameter `{name}` states no range");
-        return Err(Diagnostic::error("", message).mend(format!("give `parameters.{name}` both `from` and `to`")));
+        return Err(Diagnostic::error("", message).help(format!("give `parameters.{name}` both `from` and `to`")));
     }
     let own = OF_RANGE.iter().filter(|key| stated(key));
     Ok(own.map(|key| ((*key).to_owned(), whole[*key].clone())).collect())

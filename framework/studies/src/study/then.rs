@@ -43,7 +43,7 @@ impl PromisedSets {
                 continue;
             };
             let wrong =
-                |message: String, mend: &str| Diagnostic::error(format!("analyses.{name}.then"), message).mend(mend);
+                |message: String, help: &str| Diagnostic::error(format!("analyses.{name}.then"), message).help(help);
             if let Some(other) = promised.get(set) {
                 found.push(wrong(
                     format!("the analysis `{}` already calls its set `{set}`", other.by),

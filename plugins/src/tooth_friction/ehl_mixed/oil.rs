@@ -80,8 +80,8 @@ impl MeshFluid {
             ));
             let values = "rheology: { tau0: 5 MPa, limiting_slope: 0.055, mu_b: 0.13 }";
             return Err(match oil {
-                Some(oil) => fault.mend(format!("add `{values}` to `lubricants.{}` with your figures", oil.id)),
-                None => fault.mend(format!("write {} beside `type`", missing.join(", "))),
+                Some(oil) => fault.help(format!("add `{values}` to `lubricants.{}` with your figures", oil.id)),
+                None => fault.help(format!("write {} beside `type`", missing.join(", "))),
             });
         }
         let z = written.z.or(own.z);

@@ -73,7 +73,7 @@ impl Network {
             if flow.capacity.is_some() && flow.share.is_some() {
                 found.push(
                     Diagnostic::error(path.clone(), "both `capacity` and `share` are given")
-                        .mend("leave one of them out"),
+                        .help("leave one of them out"),
                 );
             }
             let rate = rate(&path, flow.capacity, flow.share, network, found);
@@ -134,7 +134,7 @@ fn node_of(names: &NodeNames, path: &str, id: &str, found: &mut Vec<Diagnostic>)
 }
 
 fn same(path: &str) -> Diagnostic {
-    Diagnostic::error(path, "both ends are one node").mend("name two nodes")
+    Diagnostic::error(path, "both ends are one node").help("name two nodes")
 }
 
 fn law(
@@ -207,12 +207,12 @@ fn law(
             }
         }
         (given, _) => {
-            let (what, mend) = if given.is_some() {
+            let (what, help) = if given.is_some() {
                 ("both `conductance` and `model` are given", "leave one of them out")
             } else {
                 ("the link has no conductance", "add `conductance: 10 W/K`, or a `model`")
             };
-            found.push(Diagnostic::error(path, what).mend(mend));
+            found.push(Diagnostic::error(path, what).help(help));
             return None;
         }
     };
@@ -255,7 +255,7 @@ fn rate(
         None => {
             found.push(
                 Diagnostic::error(path, "nothing says how much flows")
-                    .mend("add `oil_flow: 8 l/min` to the network, or `capacity: 200 W/K` here"),
+                    .help("add `oil_flow: 8 l/min` to the network, or `capacity: 200 W/K` here"),
             );
             None
         }
@@ -271,12 +271,12 @@ fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Di
         found.push(dangling(&format!("{path}.port"), "port", &entry.port, &ids));
     }
     if let Err(fault) = entry.rotor_share.at(0.0) {
-        found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).mend(fault.mend));
+        found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).help(fault.help));
     }
     let map = match around.files.text(&entry.map) {
         Err(reason) => {
             let error = Diagnostic::error(format!("{path}.map"), reason);
-            found.push(error.mend("file names are relative to the gearbox document"));
+            found.push(error.help("file names are relative to the gearbox document"));
             None
         }
         Ok(text) => match MotorMap::read(text.as_bytes()) {
@@ -284,7 +284,7 @@ fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Di
             Err(faults) => {
                 for fault in faults {
                     let message = format!("{}: {}", entry.map, fault.message);
-                    found.push(Diagnostic::error(format!("{path}.map"), message).mend(fault.mend));
+                    found.push(Diagnostic::error(format!("{path}.map"), message).help(fault.help));
                 }
                 None
             }
@@ -323,7 +323,7 @@ fn exchanger(
         let message = format!("`{}` is held at a temperature, and the exchanger decides it", entry.to);
         found.push(
             Diagnostic::error(format!("{path}.to"), message)
-                .mend("name a node of its own for the oil behind the exchanger, without a `temperature`"),
+                .help("name a node of its own for the oil behind the exchanger, without a `temperature`"),
         );
     }
     Some(Exchanger {

@@ -54,7 +54,7 @@ pub fn check(shape: &Shape<'_>, found: &mut Vec<Diagnostic>) {
                 at(node),
                 format!("no path leads from `{}` to a fixed temperature", shape.names[node]),
             )
-            .mend("link it to a neighbour, to `ambient`, or to a heat exchanger, or give it a `temperature`"),
+            .help("link it to a neighbour, to `ambient`, or to a heat exchanger, or give it a `temperature`"),
         );
     }
     if let Some(ring) = empty_loop(shape) {
@@ -64,7 +64,7 @@ pub fn check(shape: &Shape<'_>, found: &mut Vec<Diagnostic>) {
                 at(ring[0]),
                 format!("oil flows in a loop without heat capacity: {}", names.join(", ")),
             )
-            .mend("give the oil of one of these nodes a `heat_capacity`, mass times specific heat"),
+            .help("give the oil of one of these nodes a `heat_capacity`, mass times specific heat"),
         );
     }
 }

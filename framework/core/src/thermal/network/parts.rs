@@ -184,7 +184,7 @@ impl Network {
                         format!("thermal.network.nodes.{name}"),
                         format!("not as much oil flows out of `{name}` as into it: heat leaves with it, or comes from nowhere"),
                     )
-                    .mend("close the circuit by flows, each with the share that it takes on"),
+                    .help("close the circuit by flows, each with the share that it takes on"),
                 );
             }
         }

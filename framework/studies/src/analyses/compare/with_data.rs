@@ -131,8 +131,8 @@ pub(super) fn compare(
     let all: Vec<DataComparison> = solved.iter().map(|s| comparison(entry, &measured, s)).collect();
     if all.iter().all(|c| c.points.iter().all(|p| p.measured.is_none())) {
         let message = format!("{file}: nothing gives a measured {}", entry.quantity.name());
-        let mend = "name a column of it, or columns of torque and speed at both ports";
-        return Err(cx.wrong(&path, message, mend));
+        let help = "name a column of it, or columns of torque and speed at both ports";
+        return Err(cx.wrong(&path, message, help));
     }
     let built: Vec<&Built<'_>> = solved.iter().flat_map(|s| &s.built).collect();
     let data = DataOfComparison {

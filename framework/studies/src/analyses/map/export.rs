@@ -214,8 +214,8 @@ pub(super) fn check(cx: &Context<'_>, formats: &[ExportName], planned: &[Planned
             let reference = &t.ports()[t.reference_port()].name;
             if [&conditions.torque_at, &conditions.speed_at] != [reference, reference] {
                 let message = format!("a table for another program gives torque and speed at `{reference}`");
-                let mend = format!("write `torque_at: {reference}` and `speed_at: {reference}` under `conditions`");
-                return Err(cx.wrong(&path, message, &mend));
+                let help = format!("write `torque_at: {reference}` and `speed_at: {reference}` under `conditions`");
+                return Err(cx.wrong(&path, message, &help));
             }
             let rising = |list: &[f64]| list.windows(2).all(|w| w[0] < w[1]);
             let fits = if rising(&plan.axes.torques) && rising(&plan.axes.speeds) {

@@ -45,8 +45,8 @@ pub fn on_grid<'s>(
         cx.wrong(&format!("{path}.bind"), message, "write `[60 ml, 90 ml]`, say")
     })?;
     if let Some(Err(reason)) = grid.envelope.as_ref().map(Envelope::check) {
-        let mend = "give as many torques as speeds, and speeds that rise";
-        return Err(cx.wrong(&format!("{path}.envelope"), reason, mend));
+        let help = "give as many torques as speeds, and speeds that rise";
+        return Err(cx.wrong(&format!("{path}.envelope"), reason, help));
     }
     let mut maps = Vec::new();
     for bound in combinations {

@@ -168,8 +168,8 @@ pub fn counted_points(
             cx.data(&path, &entry.data)?.file,
             entry.quantity.name()
         );
-        let mend = "name a column of it, or columns of torque and speed at both ports";
-        return Err(cx.wrong(&format!("{path}.data"), message, mend));
+        let help = "name a column of it, or columns of torque and speed at both ports";
+        return Err(cx.wrong(&format!("{path}.data"), message, help));
     }
     if let Some(why) = faults
         .values()

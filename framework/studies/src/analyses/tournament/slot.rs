@@ -142,8 +142,8 @@ fn taken_over(resolved: &Resolved, path: &str) -> bool {
 fn checked(language: &Language, model: &Value, path: &str) -> Result<Value, String> {
     let first = |list: Vec<Diagnostic>| {
         let first = list.into_iter().next();
-        first.map_or_else(String::new, |d| match d.mend {
-            Some(mend) => format!("{}; {mend}", d.message),
+        first.map_or_else(String::new, |d| match d.help {
+            Some(help) => format!("{}; {help}", d.message),
             None => d.message,
         })
     };

@@ -18,7 +18,7 @@ fn faults(entry: &FileCycleEntry, text: &str) -> Vec<String> {
     let found = Trace::read(entry, text.as_bytes()).unwrap_err();
     found
         .into_iter()
-        .map(|f| format!("{} | {}", f.message, f.mend))
+        .map(|f| format!("{} | {}", f.message, f.help))
         .collect()
 }
 
@@ -130,12 +130,12 @@ fn a_window_takes_the_rows_within() {
 
 #[test]
 fn times_that_repeat_or_fall_are_refused() {
-    let mend = "sort the rows by time, with one row for each; a recording that starts again is another file";
+    let help = "sort the rows by time, with one row for each; a recording that starts again is another file";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,0\n1,0\n1,0\n2,0\n0.5,0\n"),
         [
-            format!("line 4: time 1 s stands already in line 3 | {mend}"),
-            format!("line 6: time 0.5 s is before the 2 s of line 5 | {mend}"),
+            format!("line 4: time 1 s stands already in line 3 | {help}"),
+            format!("line 6: time 0.5 s is before the 2 s of line 5 | {help}"),
         ]
     );
 }
@@ -158,20 +158,20 @@ fn a_gap_is_refused_unless_it_is_accepted() {
 
 #[test]
 fn cells_without_a_number_are_told_together() {
-    let mend = "correct the cell, or leave the row out";
+    let help = "correct the cell, or leave the row out";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,NaN\n1,\n2,fast\n3,-0.1\n"),
         [
-            format!("line 2, column 2 `v`: `NaN` is not a number | {mend}"),
-            format!("line 3, column 2 `v`: empty | {mend}"),
-            format!("line 4, column 2 `v`: `fast` is not a number | {mend}"),
-            format!("line 5, column 2 `v`: `-0.1` is below zero | {mend}"),
+            format!("line 2, column 2 `v`: `NaN` is not a number | {help}"),
+            format!("line 3, column 2 `v`: empty | {help}"),
+            format!("line 4, column 2 `v`: `fast` is not a number | {help}"),
+            format!("line 5, column 2 `v`: `-0.1` is below zero | {help}"),
         ]
     );
     assert_eq!(
         faults(&entry(), "t [h],v [m/s]\n0,0\n1e308,0\n"),
         [format!(
-            "line 3, column 1 `t`: `1e308` is larger than anything that occurs | {mend}"
+            "line 3, column 1 `t`: `1e308` is larger than anything that occurs | {help}"
         )]
     );
     let many = format!("t [s],v [m/s]\n{}", "0,x\n".repeat(8));
@@ -179,7 +179,7 @@ fn cells_without_a_number_are_told_together() {
     assert_eq!(found.len(), 5);
     assert_eq!(
         found[4],
-        format!("line 6, column 2 `v`: `x` is not a number; 3 more of this kind follow | {mend}")
+        format!("line 6, column 2 `v`: `x` is not a number; 3 more of this kind follow | {help}")
     );
 }
 
@@ -234,13 +234,13 @@ fn unknown_and_missing_units_are_refused() {
 
 #[test]
 fn accelerations_that_no_vehicle_has_are_refused() {
-    let mend = "correct the speeds and their unit, or state `most_acceleration`";
+    let help = "correct the speeds and their unit, or state `most_acceleration`";
     let text = "t [s],v [m/s]\n0,0\n1,13\n2,13\n3,0.5\n";
     assert_eq!(
         faults(&entry(), text),
         [
-            format!("line 3: an acceleration of 13 m/s2 from the line before; the most is 12 m/s2 | {mend}"),
-            format!("line 5: an acceleration of -12.5 m/s2 from the line before; the most is 12 m/s2 | {mend}"),
+            format!("line 3: an acceleration of 13 m/s2 from the line before; the most is 12 m/s2 | {help}"),
+            format!("line 5: an acceleration of -12.5 m/s2 from the line before; the most is 12 m/s2 | {help}"),
         ]
     );
     let stated = FileCycleEntry {
@@ -270,14 +270,14 @@ fn a_shaft_may_change_its_speed_as_fast_as_it_is_stated() {
 
 #[test]
 fn fewer_than_two_rows_are_refused() {
-    let mend = "check the file, its header and its separator";
+    let help = "check the file, its header and its separator";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,0\n"),
-        [format!("1 row of 1 count; a series over time needs two | {mend}")]
+        [format!("1 row of 1 count; a series over time needs two | {help}")]
     );
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n"),
-        [format!("0 rows of 0 count; a series over time needs two | {mend}")]
+        [format!("0 rows of 0 count; a series over time needs two | {help}")]
     );
 }
 

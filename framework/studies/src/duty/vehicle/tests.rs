@@ -69,16 +69,16 @@ fn u7c_drag_and_rolling_resistance_at_150_km_h() {
 #[test]
 fn a_road_load_is_stated_once_and_wholly() {
     let message = |entry: VehicleEntry| entry.vehicle("vehicle").unwrap_err().to_string();
-    let mend = "(mend: state `coast_down`, or `drag_area` and `rolling_resistance`)";
+    let help = "(help: state `coast_down`, or `drag_area` and `rolling_resistance`)";
     let bare = || VehicleEntry {
         coast_down: None,
         ..sedan()
     };
-    assert_eq!(message(bare()), format!("vehicle: no road load is stated {mend}"));
+    assert_eq!(message(bare()), format!("vehicle: no road load is stated {help}"));
     let drag_area = Some(0.5);
     assert_eq!(
         message(VehicleEntry { drag_area, ..bare() }),
-        format!("vehicle: `rolling_resistance` is missing beside `drag_area` {mend}")
+        format!("vehicle: `rolling_resistance` is missing beside `drag_area` {help}")
     );
     let rolling_resistance = Some(0.01);
     assert_eq!(
@@ -86,16 +86,16 @@ fn a_road_load_is_stated_once_and_wholly() {
             rolling_resistance,
             ..bare()
         }),
-        format!("vehicle: `drag_area` is missing beside `rolling_resistance` {mend}")
+        format!("vehicle: `drag_area` is missing beside `rolling_resistance` {help}")
     );
     assert_eq!(
         message(VehicleEntry { drag_area, ..sedan() }),
-        format!("vehicle: the road load is stated twice {mend}")
+        format!("vehicle: the road load is stated twice {help}")
     );
     let air_density = Some(1.1);
     assert_eq!(
         message(VehicleEntry { air_density, ..sedan() }),
-        "vehicle.air_density: a coast-down test holds the air's density already (mend: leave `air_density` out)"
+        "vehicle.air_density: a coast-down test holds the air's density already (help: leave `air_density` out)"
     );
 }
 
