@@ -61,7 +61,7 @@ pub use fault::{Fault, Finding};
 pub use fit::{Counts, Derivative, Fit, Iteration, Reason, Side, Status};
 pub use kink::Kink;
 pub use multistart::{Kinship, Minima, Minimum, multistart};
-pub use options::{Differences, Noise, Options, Steps, Subproblem, Tolerances};
+pub use options::{Differences, Noise, OneSearch, Options, Searches, Steps, Subproblem, Tolerances};
 pub use points::{halton, spread};
 pub use problem::{Parameter, Prior, Problem, Scale};
 pub use robust::Loss;

@@ -1,9 +1,10 @@
 //! Why a problem cannot be fitted as it is stated.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// One thing that is wrong with a problem.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Finding {
     /// Where: a parameter, a residual, an option.
     pub place: String,
@@ -14,7 +15,7 @@ pub struct Finding {
 }
 
 /// Everything that is wrong with a problem, found at once.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fault {
     /// Each of it; never empty.
     pub findings: Vec<Finding>,

@@ -1,12 +1,13 @@
 //! What became of a problem.
 
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 
 use super::kink::Kink;
 use super::subproblem::How;
 
 /// Why a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reason {
     /// Nothing is left of the residuals.
     ZeroResidual,
@@ -60,7 +61,7 @@ impl Reason {
 }
 
 /// What a fit is worth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Status {
     /// A minimum.
     Converged,
@@ -85,7 +86,7 @@ impl Status {
 }
 
 /// One of two bounds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Side {
     /// The lower one.
     Lower,
@@ -94,7 +95,7 @@ pub enum Side {
 }
 
 /// One step that was tried.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Iteration {
     /// Number of the attempt, from 1.
     pub attempt: usize,
@@ -123,7 +124,7 @@ pub struct Iteration {
 }
 
 /// How much work it was, over all attempts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Counts {
     /// Calls of the residual function, those for differences among them.
     pub evaluations: usize,
@@ -142,7 +143,7 @@ pub struct Counts {
 }
 
 /// Derivatives at the end, by central differences.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Derivative {
     /// Derivative of the rows by the coordinates u of all parameters: as many rows as there are residuals, columns of zeros
     /// for fixed parameters. Weighted by uncertainties as the residuals are, not by the loss.
@@ -157,7 +158,7 @@ pub struct Derivative {
 }
 
 /// A fit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
     /// Parameters in their own units.
     pub theta: Vec<f64>,

@@ -7,6 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::evaluate::Miss;
 use super::iterate::{Context, Point};
@@ -27,7 +28,7 @@ const CONCERNED: f64 = 0.25;
 const JUMP: f64 = 0.5;
 
 /// A kink or jump that holds a minimum along one parameter.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Kink {
     /// The parameter that moves; all others follow.
     pub parameter: usize,

@@ -1,6 +1,7 @@
 //! The least of a linear model of the residuals inside a ball and a box.
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 use super::cone;
 use super::dogleg;
@@ -8,7 +9,7 @@ use super::linear;
 use super::options::Subproblem;
 
 /// How a step was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum How {
     /// The Gauss-Newton step lies inside ball and bounds.
     Shortcut,

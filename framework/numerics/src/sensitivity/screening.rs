@@ -8,7 +8,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::run::outputs;
+use super::run::{Evaluate, outputs};
 use crate::sampling::Sobol;
 
 /// Levels of a coordinate, from zero to one.
@@ -98,7 +98,7 @@ impl Screening {
 /// not finite.
 pub fn screening<F>(parameters: usize, trajectories: usize, function: F) -> Result<Screening, String>
 where
-    F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
+    F: Evaluate,
 {
     if trajectories < 2 {
         return Err("a screening needs two trajectories or more".to_owned());

@@ -86,7 +86,7 @@ impl Analysis for BreakdownEntry {
         };
         let stacks = Stacks::new(self.by, self.unit, &built);
         let mut breakdowns = Vec::new();
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &b.transmission)?;
             let loads = self.loads(cx, &b.transmission, &speeds)?;
             cx.holds(&path, speeds.len(), loads.len())?;
@@ -98,8 +98,9 @@ impl Analysis for BreakdownEntry {
                 oil: None,
             });
             let beside = |point: &PointResult| beside(&measured, point, gear);
-            breakdowns.extend(stacks.solve(cx, b, gear, rows, &beside)?);
+            breakdowns.extend(cx.part(i, || stacks.solve(cx, b, gear, rows, &beside))?.flatten());
         }
+        cx.complete()?;
         Ok(BreakdownOutcome {
             measured_notes: measured.notes,
             ..stacks.outcome(cx, &built, breakdowns)?

@@ -202,6 +202,7 @@ impl Analysis for ComponentCompareEntry {
             },
         };
         self.check_names(cx)?;
+        cx.undivided()?;
         // A model that fails does not stop the others.
         let (mut evaluated, mut failures) = (Vec::new(), Vec::new());
         for (model, value) in self.models.iter() {
@@ -215,7 +216,6 @@ impl Analysis for ComponentCompareEntry {
             return Err(Stopped::Several(failures));
         }
         cx.begin()?;
-        cx.undivided()?;
         let head = cx.head(&evaluated.iter().map(|e| &e.built).collect::<Vec<_>>());
         let given = cx.points(&evaluated[0].built.transmission, "", Vec::new(), Vec::new());
         let gear = evaluated[0].gear.clone();

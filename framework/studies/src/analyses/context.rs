@@ -1,6 +1,6 @@
 //! What an analysis is given: the study, the way to solve its points, and whom to report progress to.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use gearloss_framework::document::Diagnostic;
@@ -8,6 +8,9 @@ use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::{Case, Transmission};
+use rayon::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::head::{Head, InputFile};
@@ -86,8 +89,15 @@ pub struct Context<'a> {
     progress: &'a dyn Progress,
     /// Results of tasks that are kept.
     tasks: Option<&'a dyn TaskResults>,
-    /// Number of the stage that is next.
+    /// Number of the part of the analysis that is computed.
+    part: AtomicUsize,
+    /// Number of the stage that is next in it.
     stage: AtomicUsize,
+    /// Whether a part was omitted because it needs results that other runs compute.
+    incomplete: AtomicBool,
+    /// Why the current part ends early, where a function that cannot say so was in between.
+    ended: Mutex<Option<Stopped>>,
+    has_ended: AtomicBool,
     /// Its own lock, because files are also read in parallel.
     record: Mutex<Record>,
 }
@@ -103,7 +113,11 @@ impl<'a> Context<'a> {
             sink: None,
             progress,
             tasks: None,
+            part: AtomicUsize::new(0),
             stage: AtomicUsize::new(0),
+            incomplete: AtomicBool::new(false),
+            ended: Mutex::default(),
+            has_ended: AtomicBool::new(false),
             record: Mutex::default(),
         }
     }
@@ -258,12 +272,42 @@ impl<'a> Context<'a> {
         Running::new(self.progress, label, count)
     }
 
-    /// False where the caller wants to break off.
+    /// False where the caller wants to break off, or where the analysis has ended.
     pub fn goes_on(&self) -> bool {
-        self.progress.goes_on()
+        self.progress.goes_on() && !self.has_ended.load(Ordering::Relaxed)
     }
 
-    /// Solves all points and holds them.
+    /// Ends the analysis from within a function that has errors of its own: [`Context::goes_on`] turns false, and
+    /// [`Context::why_ended`] returns the reason.
+    pub fn end(&self, why: Stopped) {
+        *self.ended.lock().unwrap_or_else(PoisonError::into_inner) = Some(why);
+        self.has_ended.store(true, Ordering::Relaxed);
+    }
+
+    /// Why [`Context::goes_on`] is false.
+    pub fn why_ended(&self) -> Stopped {
+        let why = self.ended.lock().unwrap_or_else(PoisonError::into_inner).take();
+        self.has_ended.store(false, Ordering::Relaxed);
+        why.unwrap_or(Stopped::Interrupted)
+    }
+
+    /// Solves all points in this run, and holds them: for few points on which later stages depend.
+    ///
+    /// # Errors
+    /// Points that do not fit or are too many, and an interruption.
+    pub fn solve_here(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Stopped> {
+        self.holds("analyses", points.field.len(), 1)?;
+        self.checked(built, points)?;
+        let mut all = GridResult::default();
+        let numbers: Vec<usize> = (0..points.field.pieces()).collect();
+        self.evaluate(built, points, &numbers, &held, &mut |piece| {
+            all.add(piece);
+            Ok(())
+        })?;
+        Ok(all)
+    }
+
+    /// Solves all points, as [`Context::solve_pieces`] does, and holds them.
     ///
     /// # Errors
     /// Points that do not fit or are too many, and an interruption.
@@ -312,6 +356,88 @@ impl<'a> Context<'a> {
         Ok(())
     }
 
+    /// Computes a stage of so many tasks on all threads, and gives their results in their order. Results are stored to the bit. A
+    /// result that was computed while [`Context::goes_on`] turned false is dropped.
+    ///
+    /// # Errors
+    /// An interruption, and results that other runs compute.
+    pub fn each<R: Serialize + DeserializeOwned + Send>(
+        &self,
+        label: &str,
+        count: usize,
+        compute: impl Fn(usize) -> R + Sync,
+    ) -> Result<Vec<R>, Stopped> {
+        let stage = self.next_stage();
+        let missing = match self.tasks {
+            Some(kept) => self.missing(kept, stage, count)?,
+            None => Missing {
+                own: (0..count).collect(),
+                others: 0,
+            },
+        };
+        let running = self.running(missing.own.len(), label);
+        let compute = |number: usize| {
+            if !self.goes_on() {
+                return Err(Stopped::Interrupted);
+            }
+            let result = compute(number);
+            if !running.advance(1) {
+                return Err(Stopped::Interrupted);
+            }
+            if let Some(kept) = self.tasks.filter(|kept| !kept.completes()) {
+                let bytes = postcard::to_stdvec(&result).map_err(|e| Stopped::Unwritten(format!("error: {e}\n")))?;
+                kept.keep(self.task(stage, number), &bytes)?;
+            }
+            Ok(result)
+        };
+        let own: Vec<Result<R, Stopped>> = missing.own.par_iter().with_max_len(1).map(|i| compute(*i)).collect();
+        let own: Vec<R> = own.into_iter().collect::<Result<_, _>>()?;
+        let Some(kept) = self.tasks else { return Ok(own) };
+        missing.end()?;
+        let mut own = missing.own.iter().zip(own).peekable();
+        let result = |number: usize| match own.next_if(|(own, _)| **own == number) {
+            Some((_, result)) => Ok(result),
+            None => {
+                let task = self.task(stage, number);
+                postcard::from_bytes(&kept.read(task)?).map_err(|_| unlike(task))
+            }
+        };
+        (0..count).map(result).collect()
+    }
+
+    /// Computes a part of the analysis that does not depend on its other parts, such as one model set. Nothing where it needs results
+    /// that other runs compute: they are missing when [`Context::complete`] is called. Parts do not contain parts.
+    ///
+    /// # Errors
+    /// Those of the part.
+    pub fn part<T>(&self, number: usize, compute: impl FnOnce() -> Result<T, Stopped>) -> Result<Option<T>, Stopped> {
+        let stage = self.stage.swap(0, Ordering::Relaxed);
+        self.part.store(number + 1, Ordering::Relaxed);
+        let result = compute();
+        self.part.store(0, Ordering::Relaxed);
+        self.stage.store(stage, Ordering::Relaxed);
+        match result {
+            Ok(result) => Ok(Some(result)),
+            Err(Stopped::Elsewhere) => {
+                self.incomplete.store(true, Ordering::Relaxed);
+                Ok(None)
+            }
+            Err(stopped) => Err(stopped),
+        }
+    }
+
+    /// Comes after all parts.
+    ///
+    /// # Errors
+    /// [`Stopped::Elsewhere`] where one of them is missing.
+    pub fn complete(&self) -> Result<(), Stopped> {
+        if self.incomplete.load(Ordering::Relaxed) {
+            Err(Stopped::Elsewhere)
+        } else {
+            Ok(())
+        }
+    }
+
     /// Comes before work that is not split into tasks: it is left to the run that completes what others have begun.
     ///
     /// # Errors
@@ -330,6 +456,7 @@ impl<'a> Context<'a> {
     fn task(&self, stage: usize, number: usize) -> Task<'_> {
         Task {
             analysis: self.name,
+            part: self.part.load(Ordering::Relaxed),
             stage,
             number,
         }
@@ -454,11 +581,12 @@ impl Missing {
 fn unlike(task: Task<'_>) -> Stopped {
     let Task {
         analysis,
+        part,
         stage,
         number,
     } = task;
     Stopped::Unwritten(format!(
-        "error: result {number} of stage {stage} of `{analysis}` is not that of its task\n  = help: delete the folders of the shards and run them again\n"
+        "error: result {number} of stage {stage} in part {part} of `{analysis}` is not that of its task\n  = help: delete the folders of the shards and run them again\n"
     ))
 }
 

@@ -85,13 +85,23 @@ impl Analysis for CycleAnalysisEntry {
         let duties = Duties::new(cx, &path, &self.drive)?;
         self.check_reference(cx, &path, &duties)?;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
-        let mut cycles = Vec::new();
         for b in &built {
             duties.check(cx, &path, b)?;
             if cx.only_checks {
                 Input::all(cx, &path, &self.inputs, b)?;
-                continue;
             }
+        }
+        cx.begin()?;
+        let mut all_bands = Vec::new();
+        if !self.inputs.is_empty() {
+            for (i, b) in built.iter().enumerate() {
+                all_bands.extend(cx.part(i, || bands::bands(cx, self, b, (&duties, &names)))?);
+            }
+            cx.complete()?;
+        }
+        cx.undivided()?;
+        let mut cycles = Vec::new();
+        for b in &built {
             let shares = Shares::of(&b.transmission, self.by).under(&names);
             let running = cx.running(duties.intervals(), &b.name);
             for read in &duties.list {
@@ -101,13 +111,10 @@ impl Analysis for CycleAnalysisEntry {
                 cycles.push(results::duty(b, read, &driven, &shares, self.reference.get(&read.name)));
             }
         }
-        cx.begin()?;
-        cx.undivided()?;
         let mut all_left = Vec::new();
-        if !self.inputs.is_empty() {
-            for (b, own) in built.iter().zip(cycles.chunks_mut(duties.list.len())) {
-                all_left.extend(bands::add(cx, self, b, (&duties, &names), own)?);
-            }
+        for (bands, own) in all_bands.into_iter().zip(cycles.chunks_mut(duties.list.len())) {
+            bands.add_to(own);
+            all_left.extend(bands.left());
         }
         Ok(CycleOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
@@ -175,7 +182,10 @@ impl Outcome for CycleOutcome {
     }
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+        self.left
+            .iter()
+            .map(|(path, name)| (path.as_str(), name.as_str()))
+            .collect()
     }
 
     fn fault(&self) -> Option<Diagnostic> {

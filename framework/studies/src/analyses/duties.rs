@@ -257,7 +257,7 @@ pub fn nodes(t: &Transmission, driven: &Driven) -> Vec<String> {
 }
 
 /// Mean losses of a duty.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeanLoss {
     /// Loss of the transmission. \[W\]
     pub loss: f64,

@@ -3,7 +3,6 @@
 mod least;
 mod swept;
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -77,7 +76,7 @@ pub struct FluidSweepOutcome {
     pub fluid_sweep: Vec<FluidsOfSet>,
     /// Stated ranges that oils left, set after set.
     #[serde(skip)]
-    pub left: Vec<(String, &'static str)>,
+    pub left: Vec<(String, String)>,
 }
 
 /// Mean losses over one property of an oil under one model set.
@@ -159,7 +158,7 @@ impl Analysis for FluidSweepEntry {
         let built = cx.built(gearbox, &self.drive.model_sets)?;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
         let (mut sets, mut all_left) = (Vec::new(), Vec::new());
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             duties.check(cx, &path, b)?;
             let swept = Swept::new(cx, &path, self, b)?;
             let values = swept.values(cx, &path, self)?;
@@ -178,15 +177,17 @@ impl Analysis for FluidSweepEntry {
                 search.check(&values)?;
                 continue;
             }
-            search.drive(&values, false)?;
-            if self.refine {
-                search.refine()?;
+            let driven = cx.part(i, || {
+                search.drive(&values, false)?;
+                if self.refine { search.refine() } else { Ok(()) }
+            })?;
+            if driven.is_some() {
+                sets.push(search.result(b));
+                all_left.extend(search.left);
             }
-            sets.push(search.result(b));
-            all_left.extend(search.left);
         }
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         Ok(FluidSweepOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
             fluid_sweep: sets,
@@ -228,14 +229,10 @@ impl Search<'_> {
 
     /// Drives all duties with oils of some values, and keeps them.
     fn drive(&mut self, values: &[f64], refined: bool) -> Result<(), Stopped> {
-        let running = self.cx.running(values.len(), &self.label);
-        let driven = |value: &f64| {
-            let losses = self.mean_losses(*value);
-            running.advance(1);
-            (*value, losses)
-        };
-        let all: Vec<_> = values.par_iter().with_max_len(1).map(driven).collect();
-        for (value, result) in all {
+        let all = self
+            .cx
+            .each(&self.label, values.len(), |i| self.mean_losses(values[i]))?;
+        for (value, result) in values.iter().copied().zip(all) {
             let (losses, more) = result.map_err(|reason| self.failed(value, &reason))?;
             self.left.extend(more);
             self.fluids.push(Fluid { value, losses, refined });
@@ -272,7 +269,7 @@ impl Search<'_> {
 
     fn failed(&self, value: f64, reason: &str) -> Stopped {
         if !self.cx.goes_on() {
-            return Stopped::Interrupted;
+            return self.cx.why_ended();
         }
         let help = "leave the value out, or narrow the range";
         self.cx.wrong(&self.cx.path(), format!("{value}: {reason}"), help)
@@ -353,6 +350,9 @@ impl Outcome for FluidSweepOutcome {
     }
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+        self.left
+            .iter()
+            .map(|(path, name)| (path.as_str(), name.as_str()))
+            .collect()
     }
 }

@@ -19,7 +19,7 @@ mod values;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_numerics::inference::{Accuracy, Fold};
-use gearloss_numerics::least_squares::{self, Fault, Loss};
+use gearloss_numerics::least_squares::{self, Fault, Loss, OneSearch};
 
 pub use entry::{IdentifyEntry, NextEntry, PosteriorEntry, RobustEntry, RobustLoss, RuleEntry};
 pub use folds::{FoldOfSet, FoldsOfSet};
@@ -56,11 +56,11 @@ impl Analysis for IdentifyEntry {
             file: &file,
         };
         let mut identifications = Vec::new();
-        for b in &built {
-            identifications.extend(identify(cx, self, b, &points)?);
+        for (i, b) in built.iter().enumerate() {
+            identifications.extend(cx.part(i, || identify(cx, self, b, &points))?.flatten());
         }
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         let (comparison_of_sets, not_compared) = match compare::compare(&identifications) {
             None => (None, None),
             Some(Ok(compared)) => (Some(compared), None),
@@ -145,16 +145,24 @@ fn identify(
         return Ok(None);
     }
     let pressed = || !cx.goes_on();
+    let searches = |count: usize, search: &OneSearch<'_>| {
+        let fits = cx.each(&format!("{} starts", b.name), count, search);
+        fits.unwrap_or_else(|stopped| {
+            cx.end(stopped);
+            vec![Err(Fault::of("the search", "it was broken off", "run it again"))]
+        })
+    };
     let settings = Settings {
         loss: loss(entry),
         loss_scale: entry.robust.map_or(2.0, |robust| robust.scale),
         starts: entry.starts as usize,
         accuracy_factors: entry.accuracy_factors,
         interrupt: Some(&pressed),
+        searches: Some(&searches),
     };
     let fitted = match identification.fit(&settings) {
         Ok(fitted) => fitted,
-        Err(_) if pressed() => return Err(Stopped::Interrupted),
+        Err(_) if pressed() => return Err(cx.why_ended()),
         Err(fault) => return Err(fault_of_search(cx, &fault)),
     };
     let gear = gear_of(entry.gear.as_deref(), &b.transmission);

@@ -228,8 +228,8 @@ impl MapEntry {
         let all: Vec<&Built<'_>> = planned.iter().map(|plan| &*plan.built).collect();
         let mut rows = Rows::new(cx, self, &bound, &all);
         let whole = !self.export.is_empty();
-        let (mut maps, mut elsewhere) = (Vec::new(), false);
-        for plan in &planned {
+        let mut maps = Vec::new();
+        for (number, plan) in planned.iter().enumerate() {
             let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, &rows);
             map.shown = ShownMap::new(Some(&plan.axes), whole);
             let taker = Taker {
@@ -239,21 +239,18 @@ impl MapEntry {
                 wanted: rows.wanted,
             };
             let take = |points: &mut Numbered<'_>| taker.take(points);
-            let solved = cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
-                map.add(piece, &taker.rows, &mut rows)
-            });
-            // A run that solves its part goes on with that of the next map.
-            if let Err(Stopped::Elsewhere) = solved {
-                elsewhere = true;
+            let solve = || {
+                cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
+                    map.add(piece, &taker.rows, &mut rows)
+                })
+            };
+            if cx.part(number, solve)?.is_none() {
                 continue;
             }
-            solved?;
             map.notes = notes(&plan.built.transmission, &map.seen);
             maps.push(map);
         }
-        if elsewhere {
-            return Err(Stopped::Elsewhere);
-        }
+        cx.complete()?;
         for map in &mut maps {
             map.export = ExportData::solve(cx, &self.export, map)?;
         }

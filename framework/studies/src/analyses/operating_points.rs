@@ -185,9 +185,9 @@ impl Analysis for OperatingPointsEntry {
         let listed = cx.read(&format!("{path}.data"), &self.data, &bind)?;
         let gear = self.gear.as_deref();
         let terms = self.by == By::Term;
+        cx.undivided()?;
         let all = cx.at_rows(gearbox, &self.model_sets, &self.bind, gear, &listed, terms)?;
         cx.begin()?;
-        cx.undivided()?;
         let built: Vec<&Built<'_>> = all.iter().flat_map(|s| &s.built).collect();
         let shares = together(built.iter().map(|b| &b.transmission), self.by);
         Ok(OperatingPointsOutcome {

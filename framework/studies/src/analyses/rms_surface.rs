@@ -101,12 +101,12 @@ impl Analysis for RmsSurfaceEntry {
             sets.push((built, axes));
         }
         cx.begin()?;
-        cx.undivided()?;
         let mut left_at_pairs = Left::new();
         let mut solved = Vec::new();
-        for (built, axes) in &sets {
-            solved.push(pairs(cx, self, built, axes, &rows, &mut left_at_pairs)?);
+        for (i, (built, axes)) in sets.iter().enumerate() {
+            solved.extend(cx.part(i, || pairs(cx, self, built, axes, &rows, &mut left_at_pairs))?);
         }
+        cx.complete()?;
         let counted = counted_points(cx, self, &measured, &sets, &solved)?;
         let mut surfaces = Vec::new();
         for ((built, axes), pairs) in sets.iter().zip(solved) {

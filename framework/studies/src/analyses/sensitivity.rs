@@ -3,10 +3,12 @@
 mod outcome;
 mod outputs;
 
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 use gearloss_numerics::inference::{Parameter, Scale};
-use gearloss_numerics::sensitivity::{Local, Screening, VarianceShares, local, screening, variance_shares};
+use gearloss_numerics::sensitivity::{
+    Evaluate, Local, PointOf, Screening, VarianceShares, local, screening, variance_shares,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +20,6 @@ pub use outputs::OutputKind;
 
 use self::outputs::Outputs;
 use super::axes::grid_axes;
-use super::progress::Running;
 use super::ranges::{Range, once};
 use super::trial::{Left, Trial, left};
 use super::{Analysis, Built, Context, Entry, Stopped};
@@ -111,15 +112,15 @@ impl Analysis for SensitivityEntry {
         let grid = self.checked_grid(cx)?;
         let built = cx.built(gearbox, &self.model_sets)?;
         let mut sensitivities = Vec::new();
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             let gear = cx.one_gear(&cx.path(), grid, &b.transmission)?;
             let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
             let mut points = cx.points(&b.transmission, &gear, torques, speeds);
             points.terms = true;
-            sensitivities.extend(self.under_set(cx, b, &points)?);
+            sensitivities.extend(cx.part(i, || self.under_set(cx, b, &points))?.flatten());
         }
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());
         Ok(SensitivityOutcome { head, sensitivities })
     }
@@ -140,43 +141,66 @@ struct Found {
 
 /// What each evaluation needs; on any thread.
 struct Evaluations<'a> {
+    cx: &'a Context<'a>,
+    /// What progress is reported as.
+    label: &'a str,
     trial: Trial<'a>,
     points: &'a Points,
     ranges: &'a [Range],
     outputs: &'a Outputs,
-    running: Running<'a>,
     left: Mutex<Left>,
 }
 
+/// Where a method evaluates: at values of the parameters, or shares of their ranges.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    evaluations: &'a Evaluations<'a>,
+    shares: bool,
+}
+
+impl Evaluate for At<'_> {
+    fn outputs(&self, count: usize, point: &PointOf<'_>) -> Vec<Result<Vec<f64>, String>> {
+        let Self { evaluations, shares } = self;
+        let evaluate = |i: usize| {
+            let point = point(i);
+            if *shares {
+                let places = evaluations.ranges.iter().zip(&point);
+                let values: Vec<f64> = places.map(|(range, share)| range.at(*share)).collect();
+                evaluations.solved(&values)
+            } else {
+                evaluations.solved(&point)
+            }
+        };
+        let all: Vec<(Result<Vec<f64>, String>, Left)> = match evaluations.cx.each(evaluations.label, count, evaluate) {
+            Ok(all) => all,
+            Err(stopped) => {
+                evaluations.cx.end(stopped);
+                return vec![Err("interrupted".to_owned())];
+            }
+        };
+        let mut seen = evaluations.left.lock().unwrap_or_else(PoisonError::into_inner);
+        let outputs = all.into_iter().map(|(outputs, left)| {
+            seen.extend(left);
+            outputs
+        });
+        outputs.collect()
+    }
+}
+
 impl Evaluations<'_> {
-    /// The outputs at values of the parameters.
-    fn at_values(&self, values: &[f64]) -> Result<Vec<f64>, String> {
-        if !self.running.goes_on() {
-            return Err("interrupted".to_owned());
-        }
-        let found = self
-            .solved(values)
-            .map_err(|reason| format!("{}: {reason}", words(self.ranges, values)));
-        self.running.advance(1);
-        found
-    }
-
-    /// The same at shares of their ranges.
-    fn at_shares(&self, shares: &[f64]) -> Result<Vec<f64>, String> {
-        let places = self.ranges.iter().zip(shares);
-        let values: Vec<f64> = places.map(|(range, share)| range.at(*share)).collect();
-        self.at_values(&values)
-    }
-
-    fn solved(&self, values: &[f64]) -> Result<Vec<f64>, String> {
-        let changes = self.ranges.iter().zip(values);
-        let changes = changes.flat_map(|(range, value)| range.varied.overrides(*value));
-        let transmission = self.trial.build(changes)?;
-        let solved = self.trial.solve(&transmission, self.points)?;
-        if let Ok(mut seen) = self.left.lock() {
+    /// The outputs at values of the parameters, and the stated ranges outside which they lie.
+    fn solved(&self, values: &[f64]) -> (Result<Vec<f64>, String>, Left) {
+        let mut seen = Left::new();
+        let mut outputs = || {
+            let changes = self.ranges.iter().zip(values);
+            let changes = changes.flat_map(|(range, value)| range.varied.overrides(*value));
+            let transmission = self.trial.build(changes)?;
+            let solved = self.trial.solve(&transmission, self.points)?;
             seen.extend(left(&transmission, &solved.seen));
-        }
-        self.outputs.values(&transmission, &solved.points)
+            self.outputs.values(&transmission, &solved.points)
+        };
+        let outputs = outputs().map_err(|reason: String| format!("{}: {reason}", words(self.ranges, values)));
+        (outputs, seen)
     }
 }
 
@@ -253,21 +277,22 @@ impl SensitivityEntry {
             cx.wrong(&cx.path(), message, help)
         };
         let t = &built.transmission;
-        let nominal = cx.solve(built, points)?;
+        let nominal = cx.solve_here(built, points)?;
         let relative = self.does(Method::Morris) || self.does(Method::Sobol);
         let outputs = Outputs::new(t, &nominal.points, relative);
         let means = outputs.values(t, &nominal.points).map_err(no_value)?;
         let evaluations = Evaluations {
+            cx,
+            label: &built.name,
             trial: Trial::new(cx, built),
             points,
             ranges: &ranges,
             outputs: &outputs,
-            running: cx.running(count, &built.name),
             left: Mutex::default(),
         };
         let found = self.found(&starts, &evaluations);
         if !cx.goes_on() {
-            return Err(Stopped::Interrupted);
+            return Err(cx.why_ended());
         }
         let found = found.map_err(no_value)?;
         let left_at_samples = evaluations.left.into_inner().unwrap_or_default();
@@ -291,8 +316,7 @@ impl SensitivityEntry {
     fn found(&self, starts: &[Parameter], evaluations: &Evaluations<'_>) -> Result<Found, String> {
         let parameters = evaluations.ranges.len();
         let (trajectories, samples) = (self.trajectories as usize, self.samples as usize);
-        let values = |values: &[f64]| evaluations.at_values(values);
-        let shares = |shares: &[f64]| evaluations.at_shares(shares);
+        let [values, shares] = [false, true].map(|shares| At { evaluations, shares });
         let slopes = self.does(Method::Local).then(|| local(starts, NOISE, values));
         let slopes = slopes.transpose()?;
         let morris = self

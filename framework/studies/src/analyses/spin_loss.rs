@@ -53,7 +53,7 @@ impl Analysis for SpinLossEntry {
         let path = cx.path();
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let stacks = Stacks::new(self.by, As::Watts, &built);
-        let mut breakdowns = Vec::new();
+        let (mut breakdowns, mut number) = (Vec::new(), 0);
         for b in &built {
             let t = &b.transmission;
             let turned = self.turned(cx, t)?;
@@ -64,9 +64,12 @@ impl Analysis for SpinLossEntry {
                 self.gears.iter().map(String::as_str).collect()
             };
             for gear in gears {
-                breakdowns.extend(unloaded(cx, b, &stacks, gear, turned, &speeds)?);
+                number += 1;
+                let unloaded = cx.part(number, || unloaded(cx, b, &stacks, gear, turned, &speeds))?;
+                breakdowns.extend(unloaded.flatten());
             }
         }
+        cx.complete()?;
         stacks.outcome(cx, &built, breakdowns)
     }
 

@@ -76,7 +76,7 @@ impl Analysis for SweepEntry {
         self.oil_is_free(cx)?;
         let all = self.solve(cx)?;
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         let shares = together(all.iter().map(|value| &value.built.transmission), self.by);
         let quantity = |built: &Built<'_>, path: &String| Varied::new(cx.language, &built.resolved, path, Tie::Value);
         let varied: Vec<Varied> = match all.first() {
@@ -136,7 +136,7 @@ impl SweepEntry {
             Some(second) => second.values.iter().map(|value| Some((&second.path, value))).collect(),
             None => vec![None],
         };
-        let (mut all, mut held) = (Vec::new(), 0);
+        let (mut all, mut held, mut number) = (Vec::new(), 0, 0);
         for (k, second) in seconds.iter().enumerate() {
             for (i, value) in self.values.iter().enumerate() {
                 // Where every value fails it is the path that is wrong, which stands first.
@@ -145,6 +145,7 @@ impl SweepEntry {
                     second.map(|(own, value)| (own.clone(), value.clone(), format!("{path}.second.values.{k}")));
                 changes.extend(second);
                 for built in cx.built_with(gearbox, &self.model_sets, &changes)? {
+                    number += 1;
                     let t = &built.transmission;
                     let gear = gear_of(self.gear.as_deref(), t).to_owned();
                     let torques = torques(cx, &format!("{path}.torque"), &self.torque, t)?;
@@ -155,8 +156,10 @@ impl SweepEntry {
                     if cx.checked(&built, &points)? {
                         continue;
                     }
-                    let result = cx.solve(&built, &points)?;
-                    held += result.points.len();
+                    held += points.field.len();
+                    let Some(result) = cx.part(number, || cx.solve(&built, &points))? else {
+                        continue;
+                    };
                     all.push(Solved {
                         places: [i, k],
                         built,

@@ -59,7 +59,7 @@ impl Analysis for TemperatureSweepEntry {
         let temperatures = axis(cx, &format!("{path}.oil_temperature"), own)?;
         let stacks = Stacks::new(self.by, self.unit, &built);
         let mut breakdowns = Vec::new();
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             let t = &b.transmission;
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, t)?;
             let torques = torques(cx, &format!("{path}.torque"), &self.torque, t)?;
@@ -71,8 +71,9 @@ impl Analysis for TemperatureSweepEntry {
                 }
             }
             let gear = gear_of(self.gear.as_deref(), t);
-            breakdowns.extend(stacks.solve(cx, b, gear, rows, &|_| None)?);
+            breakdowns.extend(cx.part(i, || stacks.solve(cx, b, gear, rows, &|_| None))?.flatten());
         }
+        cx.complete()?;
         stacks.outcome(cx, &built, breakdowns)
     }
 

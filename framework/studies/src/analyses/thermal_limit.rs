@@ -123,6 +123,7 @@ impl Analysis for ThermalLimitEntry {
     fn run(&self, cx: &Context<'_>) -> Result<ThermalLimitOutcome, Stopped> {
         let path = cx.path();
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        cx.undivided()?;
         let mut thermal_limits = Vec::new();
         for b in &built {
             needs_balance(cx, b)?;
@@ -155,7 +156,6 @@ impl Analysis for ThermalLimitEntry {
             thermal_limits.push(search.all(&self.temperature, outwards(&range), &fixed));
         }
         cx.begin()?;
-        cx.undivided()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());
         Ok(ThermalLimitOutcome { head, thermal_limits })
     }

@@ -13,7 +13,7 @@ use super::{Built, Context};
 use crate::study::Study;
 
 /// Stated ranges that were left: path and quantity.
-pub type Left = BTreeSet<(String, &'static str)>;
+pub type Left = BTreeSet<(String, String)>;
 
 /// What is built anew.
 pub struct Trial<'a> {
@@ -79,9 +79,9 @@ impl<'a> Trial<'a> {
 }
 
 /// The stated ranges that a solved trial left.
-pub fn left(transmission: &Transmission, seen: &[Extent]) -> impl Iterator<Item = (String, &'static str)> {
+pub fn left(transmission: &Transmission, seen: &[Extent]) -> impl Iterator<Item = (String, String)> {
     let outside = notes(transmission, seen).into_iter().filter(|n| n.outside > 0);
-    outside.map(|n| (n.path, n.name))
+    outside.map(|n| (n.path, n.name.to_owned()))
 }
 
 /// Why a point has no loss.

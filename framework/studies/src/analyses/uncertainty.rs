@@ -65,7 +65,7 @@ pub struct UncertaintyOutcome {
     pub bands: Vec<BandsOfSet>,
     /// Stated ranges that the nominal points or samples left, set after set.
     #[serde(skip)]
-    pub left: Vec<(String, &'static str)>,
+    pub left: Vec<(String, String)>,
 }
 
 /// Bands over a grid under one model set.
@@ -176,7 +176,7 @@ impl Analysis for UncertaintyEntry {
         let built = cx.built(gearbox, &self.model_sets)?;
         let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
         let (mut bands, mut all_left) = (Vec::new(), Vec::new());
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
             let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
             cx.holds(&format!("{path}.samples"), points.field.len(), self.samples as usize)?;
@@ -184,9 +184,11 @@ impl Analysis for UncertaintyEntry {
             if cx.checked(b, &points)? {
                 continue;
             }
-            let nominal = cx.solve(b, &points)?;
-            let mut left: Left = super::trial::left(&b.transmission, &nominal.seen).collect();
-            let samples = samples::solve(cx, self.samples, b, &inputs, &points, &mut left)?;
+            let mut left = Left::new();
+            let samples = cx.part(i, || samples::solve(cx, self.samples, b, &inputs, &points, &mut left))?;
+            let Some(samples) = samples else { continue };
+            let nominal = cx.solve_here(b, &points)?;
+            left.extend(super::trial::left(&b.transmission, &nominal.seen));
             all_left.extend(left);
             let points = samples.points(&nominal.points);
             bands.push(BandsOfSet {
@@ -204,7 +206,7 @@ impl Analysis for UncertaintyEntry {
             });
         }
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         Ok(UncertaintyOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
             bands,
@@ -286,6 +288,9 @@ impl Outcome for UncertaintyOutcome {
     }
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+        self.left
+            .iter()
+            .map(|(path, name)| (path.as_str(), name.as_str()))
+            .collect()
     }
 }

@@ -6,7 +6,8 @@ use super::{Identification, ModelKink};
 use crate::study::Quantity;
 use gearloss_numerics::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation};
 use gearloss_numerics::least_squares::{
-    Differences, Fault, Loss, Minima, Minimum, Noise, Options, Problem, Scale, Status, UNTOLD, multistart, solve,
+    Differences, Fault, Loss, Minima, Minimum, Noise, Options, Problem, Scale, Searches, Status, UNTOLD, multistart,
+    solve,
 };
 
 /// Confidence of intervals by profile.
@@ -48,6 +49,8 @@ pub struct Settings<'s> {
     pub accuracy_factors: bool,
     /// Asked again and again: whether to stop.
     pub interrupt: Interrupt<'s>,
+    /// Who runs the searches of several starts; absent, the threads of this process.
+    pub searches: Option<&'s Searches<'s>>,
 }
 
 impl Default for Settings<'_> {
@@ -58,6 +61,7 @@ impl Default for Settings<'_> {
             starts: 1,
             accuracy_factors: false,
             interrupt: None,
+            searches: None,
         }
     }
 }
@@ -117,6 +121,7 @@ impl<'s> Settings<'s> {
             // Other starts take the place of other steps.
             attempts: false,
             interrupt: self.interrupt,
+            searches: self.searches,
             ..Options::fit()
         };
         options.forward.relative_offset = REMAINING;

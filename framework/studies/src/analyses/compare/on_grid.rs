@@ -109,15 +109,18 @@ pub(super) fn compare(
     let mut solved: Vec<GridResult> = Vec::new();
     // Axes that count in shares of a rating have other values for each product; tables and pictures show those of the base.
     let (mut torques, mut speeds) = (Vec::new(), Vec::new());
-    for b in built.iter().rev() {
+    for (i, b) in built.iter().enumerate().rev() {
         (torques, speeds) = grid_axes(cx, grid_name, grid, &b.transmission)?;
         let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
         if cx.checked(b, &points)? {
             continue;
         }
-        solved.insert(0, cx.solve(b, &points)?);
+        if let Some(result) = cx.part(i, || cx.solve(b, &points))? {
+            solved.insert(0, result);
+        }
     }
     cx.begin()?;
+    cx.complete()?;
     let seen = notes(&built[0].transmission, &solved[0].seen);
     let base = Base {
         name: base,

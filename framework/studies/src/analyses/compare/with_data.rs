@@ -125,9 +125,9 @@ pub(super) fn compare(
     let file = cx.data(&path, data)?.file.to_string();
     let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
     let gear = entry.gear.as_deref();
+    cx.undivided()?;
     let solved = cx.at_rows(gearbox, &entry.against, &entry.bind, gear, &measured, false)?;
     cx.begin()?;
-    cx.undivided()?;
     let all: Vec<DataComparison> = solved.iter().map(|s| comparison(entry, &measured, s)).collect();
     if all.iter().all(|c| c.points.iter().all(|p| p.measured.is_none())) {
         let message = format!("{file}: nothing gives a measured {}", entry.quantity.name());

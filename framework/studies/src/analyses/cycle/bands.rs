@@ -1,7 +1,6 @@
 //! Bands of mean losses from uncertain inputs.
 
 use gearloss_numerics::sampling::Sobol;
-use rayon::prelude::*;
 
 use super::CycleAnalysisEntry;
 use super::outcome::{BandOfDuty, DutyOfSet, InputOfBand};
@@ -23,25 +22,45 @@ struct Samples {
     left: Left,
 }
 
-/// Drives all duties through samples of a gearbox and adds the bands to the results of the duties; the stated ranges that the
-/// samples left.
-pub fn add(
+/// Simulates all duties with samples of a gearbox.
+pub fn bands(
     cx: &Context<'_>,
     entry: &CycleAnalysisEntry,
     built: &Built<'_>,
     (duties, names): (&Duties<'_>, &[String]),
-    results: &mut [DutyOfSet],
-) -> Result<Left, Stopped> {
+) -> Result<Bands, Stopped> {
     let inputs = Input::all(cx, &cx.path(), &entry.inputs, built)?;
     let samples = sample(cx, entry, built, &inputs, (duties, names))?;
-    for (k, result) in results.iter_mut().enumerate() {
-        let mut band = samples.band(k, &inputs, names.len());
-        let [low, _, high] = band.mean_loss_w;
-        let reference = result.reference.as_ref();
-        band.reference_inside = reference.map(|reference| (low..=high).contains(&reference.mean_loss_w));
-        result.bands = Some(band);
+    Ok(Bands {
+        inputs,
+        samples,
+        shares: names.len(),
+    })
+}
+
+/// Samples of the duties of one model set.
+pub struct Bands {
+    inputs: Vec<Input>,
+    samples: Samples,
+    shares: usize,
+}
+
+impl Bands {
+    /// Adds the bands to the results of the duties.
+    pub fn add_to(&self, results: &mut [DutyOfSet]) {
+        for (k, result) in results.iter_mut().enumerate() {
+            let mut band = self.samples.band(k, &self.inputs, self.shares);
+            let [low, _, high] = band.mean_loss_w;
+            let reference = result.reference.as_ref();
+            band.reference_inside = reference.map(|reference| (low..=high).contains(&reference.mean_loss_w));
+            result.bands = Some(band);
+        }
     }
-    Ok(samples.left)
+
+    /// The stated ranges outside which samples lie.
+    pub fn left(self) -> Left {
+        self.samples.left
+    }
 }
 
 fn sample(
@@ -54,9 +73,8 @@ fn sample(
     let path = cx.path();
     let sobol = Sobol::new(inputs.len()).map_err(|reason| cx.wrong(&path, reason, "use fewer inputs"))?;
     let trial = Trial::new(cx, built);
-    let running = cx.running(entry.samples as usize, &format!("{} samples", built.name));
-    let sample = |i: u32| -> Result<(Vec<f64>, Vec<MeanLoss>, Left), String> {
-        let shares = sobol.point(i);
+    let sample = |i: usize| -> Result<(Vec<f64>, Vec<MeanLoss>, Left), String> {
+        let shares = sobol.point(i as u32);
         let values: Vec<f64> = inputs
             .iter()
             .zip(shares)
@@ -66,13 +84,9 @@ fn sample(
         let t = trial.build(changes.flat_map(|(input, value)| input.range.varied.overrides(*value)))?;
         let driven = duties.mean_losses(cx, &t, entry.by, names);
         let (losses, left) = driven.map_err(|unfinished| unfinished.message)?;
-        running.advance(1);
         Ok((values, losses, left))
     };
-    let all: Vec<_> = (0..entry.samples).into_par_iter().with_max_len(1).map(sample).collect();
-    if !cx.goes_on() {
-        return Err(Stopped::Interrupted);
-    }
+    let all = cx.each(&format!("{} samples", built.name), entry.samples as usize, sample)?;
     let mut samples = Samples {
         driven: Vec::new(),
         failed: Vec::new(),

@@ -17,7 +17,7 @@ pub struct CycleOutcome {
     pub cycles: Vec<DutyOfSet>,
     /// Stated ranges that samples of uncertain inputs left, set after set.
     #[serde(skip)]
-    pub left: Vec<(String, &'static str)>,
+    pub left: Vec<(String, String)>,
 }
 
 /// One duty under one model set, without its course in time, which the table holds.

@@ -115,7 +115,7 @@ impl Found {
             Ok((groups, validation))
         });
         if !cx.goes_on() {
-            return Err(Stopped::Interrupted);
+            return Err(cx.why_ended());
         }
         let all: Vec<usize> = (0..identification.measured().rows.len()).collect();
         let shares = identification.share_bands(&fitted, &all, &profiles);

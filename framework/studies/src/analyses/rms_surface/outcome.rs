@@ -202,6 +202,6 @@ impl Outcome for RmsSurfaceOutcome {
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
         let left = self.left_at_pairs.iter();
-        left.map(|(path, name)| (path.as_str(), *name)).collect()
+        left.map(|(path, name)| (path.as_str(), name.as_str())).collect()
     }
 }

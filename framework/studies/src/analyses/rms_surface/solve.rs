@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{Axis, RmsSurfaceEntry};
 use crate::analyses::rows::SolvedRow;
@@ -15,6 +15,7 @@ use crate::measured::{Measured, Seen, counted};
 pub type Difference = Result<f64, String>;
 
 /// A pair of values.
+#[derive(Serialize, Deserialize)]
 pub struct Pair {
     /// Values of x and y, in their units.
     pub at: [f64; 2],
@@ -67,7 +68,6 @@ pub fn pairs(
     let [x, y] = axes;
     let count = x.values.len() * y.values.len();
     cx.holds("analyses", rows.measured.rows.len(), count)?;
-    let running = cx.running(count, &built.name);
     let trial = Trial::new(cx, built);
     let speeds = trial.speeds(rows);
     let speeds = &speeds.map_err(|reason| cx.wrong("analyses", reason, "leave it out of `rig`"))?[..];
@@ -75,18 +75,10 @@ pub fn pairs(
         let at = [x.values[i % x.values.len()], y.values[i / x.values.len()]];
         let overrides: Vec<_> = x.varied.overrides(at[0]).chain(y.varied.overrides(at[1])).collect();
         let mut seen = Left::new();
-        let solved = if cx.goes_on() {
-            trial.rows(rows, speeds, &overrides, &mut seen)
-        } else {
-            Err("interrupted".to_owned())
-        };
-        running.advance(1);
+        let solved = trial.rows(rows, speeds, &overrides, &mut seen);
         (pair(entry, rows.measured, at, solved), seen)
     };
-    let all: Vec<(Pair, Left)> = (0..count).into_par_iter().with_max_len(1).map(solve).collect();
-    if !cx.goes_on() {
-        return Err(Stopped::Interrupted);
-    }
+    let all: Vec<(Pair, Left)> = cx.each(&built.name, count, solve)?;
     let mut pairs = Vec::with_capacity(count);
     for (pair, left) in all {
         seen.extend(left);

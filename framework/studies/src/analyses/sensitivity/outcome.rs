@@ -302,7 +302,7 @@ impl Outcome for SensitivityOutcome {
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
         let all = self.sensitivities.iter().flat_map(|of_set| &of_set.left_at_samples);
-        all.map(|(path, name)| (path.as_str(), *name)).collect()
+        all.map(|(path, name)| (path.as_str(), name.as_str())).collect()
     }
 
     fn unlisted(&self) -> usize {

@@ -103,7 +103,7 @@ impl TournamentEntry {
         let ranked = rank(&losses, measured, bounds, &|| running.advance(1));
         drop(running);
         if !cx.goes_on() {
-            return Err(Stopped::Interrupted);
+            return Err(cx.why_ended());
         }
         let is_marked = |c: &Combination| !field.marks(c).is_empty();
         let Some(winner) = winner(&ranked, &is_marked, &losses, measured, self.correlation) else {
