@@ -1,4 +1,4 @@
-//! The report of a study: one HTML file that opens without a network, with interactive pictures and the data behind them.
+//! The report of a study: one HTML file that works offline, with interactive figures and their data.
 
 use std::io::Write;
 
@@ -10,13 +10,13 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::Value;
 
-/// The template that is used unless the user gives one of his own.
+/// The built-in template.
 const TEMPLATE: &str = include_str!("report/template.html");
 
-/// Steps that a template may take. The page of a large study takes some ten thousands; as many as these take seconds.
+/// Maximum number of steps of a template. A large study needs some ten thousand; this limit takes seconds.
 const MOST_STEPS: u64 = 10_000_000;
 
-/// Everything that a report shows, collected while a study runs.
+/// The content of a report, collected while a study runs.
 #[derive(Debug, Default)]
 pub struct Report {
     sections: Vec<Section>,
@@ -27,21 +27,21 @@ pub struct Report {
 #[derive(Debug)]
 struct Section {
     name: String,
-    /// What the analysis is, as a sentence.
+    /// Description of the analysis as a sentence.
     about: String,
-    /// Sentences that a reader must not miss.
+    /// Main conclusions.
     verdicts: Vec<String>,
     /// Tables and notes as printed.
     text: String,
     figures: Vec<Figure>,
 }
 
-/// Why the page cannot be written.
+/// Why the report cannot be written.
 #[derive(Debug)]
 pub enum PageFault {
-    /// What is wrong with the template.
+    /// Error of the template.
     Template(String),
-    /// What the file says.
+    /// Error of the file.
     Write(String),
 }
 
@@ -51,7 +51,7 @@ impl From<minijinja::Error> for PageFault {
         match e.kind() {
             ErrorKind::WriteFailure => Self::Write(words),
             ErrorKind::OutOfFuel => Self::Template(format!(
-                "it takes more than {} million steps; is there a loop inside of a loop?",
+                "it takes more than {} million steps; does it contain nested loops?",
                 MOST_STEPS / 1_000_000
             )),
             _ => Self::Template(words),
@@ -59,7 +59,7 @@ impl From<minijinja::Error> for PageFault {
     }
 }
 
-/// A section as templates see it.
+/// A section for templates.
 #[derive(Serialize)]
 struct SectionOfPage<'a> {
     name: &'a str,
@@ -69,31 +69,31 @@ struct SectionOfPage<'a> {
     figures: Vec<FigureOfPage<'a>>,
 }
 
-/// A picture as templates see it; its data stand in `figures`.
+/// A figure for templates; its data are in `figures`.
 #[derive(Serialize)]
 struct FigureOfPage<'a> {
     id: String,
     title: &'a str,
 }
 
-/// A gearbox with what its results rest on.
+/// A gearbox and the basis of its results.
 #[derive(Debug, Serialize)]
 pub struct GearboxPage {
     /// Name in the study.
     pub name: String,
     /// Title.
     pub title: String,
-    /// Where the description comes from.
+    /// Source of the description.
     pub source: String,
     /// Drawing, as SVG.
     pub drawing: String,
     /// Tables of geometry and kinematics.
     pub tables: Vec<PageTable>,
-    /// An operating point in words; empty where there is none.
+    /// An operating point as text; empty if there is none.
     pub point: String,
     /// Loads, balances and shares at that point.
     pub point_tables: Vec<PageTable>,
-    /// What is assumed and why.
+    /// Assumptions with their reasons.
     pub assumed: Vec<AssumedEntry>,
     /// The resolved description.
     pub resolved: String,
@@ -110,18 +110,18 @@ pub struct PageTable {
     pub rows: Vec<Vec<String>>,
 }
 
-/// What stands at head and foot of the page.
+/// Head and foot of the page.
 #[derive(Debug, Serialize)]
 pub struct Frame {
     /// Title of the study.
     pub title: String,
     /// The question that it answers.
     pub question: String,
-    /// What every analysis starts from, as a sentence.
+    /// The conditions of all analyses as a sentence.
     pub conditions: String,
     /// Version of the program.
     pub version: String,
-    /// Crates that brought models.
+    /// Crates with models.
     pub packages: Vec<String>,
     /// The study as written.
     pub study: String,
@@ -139,26 +139,26 @@ impl Report {
         });
     }
 
-    /// Takes back the last section.
+    /// Removes the last section.
     pub fn drop_last(&mut self) {
         self.sections.pop();
     }
 
-    /// Adds a picture to the section.
+    /// Adds a figure to the section.
     pub fn figure(&mut self, figure: Figure) {
         if let Some(section) = self.sections.last_mut() {
             section.figures.push(figure);
         }
     }
 
-    /// Adds a sentence that a reader must not miss to the section.
+    /// Adds a main conclusion to the section.
     pub fn verdict(&mut self, sentence: &str) {
         if let Some(section) = self.sections.last_mut() {
             section.verdicts.push(sentence.to_owned());
         }
     }
 
-    /// Adds what was printed to the section.
+    /// Adds printed text to the section.
     pub fn text(&mut self, text: &str) {
         if let Some(section) = self.sections.last_mut() {
             section.text.push_str(text);
@@ -170,22 +170,22 @@ impl Report {
         self.gearboxes.push(page);
     }
 
-    /// Writes the page, by the user's template where he gives one.
+    /// Writes the page with the user's template, or with the built-in one.
     ///
     /// # Errors
-    /// What is wrong with the template, or with the file.
+    /// Errors of the template or of the file.
     pub fn html(&self, frame: &Frame, template: Option<&str>, to: impl Write) -> Result<(), PageFault> {
         let mut environment = Environment::new();
         environment.set_auto_escape_callback(|_| AutoEscape::Html);
         environment.set_fuel(Some(MOST_STEPS));
-        // It stands in no list of templates, so that there is none to include, not even itself.
+        // The environment has no named templates, so a template cannot include any, not even itself.
         let page = environment.template_from_named_str("report", template.unwrap_or(TEMPLATE))?;
         let all: Vec<&Figure> = self.sections.iter().flat_map(|section| &section.figures).collect();
         let id = |number: usize| format!("figure-{number}");
         let datum = |(number, shown): (usize, &&Figure)| {
             let [id, title] = [id(number), shown.title().to_owned()].map(Value::from);
             let json = format!(r#"{{"id":{id},"title":{title},"spec":{}}}"#, shown.plotly());
-            // A text in the data must neither end the script that holds it nor begin a comment or a script in there.
+            // A text in the data must neither end the enclosing script nor start a comment or script in it.
             json.replace('<', "\\u003c")
         };
         let data = || all.par_iter().enumerate().map(datum).collect::<Vec<String>>();
@@ -218,7 +218,7 @@ impl Report {
     }
 }
 
-/// The plotting library as a script element. The crate also brings one for formulas, which no picture here has.
+/// The plotting library as a script element. The crate also contains a library for formulas, which is not needed.
 fn script() -> String {
     let mut both = plotly::Plot::offline_js_sources();
     let end = both.find("</script>").map_or(both.len(), |at| at + "</script>".len());

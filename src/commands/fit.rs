@@ -1,4 +1,4 @@
-//! `fit`: a law from a table, with its residuals.
+//! `fit`: fits a law to a table and prints it with its residuals.
 
 mod columns;
 mod curves;

@@ -1,4 +1,4 @@
-//! What readers get to see of results beside numbers: pictures.
+//! Text, figures and files of results.
 
 mod contours;
 pub mod csv;

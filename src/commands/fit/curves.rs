@@ -1,4 +1,4 @@
-//! Traction curves from a file: points by pressure and temperature, with those left out that heat or elastic creep rules.
+//! Traction curves from a file: points by pressure and temperature, without points dominated by heating or elastic creep.
 
 use gearloss_framework::document::Dimension;
 use gearloss_plugins::tooth_friction::ehl_mixed::identification::TractionPoint;
@@ -15,14 +15,14 @@ const STRESS: Quantity = Quantity::new("stress", Measure::Of(Dimension::Pressure
 const MU: Quantity = Quantity::plain("mu");
 const SLIDE_ROLL: Quantity = Quantity::plain("slide_roll");
 
-/// Every column that counts.
+/// All columns that are used.
 pub const QUANTITIES: [Quantity; 8] = [PRESSURE, TEMPERATURE, SHEAR_RATE, SLIDING, FILM, STRESS, MU, SLIDE_ROLL];
 
-/// Sliding over rolling speed below which elastic creep of the bodies counts.
+/// Slide-to-roll ratio below which elastic creep of the bodies matters.
 const CREEP: f64 = 0.01;
-/// Share of the pressure within which points belong to one curve; loads repeat to that.
+/// Relative pressure difference within which points belong to one curve: repeatability of loads.
 const SAME_PRESSURE: f64 = 0.01;
-/// Temperatures within which points belong to one curve; baths are held to that. \[K\]
+/// Temperature difference within which points belong to one curve: control accuracy of baths. \[K\]
 const SAME_TEMPERATURE: f64 = 1.0;
 
 /// The points of one pressure and temperature, in order of their shear rate.
@@ -32,13 +32,13 @@ pub struct Curve {
     pub pressure: f64,
     /// Temperature of the first point. \[degC\]
     pub temperature: f64,
-    /// What is left.
+    /// The remaining points.
     pub points: Vec<TractionPoint>,
-    /// How many points were left out for little sliding.
+    /// Number of points omitted because of little sliding.
     pub creeping: usize,
-    /// How many points were left out because they lie behind the greatest stress, where heat rules.
+    /// Number of points omitted because they are beyond the maximum stress, where heating dominates.
     pub heated: usize,
-    /// Greatest stress over pressure. \[-\]
+    /// Maximum of stress over pressure. \[-\]
     pub greatest: f64,
 }
 
@@ -47,11 +47,11 @@ pub fn curves(columns: &Columns) -> Result<Vec<Curve>, Failure> {
     let pressure = columns.numbers(&PRESSURE)?;
     let temperature = columns.numbers(&TEMPERATURE)?;
     if let Some(row) = temperature.iter().position(|t| !(-60.0..=300.0).contains(t)) {
-        let message = format!("{} degC is no temperature of an oil", temperature[row]);
+        let message = format!("{} degC is not a valid oil temperature", temperature[row]);
         return Err(columns.wrong(
             Some(row),
             &message,
-            "write one from -60 to 300 degC, and check the unit",
+            "write a temperature from -60 to 300 degC, and check the unit",
         ));
     }
     one_of(columns, SHEAR_RATE, [SLIDING, FILM].as_slice())?;
@@ -105,7 +105,7 @@ pub fn curves(columns: &Columns) -> Result<Vec<Curve>, Failure> {
     Ok(curves)
 }
 
-/// Refuses a quantity that is stated in two ways, or in none.
+/// Rejects a quantity that is given twice or not at all.
 fn one_of(columns: &Columns, one: Quantity, others: &[Quantity]) -> Result<(), Failure> {
     let words: Vec<String> = others.iter().map(Quantity::header).collect();
     let words = words.join(" and ");
@@ -113,13 +113,13 @@ fn one_of(columns: &Columns, one: Quantity, others: &[Quantity]) -> Result<(), F
     match (columns.has(&one), also) {
         (true, true) => Err(columns.wrong(
             None,
-            &format!("{} beside {words}", one.header()),
-            "leave out the one or the other",
+            &format!("both {} and {words}", one.header()),
+            "delete one of them",
         )),
         (false, false) => Err(columns.wrong(
             None,
             &format!("neither {} nor {words}", one.header()),
-            "add the one or the other",
+            "add one of them",
         )),
         _ => Ok(()),
     }
@@ -142,7 +142,7 @@ impl Curve {
             && (point.temperature - self.temperature).abs() <= SAME_TEMPERATURE
     }
 
-    /// Leaves out what lies behind the greatest stress.
+    /// Omits points beyond the maximum stress.
     fn cut(&mut self) {
         self.points.sort_by(|p, q| p.shear_rate.total_cmp(&q.shear_rate));
         let greatest = self.points.iter().map(|p| p.stress).fold(0.0, f64::max);
@@ -153,7 +153,7 @@ impl Curve {
         self.greatest = self.points.iter().map(|p| p.stress / p.pressure).fold(0.0, f64::max);
     }
 
-    /// Pressure and temperature in words.
+    /// Pressure and temperature as text.
     pub fn name(&self) -> String {
         format!("{:.3} GPa, {:.1} degC", self.pressure * 1e-9, self.temperature)
     }

@@ -1,4 +1,4 @@
-//! `fit power-law`: a drag of planets over speed, viscosity and volume.
+//! `fit power-law`: drag of planets over speed, viscosity and volume.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use gearloss_numerics::fit::power_law;
 
 use crate::output::{End, Failure, Out, Table as Printed, significant};
 
-/// Axes of the power law with their units and the parameters that hold their reference, exponent and range.
+/// Axes of the power law with their units and the parameters for reference, exponent and range.
 const AXES: [(&str, &str, [&str; 3]); 3] = [
     ("speed", "rpm", ["speed", "speed_exponent", "speeds"]),
     ("nu", "mm2/s", ["nu", "viscosity_exponent", "viscosities"]),
@@ -17,9 +17,14 @@ const AXES: [(&str, &str, [&str; 3]); 3] = [
 
 pub fn run(path: &Path, out: &mut Out) -> Result<End, Failure> {
     let file = path.display().to_string();
-    let wrong = |fault: String| Failure::input(format!("{file}: {fault}"), "write the table as a drag model reads it");
+    let wrong = |fault: String| {
+        Failure::input(
+            format!("{file}: {fault}"),
+            "write the table in the format of the drag model `table`",
+        )
+    };
     let text = read_text(path, LONGEST_DATA)
-        .map_err(|e| Failure::input(format!("cannot read {file}: {e}"), "check the name of the file"))?;
+        .map_err(|e| Failure::input(format!("cannot read {file}: {e}"), "check the file name"))?;
     let names = columns(&text).map_err(wrong)?;
     let known = |name: &String| AXES.iter().find(|(axis, ..)| axis == name);
     let count = names.iter().take_while(|name| known(name).is_some()).count();
@@ -27,7 +32,7 @@ pub fn run(path: &Path, out: &mut Out) -> Result<End, Failure> {
         if !names[..count].iter().any(|name| name == needed) {
             return Err(Failure::input(
                 format!("{file}: line 1: no axis `{needed}`; there are: {}", names.join(", ")),
-                "give the table the axes `speed [rpm]`, `nu [mm2/s]` and, where it counts, `volume [ml]`",
+                "give the table the axes `speed [rpm]`, `nu [mm2/s]` and, if relevant, `volume [ml]`",
             ));
         }
     }
@@ -49,12 +54,12 @@ pub fn run(path: &Path, out: &mut Out) -> Result<End, Failure> {
     let fit = power_law(&points).map_err(|fault| {
         Failure::input(
             format!("{file}: {fault}"),
-            "give every axis two values and every point a moment above zero",
+            "give every axis at least two values and every point a positive moment",
         )
     })?;
     if !fit.rms().is_finite() {
         return Err(Failure::input(
-            format!("{file}: its moments are too large, or too far apart, to be fitted"),
+            format!("{file}: the moments are too large, or differ too much, for a fit"),
             "check their unit",
         ));
     }
@@ -75,7 +80,7 @@ pub fn run(path: &Path, out: &mut Out) -> Result<End, Failure> {
     words.extend(ranges);
     out.line(format!("model: {{ {} }}", words.join(", ")))?;
     out.line(format!(
-        "\n{} points, residuals: root mean square {:.2} %, worst {:.2} %",
+        "\n{} points, residuals: rms {:.2} %, max {:.2} %",
         points.len(),
         100.0 * fit.rms(),
         100.0 * fit.worst()

@@ -1,4 +1,4 @@
-//! Least squares of a few parameters, with what they are worth.
+//! Least squares of a few parameters with confidence intervals.
 
 use gearloss_numerics::inference::{self, Accuracy, Standing};
 use gearloss_numerics::least_squares::{Options, Problem, Side, solve};
@@ -11,21 +11,21 @@ const CONFIDENCE: f64 = 0.95;
 pub struct Estimate {
     pub name: String,
     pub value: f64,
-    /// Absent where the points do not determine it.
+    /// Absent if the points do not determine it.
     pub deviation: Option<f64>,
     /// Ends of the 95 % interval.
     pub interval: Option<[f64; 2]>,
-    /// Whether the points pull it against a bound.
+    /// Whether it is at an active bound.
     pub held: bool,
 }
 
-/// Parameters with the least squares of a problem, whose accuracy the scatter of the residuals tells.
+/// Least squares estimates of a problem; their accuracy is estimated from the scatter of the residuals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Squares {
     pub estimates: Vec<Estimate>,
-    /// Of the first two parameters.
+    /// Correlation of the first two parameters.
     pub correlation: Option<f64>,
-    /// Root of the mean square of the residuals.
+    /// Root mean square of the residuals.
     pub rms: f64,
 }
 

@@ -17,14 +17,14 @@ const FILM: Quantity = Quantity::new("film", Measure::Of(Dimension::Length), "nm
 const MU: Quantity = Quantity::plain("mu");
 const MU_FILM: Quantity = Quantity::plain("mu_film");
 
-/// Bounds of the coefficient, as lubricants are described.
+/// Bounds of the coefficient, as in `lubricants`.
 const MU_B: [f64; 2] = [0.01, 0.5];
 
 pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Result<End, Failure> {
     if !(0.1..=10.0).contains(&exponent) {
         return Err(Failure::input(
             format!("--exponent {exponent} is not between 0.1 and 10"),
-            "leave it out for the usual 2",
+            "omit it for the usual value 2",
         ));
     }
     let columns = Columns::read(path)?;
@@ -35,14 +35,14 @@ pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Resul
     let squares = Squares::of(&Problem::new(all, vec![mu_b])).map_err(|fault| {
         Failure::input(
             format!("{}: {fault}", columns.file()),
-            "measure at films that are thinner than the roughness",
+            "measure at film thicknesses below the roughness",
         )
     })?;
     out.line(format!("{}: {} points", columns.file(), points.len()))?;
     if let Some(note) = columns.unused(&[LAMBDA, FILM, MU, MU_FILM]) {
         out.line(note)?;
     }
-    let mut table = Table::new(&["lambda", "film friction", "mu", "law", "law less mu"]);
+    let mut table = Table::new(&["lambda", "film friction", "mu", "law", "law minus mu"]);
     let found = squares.estimates[0].value;
     for point in &points {
         let residual = mixed_residual(found, exponent, point);
@@ -70,22 +70,22 @@ fn points(columns: &Columns, rq: Option<&str>) -> Result<Vec<StribeckPoint>, Fai
                 let message = format!("--rq \"{text}\" is not above zero");
                 return Err(Failure::input(
                     message,
-                    "write the rms roughness of both flanks together",
+                    "write the combined rms roughness of both flanks",
                 ));
             }
             columns.numbers(&FILM)?.iter().map(|film| film / rq).collect()
         }
         (Some(_), true, _) => {
-            return Err(columns.wrong(None, "`lambda` beside --rq", "leave out --rq, which is for films"));
+            return Err(columns.wrong(None, "both `lambda` and --rq", "omit --rq, which applies to films"));
         }
         (None, true, true) => {
-            return Err(columns.wrong(None, "`lambda` beside `film`", "leave out the one or the other"));
+            return Err(columns.wrong(None, "both `lambda` and `film`", "delete one of them"));
         }
         (None, false, true) => {
             return Err(columns.wrong(None, "`film` without a roughness", "add --rq, such as --rq \"0.28 um\""));
         }
         (_, false, false) => {
-            let help = "add the one, or the other with --rq";
+            let help = "add `lambda`, or `film [nm]` with --rq";
             return Err(columns.wrong(None, "neither `lambda` nor `film [nm]`", help));
         }
     };

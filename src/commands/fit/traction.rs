@@ -1,4 +1,4 @@
-//! `fit traction`: Eyring stress and exponent over pressure in three steps, and the limiting stress.
+//! `fit traction`: Eyring stress and pressure exponent in three steps, and the limiting stress.
 //!
 //! Source: LaFountain, Johnston, Spikes, Tribol. Trans. 44 (2001) 648-656, after Johnson and Tevaarwerk 1977.
 
@@ -16,16 +16,16 @@ use crate::args::OilArgs;
 use crate::output::{End, Failure, Out, Table, figures, number, significant};
 
 const MPA: f64 = 1e6;
-/// Bounds of the Eyring stress, in MPa, as lubricants are described.
+/// Bounds of the Eyring stress as in `lubricants`. \[MPa\]
 const TAU0: [f64; 2] = [0.1, 50.0];
-/// Bounds of the exponent over pressure and where its search starts.
+/// Bounds and start value of the pressure exponent.
 const Z: [f64; 2] = [0.2, 1.2];
 const START: f64 = 0.5;
-/// Part by which a slope may lie low before it is told.
+/// Relative underestimate of a slope that is reported.
 const LOW: f64 = 0.01;
-/// Curves whose pressure is at least this part of the greatest one tell the limiting stress.
+/// Curves with at least this fraction of the maximum pressure determine the limiting stress.
 const HIGHEST: f64 = 0.9;
-/// Slopes of the limiting stress that lubricants are described with.
+/// Slopes of the limiting stress as in `lubricants`.
 const LIMITING: [f64; 2] = [0.005, 0.2];
 
 pub fn run(path: &Path, args: &OilArgs, out: &mut Out) -> Result<End, Failure> {
@@ -50,12 +50,15 @@ pub fn run(path: &Path, args: &OilArgs, out: &mut Out) -> Result<End, Failure> {
         significant(law.s0)
     ))?;
     let slopes: Vec<Option<Isotherm>> = curves.iter().map(|c| Isotherm::slope(&c.points)).collect();
-    out.line("\nstep 1: slope of stress over the logarithm of the shear rate")?;
+    out.line("\nstep 1: slope of the stress over the logarithm of the shear rate")?;
     out.text(&slopes_table(&curves, &slopes))?;
     let found: Vec<Isotherm> = slopes.iter().flatten().copied().filter(|s| s.slope > 0.0).collect();
     let (mean, spread) = Isotherm::mean(&found).ok_or_else(|| {
         Failure::input(
-            format!("{}: no curve whose stress rises over two shear rates", columns.file()),
+            format!(
+                "{}: no curve with increasing stress over two shear rates",
+                columns.file()
+            ),
             "measure each pressure and temperature at several sliding speeds",
         )
     })?;
@@ -97,7 +100,7 @@ fn exponent(law: &Roelands, points: &[TractionPoint], tau0: f64) -> Result<Squar
     Squares::of(&Problem::new(all, vec![z]))
 }
 
-/// Step 3: both together.
+/// Step 3: both simultaneously.
 fn together(law: &Roelands, points: &[TractionPoint], [tau0, z]: [f64; 2]) -> Result<Squares, String> {
     let tau0 = Parameter::new("tau0", tau0).within(TAU0[0], TAU0[1]);
     let z = Parameter::new("z", z).within(Z[0], Z[1]);
@@ -105,12 +108,12 @@ fn together(law: &Roelands, points: &[TractionPoint], [tau0, z]: [f64; 2]) -> Re
     Squares::of(&Problem::new(all, vec![tau0, z]))
 }
 
-/// Calculated less measured stresses. \[MPa\]
+/// Calculated minus measured stresses. \[MPa\]
 fn residuals(law: &Roelands, points: &[TractionPoint], tau0: f64, z: f64) -> Vec<f64> {
     points.iter().map(|p| residual(law, tau0 * MPA, z, p) / MPA).collect()
 }
 
-/// Of the curves at the highest pressures the one with the greatest stress over pressure.
+/// The curve at the highest pressures with the maximum stress over pressure.
 fn limiting(curves: &[Curve]) -> Option<&Curve> {
     let highest = curves.iter().map(|c| c.pressure).fold(0.0, f64::max);
     let high = curves
@@ -124,14 +127,14 @@ fn limit_words(limit: Option<&Curve>) -> String {
         return String::new();
     };
     let said = format!(
-        "\ngreatest stress over pressure at the highest pressures: {} at {}\n",
+        "\nmaximum stress over pressure at the highest pressures: {} at {}\n",
         figures(curve.greatest, 3),
         curve.name()
     );
     let end = if curve.heated > 0 {
-        "behind it the stress falls: by a limit or by heat"
+        "beyond it the stress decreases: limiting stress or heating"
     } else {
-        "the curve still rises there: the limit lies at this or above"
+        "the curve still increases there: the limiting stress is at least this"
     };
     format!("{said}note: {end}\n")
 }
@@ -160,29 +163,29 @@ fn slopes_table(curves: &[Curve], slopes: &[Option<Isotherm>]) -> String {
     }
     let mut text = table.render();
     if curves.iter().any(|c| c.creeping > 0) {
-        text.push_str("creeping: left out, below 1 % of sliding the bodies creep\n");
+        text.push_str("creeping: omitted, elastic creep of the bodies below 1 % sliding\n");
     }
     if curves.iter().any(|c| c.heated > 0) {
-        text.push_str("heated: left out, behind the greatest stress heat rules\n");
+        text.push_str("heated: omitted, heating dominates beyond the maximum stress\n");
     }
     text
 }
 
-/// Which slopes lie low: that of Eyring's law over ln(shear rate) is tau0 tanh(tau/tau0).
+/// Underestimated slopes: the slope of Eyring's law over ln(shear rate) is tau0 tanh(tau/tau0).
 fn low_slopes(curves: &[Curve], slopes: &[Option<Isotherm>]) -> String {
     let mut text = String::new();
     for (curve, slope) in curves.iter().zip(slopes) {
         let Some(Isotherm { slope, points }) = slope else {
             continue;
         };
-        // The points on the line are those of the greatest stresses.
+        // The points on the line have the largest stresses.
         let mut stresses: Vec<f64> = curve.points.iter().map(|p| p.stress).collect();
         stresses.sort_by(|a, b| b.total_cmp(a));
         let least = stresses[*points - 1];
         let low = 1.0 - (least / slope).tanh();
         if low > LOW {
             text.push_str(&format!(
-                "note: at {} stress begins at {:.1} times the slope, which lies low by up to {:.0} % there; step 3 does not\n",
+                "note: at {} the stress starts at {:.1} times the slope, so the slope is up to {:.0} % too low there; step 3 is not affected\n",
                 curve.name(),
                 least / slope,
                 100.0 * low
@@ -215,7 +218,7 @@ fn steps_table(tau0: f64, alone: &Squares, both: &Squares) -> String {
     )
 }
 
-/// Parameters with their deviations and intervals, and those that stand at a bound.
+/// Parameters with standard deviations and intervals, and notes on active bounds.
 pub fn estimates_table(estimates: &[Estimate]) -> String {
     let mut table = Table::new(&["parameter", "value", "standard deviation", "95 % from", "to"]);
     let dash = || "-".to_owned();
@@ -232,7 +235,7 @@ pub fn estimates_table(estimates: &[Estimate]) -> String {
     let mut text = table.render();
     for held in estimates.iter().filter(|e| e.held) {
         text.push_str(&format!(
-            "note: {} stands at its bound; the points pull it beyond: check units and the oil\n",
+            "note: {} is at its bound, and the points favour a value beyond it: check units and the oil\n",
             held.name
         ));
     }

@@ -22,13 +22,13 @@ use crate::output::{Failure, number};
 use crate::report::{Frame, GearboxPage, PageFault, PageTable};
 use gearloss_studies::analyses::{Built, Context};
 
-/// The user's template, where there is one.
+/// The user's template if given.
 pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
     let read = |file: &Path| {
         read_text(file, LONGEST_TEXT).map_err(|e| {
             Failure::input(
                 format!("cannot read {}: {e}", file.display()),
-                "name a template with --template",
+                "give a template with --template",
             )
         })
     };
@@ -61,35 +61,35 @@ pub fn write(runner: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
     written.map_err(|fault| match fault {
         PageFault::Template(e) => Failure::input(
             format!("the template of the report: {e}"),
-            "correct it, or leave --template out",
+            "correct it, or omit --template",
         ),
         PageFault::Write(e) => place.cannot(&e),
     })?;
     place.done(to.flush().map_err(|e| e.to_string()))
 }
 
-/// What every analysis starts from, as a sentence.
+/// The conditions of all analyses as a sentence.
 fn conditions(runner: &Run<'_>) -> String {
     let given = &runner.study.entry.conditions;
     let oil = given.oil_temperature.map_or_else(
-        || "oil at the temperature of the gearbox".to_owned(),
+        || "oil temperature of the gearbox".to_owned(),
         |oil| format!("oil at {oil} °C"),
     );
     let flow = match given.power_flow {
-        PowerFlow::Real => "losses change the torques of what comes after them",
-        PowerFlow::Ideal => "torques without losses",
+        PowerFlow::Real => "torque reduced by upstream losses (real power flow)",
+        PowerFlow::Ideal => "torque without losses (ideal power flow)",
     };
     format!(
-        "Torque at `{}`, speed at `{}`, {oil}; {flow}. Sets of models stand in the study at the end of this page.",
+        "Torque at `{}`, speed at `{}`, {oil}; {flow}. Model sets are listed in the study at the end of this page.",
         given.torque_at, given.speed_at
     )
 }
 
-/// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that
-/// the analyses use.
+/// The basis of a gearbox's results: geometry and description with its default models, loads and losses with the model sets of the
+/// analyses.
 fn page(cx: &Context<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<GearboxPage, Failure> {
     let sets = sets(cx.study, name, first);
-    // Overrides may be meant for the models of a set, which the own models of the gearbox do not take.
+    // Overrides may apply only to the models of a set and not to the defaults of the gearbox.
     let own = cx.built(gearbox, &[]).or_else(|fault| match &sets[..] {
         [] => Err(fault),
         [first, ..] => cx.built(gearbox, std::slice::from_ref(first)),
@@ -125,7 +125,7 @@ fn page(cx: &Context<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<
     })
 }
 
-/// Coefficients of models that were changed from their source; absent where none was.
+/// Coefficients that differ from their source; absent if there are none.
 fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> {
     let mut rows: Vec<Vec<String>> = Vec::new();
     for b in built {
@@ -145,10 +145,10 @@ fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> 
         }
     }
     let head = ["models", "path", "model", "coefficient", "value", "published", "source"];
-    (!rows.is_empty()).then(|| table("Coefficients changed from the source", &head, rows))
+    (!rows.is_empty()).then(|| table("Coefficients that differ from their source", &head, rows))
 }
 
-/// Names of the sets that the analyses use for a gearbox, each once.
+/// Names of the model sets that the analyses use for a gearbox, without repetition.
 pub(super) fn sets(study: &Study, name: &str, first: bool) -> Vec<String> {
     let mut sets: Vec<String> = Vec::new();
     for (_, analysis) in study.entry.analyses.iter() {
@@ -243,7 +243,7 @@ fn meshes(t: &Transmission) -> PageTable {
 
 /// Speed of every member in every gear state, for 1000 rpm at the first free port.
 fn states(t: &Transmission) -> PageTable {
-    let mut head = vec!["gear state", "port"];
+    let mut head = vec!["gear", "port"];
     head.extend(t.members().iter().map(String::as_str));
     let mut rows = Vec::new();
     for (i, state) in t.states().iter().enumerate() {

@@ -1,5 +1,4 @@
-//! Results of tasks in a file, each behind its length and its hash, so that one that was cut off or changed is told from a whole
-//! one.
+//! Task results in a file, each with its length and hash, so that truncated or changed results are detected.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -30,7 +29,7 @@ pub struct TaskFile {
 }
 
 impl TaskFile {
-    /// A file to go on with; what follows its last whole result is overwritten.
+    /// Opens a file for continuation; bytes after its last complete result are overwritten.
     pub fn reopen(path: &Path) -> io::Result<Self> {
         own(path)?;
         let mut options = OpenOptions::new();
@@ -40,7 +39,7 @@ impl TaskFile {
         Ok(file)
     }
 
-    /// A file to read only.
+    /// Opens a file for reading.
     pub fn read_only(path: &Path) -> io::Result<Self> {
         Self::scanned(open_regular(path)?, path)
     }
@@ -60,7 +59,7 @@ impl TaskFile {
         Ok(own)
     }
 
-    /// How many results it holds.
+    /// Number of results.
     pub fn len(&self) -> usize {
         self.places.len()
     }
@@ -95,7 +94,7 @@ impl TaskFile {
         Ok(bytes.ok_or_else(changed)?.split_off(TASK))
     }
 
-    /// Task and result at a place; absent where no whole one begins there.
+    /// Task and result at an offset; absent if no complete result starts there.
     fn at(&mut self, place: u64) -> io::Result<Option<Vec<u8>>> {
         let whole = self.file.metadata()?.len();
         if place + (HEAD + TASK) as u64 > whole {
@@ -114,7 +113,7 @@ impl TaskFile {
     }
 }
 
-/// A number of eight bytes, the little end first.
+/// A little-endian number of eight bytes.
 fn little(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes.try_into().unwrap_or_default())
 }

@@ -114,7 +114,7 @@ fn too_few_points_resolve_no_more_directions_than_they_are() {
     let fit = Fit::new(two.clone(), &jacobian, &[0.0], 0, Accuracy::Given).unwrap();
     assert!(fit.is_singular() && fit.condition().is_none_or(|c| c > 1e12) && fit.lack_of_fit().is_none());
     assert!(fit.deviation(0).is_none() && fit.determination(0).partners == [1]);
-    // Their sum is what the point says.
+    // Their sum is the total of the point.
     near(fit.deviation_along(&[1.0, 1.0]).unwrap(), 0.01, 1e-12);
     assert!(
         Fit::new(two, &jacobian, &[0.0], 0, Accuracy::Estimated)
