@@ -131,6 +131,26 @@ impl Study {
         })
     }
 
+    /// Names of the sets that the analyses use for a gearbox, each once.
+    pub fn sets_used_for(&self, gearbox: &str) -> Vec<String> {
+        let is_first = self.gearboxes.first().is_some_and(|(name, _)| name == gearbox);
+        let mut sets: Vec<String> = Vec::new();
+        for (_, analysis) in self.entry.analyses.iter() {
+            let uses = analysis.uses();
+            let of_analysis = uses.gearbox.map_or(is_first, |own| own == gearbox);
+            for set in uses.sets {
+                let own = match set.split_once('/') {
+                    Some((product, _)) => product == gearbox,
+                    None => of_analysis,
+                };
+                if own && !sets.contains(set) {
+                    sets.push(set.clone());
+                }
+            }
+        }
+        sets
+    }
+
     /// Findings about the study itself, with their places.
     pub fn findings(&self, list: Vec<Diagnostic>) -> Findings {
         let placed = |found: Diagnostic| {
