@@ -10,30 +10,30 @@ use gearloss_studies::analyses::Stopped;
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// All is well.
+    /// Success.
     Fine,
-    /// Something deserves attention.
+    /// A warning is treated as an error.
     Finding,
 }
 
 /// Why a command ended early.
 #[derive(Debug)]
 pub enum Failure {
-    /// Wrong documents: what was found in them.
+    /// Findings in documents.
     Found(Findings),
-    /// Other wrong input, with the text to print.
+    /// Other input errors, with the text to print.
     Input(String),
     /// Ctrl-C was pressed.
     Interrupted,
 }
 
 impl Failure {
-    /// Wrong input in one line, with how to fix it.
+    /// An input error with its help.
     pub fn input(message: impl std::fmt::Display, help: impl std::fmt::Display) -> Self {
         Self::Input(format!("error: {message}\n  = help: {help}\n"))
     }
 
-    /// The text to print; none where Ctrl-C was pressed.
+    /// The text to print; empty after Ctrl-C.
     pub fn text(&self) -> Option<String> {
         match self {
             Self::Found(findings) => Some(findings.render()),
@@ -59,7 +59,7 @@ impl From<Diagnostic> for Failure {
     }
 }
 
-/// An analysis that was only checked is no failure; nobody asks this of it.
+/// `Checked` is not a failure and is never converted.
 impl From<Stopped> for Failure {
     fn from(stopped: Stopped) -> Self {
         match stopped {
@@ -71,24 +71,24 @@ impl From<Stopped> for Failure {
     }
 }
 
-/// Several inputs that are wrong, one after the other.
+/// Several input errors.
 impl From<&[Findings]> for Failure {
     fn from(list: &[Findings]) -> Self {
         Self::Input(list.iter().map(Findings::render).collect())
     }
 }
 
-/// What is printed cannot be written; errors of files name the file.
+/// An error of standard output; errors of files contain the file name.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         Self::input(
             format!("cannot write to the standard output: {error}"),
-            "look at where it goes, such as a full disk",
+            "check its target, such as a full disk",
         )
     }
 }
 
-/// Where a command prints. When its reader has gone it falls silent, and the command goes on: files are still written.
+/// Output of a command. After its pipe is closed it prints nothing, and the command continues, because files are still written.
 pub struct Out {
     to: Box<dyn Write>,
     terminal: bool,
@@ -114,7 +114,7 @@ impl Out {
         }
     }
 
-    /// Nowhere.
+    /// No output.
     pub fn nowhere() -> Self {
         Self {
             to: Box::new(io::sink()),
@@ -123,12 +123,12 @@ impl Out {
         }
     }
 
-    /// True on a terminal.
+    /// Whether the output is a terminal.
     pub fn is_terminal(&self) -> bool {
         self.terminal
     }
 
-    /// Prints a text as it is.
+    /// Prints a text unchanged.
     pub fn text(&mut self, text: &str) -> io::Result<()> {
         if self.closed {
             return Ok(());

@@ -1,4 +1,4 @@
-//! `fit`: a law from a table, with its residuals.
+//! `fit`: fits a law to a table and prints it with its residuals.
 
 mod oil;
 mod stribeck;
@@ -24,9 +24,9 @@ pub fn run(args: &FitArgs, out: &mut Out) -> Result<End, Failure> {
     }
 }
 
-/// `fit power-law`: a drag of planets over speed, viscosity and volume.
+/// `fit power-law`: drag of planets over speed, viscosity and volume.
 fn power_law(path: &Path, out: &mut Out) -> Result<End, Failure> {
-    let text = read_file(path, LONGEST_DATA, "check the name of the file")?;
+    let text = read_file(path, LONGEST_DATA, "check the file name")?;
     let law = DragLaw::of_table(&text).map_err(|fault| Diagnostic {
         message: format!("{}: {}", path.display(), fault.message),
         ..fault
@@ -34,7 +34,7 @@ fn power_law(path: &Path, out: &mut Out) -> Result<End, Failure> {
     let fit = &law.fit;
     out.line(format!("model: {{ type: power_law, {} }}", law.parameters.join(", ")))?;
     out.line(format!(
-        "\n{} points, residuals: root mean square {:.2} %, worst {:.2} %",
+        "\n{} points, residuals: rms {:.2} %, max {:.2} %",
         law.points.len(),
         100.0 * fit.rms(),
         100.0 * fit.worst()
@@ -54,7 +54,7 @@ fn power_law(path: &Path, out: &mut Out) -> Result<End, Failure> {
 }
 
 fn columns(path: &Path) -> Result<Columns, Failure> {
-    let text = read_file(path, LONGEST_DATA, "check the name of the file")?;
+    let text = read_file(path, LONGEST_DATA, "check the file name")?;
     Ok(Columns::of_text(&path.display().to_string(), &text)?)
 }
 
@@ -67,7 +67,7 @@ fn print_unused(columns: &Columns, quantities: &[Quantity], out: &mut Out) -> Re
     Ok(())
 }
 
-/// Parameters with their deviations and intervals, and those that are at a bound.
+/// Parameters with standard deviations and intervals, and notes on active bounds.
 fn estimates_table(estimates: &[Estimate]) -> String {
     let mut table = Table::new(&["parameter", "value", "standard deviation", "95 % from", "to"]);
     let dash = || "-".to_owned();
@@ -84,7 +84,7 @@ fn estimates_table(estimates: &[Estimate]) -> String {
     let mut text = table.render();
     for held in estimates.iter().filter(|e| e.held) {
         text.push_str(&format!(
-            "note: {} stands at its bound; the points pull it beyond: check units and the oil\n",
+            "note: {} is at its bound, and the points favour a value beyond it: check units and the oil\n",
             held.name
         ));
     }

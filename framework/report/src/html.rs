@@ -1,4 +1,4 @@
-//! The report of a study: one HTML page that opens without a network, with interactive pictures and the data behind them.
+//! The report of a study: one HTML page that works offline, with interactive figures and their data.
 
 mod gearbox;
 mod point;
@@ -19,13 +19,13 @@ pub use gearbox::gearbox_page;
 use crate::Figure;
 use crate::page::{Page, Text};
 
-/// The template that is used unless the user gives one of his own.
+/// The built-in template.
 const TEMPLATE: &str = include_str!("html/template.html");
 
-/// Steps that a template may take. The page of a large study takes some ten thousands; as many as these take seconds.
+/// Maximum number of steps of a template. A large study needs some ten thousand; this limit takes seconds.
 const MOST_STEPS: u64 = 10_000_000;
 
-/// Everything that a report shows, collected while a study runs.
+/// The content of a report, collected while a study runs.
 #[derive(Debug, Default)]
 pub struct Report {
     /// Analyses in their order.
@@ -39,9 +39,9 @@ pub struct Report {
 pub struct Section {
     /// Name of the analysis.
     pub name: String,
-    /// What the analysis is, as a sentence.
+    /// Description of the analysis as a sentence.
     pub about: String,
-    /// Sentences that a reader must not miss.
+    /// Main conclusions.
     pub verdicts: Vec<String>,
     /// Tables and notes as printed.
     pub text: String,
@@ -60,7 +60,7 @@ impl Section {
     }
 }
 
-/// A section as templates see it.
+/// A section for templates.
 #[derive(Serialize)]
 struct SectionOfPage<'a> {
     name: &'a str,
@@ -70,31 +70,31 @@ struct SectionOfPage<'a> {
     figures: Vec<FigureOfPage<'a>>,
 }
 
-/// A picture as templates see it; its data stand in `figures`.
+/// A figure for templates; its data are in `figures`.
 #[derive(Serialize)]
 struct FigureOfPage<'a> {
     id: String,
     title: &'a str,
 }
 
-/// A gearbox with what its results rest on.
+/// A gearbox and the basis of its results.
 #[derive(Debug, Serialize)]
 pub struct GearboxPage {
     /// Name in the study.
     pub name: String,
     /// Title.
     pub title: String,
-    /// Where the description comes from.
+    /// Source of the description.
     pub source: String,
     /// Drawing, as SVG.
     pub drawing: String,
     /// Tables of geometry and kinematics.
     pub tables: Vec<PageTable>,
-    /// An operating point in words; empty where there is none.
+    /// An operating point as text; empty if there is none.
     pub point: String,
     /// Loads, balances and shares at that point.
     pub point_tables: Vec<PageTable>,
-    /// What is assumed and why.
+    /// Assumptions with their reasons.
     pub assumed: Vec<AssumedEntry>,
     /// The resolved description.
     pub resolved: String,
@@ -111,18 +111,18 @@ pub struct PageTable {
     pub rows: Vec<Vec<String>>,
 }
 
-/// What stands at head and foot of the page.
+/// Head and foot of the page.
 #[derive(Debug, Serialize)]
 pub struct Frame {
     /// Title of the study.
     pub title: String,
     /// The question that it answers.
     pub question: String,
-    /// What every analysis starts from, as a sentence.
+    /// The conditions of all analyses as a sentence.
     pub conditions: String,
     /// Version of the program.
     pub version: String,
-    /// Crates that brought models.
+    /// Crates with models.
     pub packages: Vec<String>,
     /// The study as written.
     pub study: String,
@@ -143,40 +143,40 @@ impl Frame {
     }
 }
 
-/// What every analysis starts from, as a sentence.
+/// The conditions of all analyses as a sentence.
 fn conditions(study: &Study) -> String {
     let given = &study.entry.conditions;
     let oil = given.oil_temperature.map_or_else(
-        || "oil at the temperature of the gearbox".to_owned(),
+        || "oil temperature of the gearbox".to_owned(),
         |oil| format!("oil at {oil} °C"),
     );
     let flow = match given.power_flow {
-        PowerFlow::Real => "losses change the torques of what comes after them",
-        PowerFlow::Ideal => "torques without losses",
+        PowerFlow::Real => "torque reduced by upstream losses (real power flow)",
+        PowerFlow::Ideal => "torque without losses (ideal power flow)",
     };
     format!(
-        "Torque at `{}`, speed at `{}`, {oil}; {flow}. Sets of models stand in the study at the end of this page.",
+        "Torque at `{}`, speed at `{}`, {oil}; {flow}. Model sets are listed in the study at the end of this page.",
         given.torque_at, given.speed_at
     )
 }
 
-/// What is wrong with a template.
+/// The finding about an error of a template.
 fn template_fault(fault: minijinja::Error) -> Diagnostic {
     let words = match fault.kind() {
         ErrorKind::OutOfFuel => format!(
-            "it takes more than {} million steps; is there a loop inside of a loop?",
+            "it takes more than {} million steps; does it contain nested loops?",
             MOST_STEPS / 1_000_000
         ),
         _ => format!("{fault:#}"),
     };
-    Diagnostic::error("", format!("the template of the report: {words}")).help("correct it, or leave --template out")
+    Diagnostic::error("", format!("the template of the report: {words}")).help("correct it, or omit --template")
 }
 
 impl Report {
     /// The page, by the user's template if there is one.
     ///
     /// # Errors
-    /// What is wrong with the template.
+    /// Error of the template.
     pub fn html(&self, frame: &Frame, template: Option<&str>) -> Result<String, Diagnostic> {
         self.filled(frame, template).map_err(template_fault)
     }
@@ -185,14 +185,14 @@ impl Report {
         let mut environment = Environment::new();
         environment.set_auto_escape_callback(|_| AutoEscape::Html);
         environment.set_fuel(Some(MOST_STEPS));
-        // It stands in no list of templates, so that there is none to include, not even itself.
+        // The environment has no named templates, so a template cannot include any, not even itself.
         let page = environment.template_from_named_str("report", template.unwrap_or(TEMPLATE))?;
         let all: Vec<&Figure> = self.sections.iter().flat_map(|section| &section.figures).collect();
         let id = |number: usize| format!("figure-{number}");
         let datum = |(number, shown): (usize, &&Figure)| {
             let [id, title] = [id(number), shown.title().to_owned()].map(Value::from);
             let json = format!(r#"{{"id":{id},"title":{title},"spec":{}}}"#, shown.plotly());
-            // A text in the data must neither end the script that holds it nor begin a comment or a script in there.
+            // A text in the data must neither end the enclosing script nor start a comment or script in it.
             json.replace('<', "\\u003c")
         };
         let data = || all.par_iter().enumerate().map(datum).collect::<Vec<String>>();
@@ -224,7 +224,7 @@ impl Report {
     }
 }
 
-/// The plotting library as a script element. The crate also brings one for formulas, which no picture here has.
+/// The plotting library as a script element. The crate also contains a library for formulas, which is not needed.
 fn script() -> String {
     let mut both = plotly::Plot::offline_js_sources();
     let end = both.find("</script>").map_or(both.len(), |at| at + "</script>".len());

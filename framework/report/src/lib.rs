@@ -1,4 +1,4 @@
-//! What readers get to see of results: text, pictures, the HTML page and files.
+//! Text, figures, pages and files of results.
 
 mod contours;
 pub mod csv;

@@ -21,7 +21,7 @@ pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Resul
     if !(0.1..=10.0).contains(&exponent) {
         return Err(Failure::input(
             format!("--exponent {exponent} is not between 0.1 and 10"),
-            "leave it out for the usual 2",
+            "omit it for the usual value 2",
         ));
     }
     let columns = super::columns(path)?;
@@ -29,12 +29,12 @@ pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Resul
     let squares = fit_boundary_friction(&points, exponent).map_err(|fault| {
         Failure::input(
             format!("{}: {fault}", path.display()),
-            "measure at films that are thinner than the roughness",
+            "measure at film thicknesses below the roughness",
         )
     })?;
     out.line(format!("{}: {} points", path.display(), points.len()))?;
     print_unused(&columns, &[LAMBDA, FILM, MU, MU_FILM], out)?;
-    let mut table = Table::new(&["lambda", "film friction", "mu", "law", "law less mu"]);
+    let mut table = Table::new(&["lambda", "film friction", "mu", "law", "law minus mu"]);
     let found = squares.estimates[0].value;
     for point in &points {
         let residual = mixed_residual(found, exponent, point);
@@ -56,12 +56,12 @@ pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Resul
 fn points(columns: &Columns, rq: Option<&str>) -> Result<Vec<StribeckPoint>, Failure> {
     let [message, help] = match (rq, columns.has(&LAMBDA), columns.has(&FILM)) {
         (None, true, false) | (Some(_), false, true) => ["", ""],
-        (Some(_), true, _) => ["`lambda` beside --rq", "leave out --rq, which is for films"],
-        (None, true, true) => ["`lambda` beside `film`", "leave out the one or the other"],
+        (Some(_), true, _) => ["both `lambda` and --rq", "omit --rq, which applies to films"],
+        (None, true, true) => ["both `lambda` and `film`", "delete one of them"],
         (None, false, true) => ["`film` without a roughness", "add --rq, such as --rq \"0.28 um\""],
         (_, false, false) => [
             "neither `lambda` nor `film [nm]`",
-            "add the one, or the other with --rq",
+            "add `lambda`, or `film [nm]` with --rq",
         ],
     };
     if !message.is_empty() {
@@ -75,7 +75,7 @@ fn points(columns: &Columns, rq: Option<&str>) -> Result<Vec<StribeckPoint>, Fai
                 let message = format!("--rq \"{text}\" is not above zero");
                 return Err(Failure::input(
                     message,
-                    "write the rms roughness of both flanks together",
+                    "write the combined rms roughness of both flanks",
                 ));
             }
             columns.numbers(&FILM)?.iter().map(|film| film / rq).collect()

@@ -1,4 +1,4 @@
-//! `fit traction`: Eyring stress and exponent over pressure in three steps, and the limiting stress.
+//! `fit traction`: Eyring stress and pressure exponent in three steps, and the limiting stress.
 //!
 //! Source: LaFountain, Johnston, Spikes, Tribol. Trans. 44 (2001) 648-656, after Johnson and Tevaarwerk 1977.
 
@@ -16,9 +16,9 @@ use crate::args::OilArgs;
 use crate::output::{End, Failure, Out, Table, figures, number, significant};
 
 const MPA: f64 = 1e6;
-/// Part by which a slope may be too low without a note.
+/// Relative underestimate of a slope that is reported.
 const LOW: f64 = 0.01;
-/// Slopes of the limiting stress that lubricants are described with.
+/// Slopes of the limiting stress as in `lubricants`.
 const LIMITING: [f64; 2] = [0.005, 0.2];
 
 const PRESSURE: Quantity = Quantity::new("pressure", Measure::Of(Dimension::Pressure), "GPa");
@@ -59,7 +59,10 @@ pub fn run(path: &Path, args: &OilArgs, out: &mut Out) -> Result<End, Failure> {
     let found: Vec<Isotherm> = slopes.iter().flatten().copied().filter(|s| s.slope > 0.0).collect();
     let (mean, spread) = Isotherm::mean(&found).ok_or_else(|| {
         Failure::input(
-            format!("{}: no curve whose stress rises over two shear rates", path.display()),
+            format!(
+                "{}: no curve with increasing stress over two shear rates",
+                path.display()
+            ),
             "measure each pressure and temperature at several sliding speeds",
         )
     })?;
@@ -95,11 +98,11 @@ fn points(columns: &Columns) -> Result<Vec<TractionPoint>, Diagnostic> {
     let pressure = columns.numbers(&PRESSURE)?;
     let temperature = columns.numbers(&TEMPERATURE)?;
     if let Some(row) = temperature.iter().position(|t| !(-60.0..=300.0).contains(t)) {
-        let message = format!("{} degC is no temperature of an oil", temperature[row]);
+        let message = format!("{} degC is not a valid oil temperature", temperature[row]);
         return Err(columns.wrong(
             Some(row),
             &message,
-            "write one from -60 to 300 degC, and check the unit",
+            "write a temperature from -60 to 300 degC, and check the unit",
         ));
     }
     one_of(columns, SHEAR_RATE, &[SLIDING, FILM])?;
@@ -134,7 +137,7 @@ fn points(columns: &Columns) -> Result<Vec<TractionPoint>, Diagnostic> {
     Ok((0..pressure.len()).map(point).collect())
 }
 
-/// Refuses a quantity that is stated in two ways, or in none.
+/// Rejects a quantity that is given twice or not at all.
 fn one_of(columns: &Columns, one: Quantity, others: &[Quantity]) -> Result<(), Diagnostic> {
     let words: Vec<String> = others.iter().map(Quantity::header).collect();
     let words = words.join(" and ");
@@ -142,13 +145,13 @@ fn one_of(columns: &Columns, one: Quantity, others: &[Quantity]) -> Result<(), D
     match (columns.has(&one), also) {
         (true, true) => Err(columns.wrong(
             None,
-            &format!("{} beside {words}", one.header()),
-            "leave out the one or the other",
+            &format!("both {} and {words}", one.header()),
+            "delete one of them",
         )),
         (false, false) => Err(columns.wrong(
             None,
             &format!("neither {} nor {words}", one.header()),
-            "add the one or the other",
+            "add one of them",
         )),
         _ => Ok(()),
     }
@@ -164,9 +167,9 @@ fn limit_words(limit: Option<&Curve>) -> String {
         curve.name()
     );
     let end = if curve.heated > 0 {
-        "behind it the stress falls: by a limit or by heat"
+        "beyond it the stress decreases: limiting stress or heating"
     } else {
-        "the curve still rises there: the limit lies at this or above"
+        "the curve still increases there: the limiting stress is at least this"
     };
     format!("{said}note: {end}\n")
 }
@@ -195,15 +198,15 @@ fn slopes_table(curves: &[Curve], slopes: &[Option<Isotherm>]) -> String {
     }
     let mut text = table.render();
     if curves.iter().any(|c| c.creeping > 0) {
-        text.push_str("creeping: left out, below 1 % of sliding the bodies creep\n");
+        text.push_str("creeping: omitted, elastic creep of the bodies below 1 % sliding\n");
     }
     if curves.iter().any(|c| c.heated > 0) {
-        text.push_str("heated: left out, behind the greatest stress heat rules\n");
+        text.push_str("heated: omitted, heating dominates beyond the maximum stress\n");
     }
     text
 }
 
-/// Which slopes are too low.
+/// Underestimated slopes.
 fn low_slopes(curves: &[Curve], slopes: &[Option<Isotherm>]) -> String {
     let mut text = String::new();
     for (curve, slope) in curves.iter().zip(slopes) {
@@ -213,7 +216,7 @@ fn low_slopes(curves: &[Curve], slopes: &[Option<Isotherm>]) -> String {
         let (begins, low) = curve.error_of_slope(slope);
         if low > LOW {
             text.push_str(&format!(
-                "note: at {} stress begins at {:.1} times the slope, which lies low by up to {:.0} % there; step 3 does not\n",
+                "note: at {} the stress starts at {:.1} times the slope, so the slope is up to {:.0} % too low there; step 3 is not affected\n",
                 curve.name(),
                 begins,
                 100.0 * low

@@ -1,4 +1,4 @@
-//! What the analyses of one run share: the study, where its results go, and the report.
+//! Shared state of the analyses of one run: study, result folder and report.
 
 use std::cell::{Cell, RefCell};
 use std::ops::Deref;
@@ -21,23 +21,23 @@ use super::write;
 use crate::interrupt;
 use crate::output::{Failure, Out};
 
-/// What all analyses of one run share.
+/// Shared state of the analyses of one run.
 pub struct Run<'a> {
     pub(super) language: &'a Language,
     pub(super) study: &'a Study,
     bars: Bars,
     pub(super) report: RefCell<Report>,
-    /// Where results go.
+    /// Folder of the results.
     pub(super) files: write::Files,
-    /// Limits that were left at any point, counted over all analyses.
+    /// Quantities outside their stated ranges, counted over all analyses.
     pub(super) left: Cell<usize>,
-    /// The same limits, for the end of the run.
+    /// The same for the end of the run.
     pub(super) stated_ranges: RefCell<StatedRanges>,
-    /// Files that the gearboxes had read before any analysis.
+    /// Files that the gearboxes read before the first analysis.
     known: Vec<Vec<PathBuf>>,
-    /// Results of tasks that shards have computed or are to compute.
+    /// Task results of shards.
     pub(super) tasks: Option<ShardTasks>,
-    /// True for `check`: an analysis ends where it would begin to compute, with all that it refuses before.
+    /// True for `check`: an analysis stops before it computes and reports its errors.
     only_checks: bool,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Deref for Runner<'a> {
     }
 }
 
-/// Bars on standard error, on a terminal only.
+/// Progress bars on standard error, on a terminal only.
 struct Bars {
     shown: bool,
 }
@@ -118,7 +118,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// For `check`, which computes and writes nothing.
+    /// For `check`, which neither computes nor writes.
     pub(super) fn for_check(language: &'a Language, study: &'a Study) -> Self {
         Self {
             bars: Bars { shown: false },
@@ -127,15 +127,15 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// What an analysis is given.
+    /// The context of an analysis.
     pub(super) fn context<'r>(&'r self, name: &'r str) -> Context<'r> {
         let cx = Context::new(self.language, self.study, name, &self.bars);
         let cx = if self.only_checks { cx.checking() } else { cx };
         cx.with_tasks(self.tasks.as_ref().map(|tasks| tasks as &dyn TaskResults))
     }
 
-    /// Runs an analysis, with its section in the report. What another one has read is forgotten: the inputs that its results
-    /// name are its own, whatever ran before.
+    /// Runs an analysis and adds its section to the report. Files read by earlier analyses are cleared, so that its results list only its
+    /// own inputs.
     pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
         self.report.borrow_mut().sections.push(Section {
             name: name.to_owned(),
@@ -151,7 +151,7 @@ impl<'a> Run<'a> {
             run: self,
         };
         if let Some((set, by)) = self.study.pending(analysis).filter(|_| !self.only_checks) {
-            let message = format!("the set `{set}` has no values: the analysis `{by}` found none");
+            let message = format!("the model set `{set}` has no values, because the analysis `{by}` produced none");
             let help = format!("correct `{by}`, or choose another set");
             return Err(runner.wrong(&format!("analyses.{name}"), message, &help).into());
         }
@@ -176,7 +176,7 @@ impl<'a> Run<'a> {
 }
 
 impl Runner<'_> {
-    /// Prints an outcome, writes its files and puts it into the report.
+    /// Prints an outcome, writes its files and adds it to the report.
     fn present(&self, analysis: &AnalysisEntry, outcome: &dyn AnyOutcome, out: &mut Out) -> Result<(), Failure> {
         if let Some(then) = analysis.then() {
             self.study.keep_found(then.set, outcome.found());

@@ -1,4 +1,4 @@
-//! Least squares of a few parameters, with their accuracy.
+//! Least squares of a few parameters, with confidence intervals.
 
 use crate::inference::{self, Accuracy, Standing};
 use crate::least_squares::{Options, Problem, Side, solve};
@@ -13,22 +13,22 @@ pub struct Estimate {
     pub name: String,
     /// The value with the least squares.
     pub value: f64,
-    /// Standard deviation. Absent where the points do not determine it.
+    /// Standard deviation. Absent if the points do not determine it.
     pub deviation: Option<f64>,
     /// Ends of the 95 % interval.
     pub interval: Option<[f64; 2]>,
-    /// Whether the points pull it against a bound.
+    /// Whether it is at an active bound.
     pub held: bool,
 }
 
-/// Parameters with the least squares of a problem; their accuracy is estimated from the scatter of the residuals.
+/// Least squares estimates of a problem; their accuracy is estimated from the scatter of the residuals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Squares {
     /// One estimate for each parameter.
     pub estimates: Vec<Estimate>,
     /// Correlation of the first two parameters.
     pub correlation: Option<f64>,
-    /// Root of the mean square of the residuals.
+    /// Root mean square of the residuals.
     pub rms: f64,
 }
 

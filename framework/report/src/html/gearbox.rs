@@ -12,14 +12,14 @@ use super::{GearboxPage, PageTable, point};
 use crate::schematic;
 use crate::text::number;
 
-/// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that
-/// the analyses use.
+/// The basis of a gearbox's results: geometry and description with its default models, loads and losses with the model sets of the
+/// analyses.
 ///
 /// # Errors
 /// Everything that resolving and building find.
 pub fn gearbox_page(cx: &Context<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPage, Stopped> {
     let sets = cx.study.sets_used_for(name);
-    // Overrides may be meant for the models of a set, which the own models of the gearbox do not take.
+    // Overrides may apply only to the models of a set and not to the defaults of the gearbox.
     let own = cx.built(gearbox, &[]).or_else(|fault| match &sets[..] {
         [] => Err(fault),
         [first, ..] => cx.built(gearbox, std::slice::from_ref(first)),
@@ -55,7 +55,7 @@ pub fn gearbox_page(cx: &Context<'_>, name: &str, gearbox: &Gearbox) -> Result<G
     })
 }
 
-/// Coefficients of models that were changed from their source; absent where none was.
+/// Coefficients that differ from their source; absent if there are none.
 fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> {
     let mut rows: Vec<Vec<String>> = Vec::new();
     for b in built {
@@ -75,7 +75,7 @@ fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> 
         }
     }
     let head = ["models", "path", "model", "coefficient", "value", "published", "source"];
-    (!rows.is_empty()).then(|| table("Coefficients changed from the source", &head, rows))
+    (!rows.is_empty()).then(|| table("Coefficients that differ from their source", &head, rows))
 }
 
 pub(super) fn table(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> PageTable {
@@ -154,7 +154,7 @@ fn meshes(t: &Transmission) -> PageTable {
 
 /// Speed of every member in every gear state, for 1000 rpm at the first free port.
 fn states(t: &Transmission) -> PageTable {
-    let mut head = vec!["gear state", "port"];
+    let mut head = vec!["gear", "port"];
     head.extend(t.members().iter().map(String::as_str));
     let mut rows = Vec::new();
     for (i, state) in t.states().iter().enumerate() {

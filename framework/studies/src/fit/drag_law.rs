@@ -6,7 +6,7 @@ use gearloss_numerics::fit::{PowerFit, power_law};
 
 use crate::analyses::numbers::significant;
 
-/// Axes of the power law with their units and the parameters that hold their reference, exponent and range.
+/// Axes of the power law with their units and the parameters for reference, exponent and range.
 const AXES: [(&str, &str, [&str; 3]); 3] = [
     ("speed", "rpm", ["speed", "speed_exponent", "speeds"]),
     ("nu", "mm2/s", ["nu", "viscosity_exponent", "viscosities"]),
@@ -32,7 +32,7 @@ impl DragLaw {
     /// # Errors
     /// If it is no such table, or its moments do not determine the law.
     pub fn of_table(text: &str) -> Result<Self, Diagnostic> {
-        let wrong = |fault: String| wrong(fault, "write the table as a drag model reads it");
+        let wrong = |fault: String| wrong(fault, "write the table in the format of the drag model `table`");
         let names = columns(text).map_err(wrong)?;
         let known = |name: &String| AXES.iter().find(|(axis, ..)| axis == name);
         let count = names.iter().take_while(|name| known(name).is_some()).count();
@@ -40,7 +40,7 @@ impl DragLaw {
             if !names[..count].iter().any(|name| name == needed) {
                 return Err(self::wrong(
                     format!("line 1: no axis `{needed}`; there are: {}", names.join(", ")),
-                    "give the table the axes `speed [rpm]`, `nu [mm2/s]` and, where it counts, `volume [ml]`",
+                    "give the table the axes `speed [rpm]`, `nu [mm2/s]` and, if relevant, `volume [ml]`",
                 ));
             }
         }
@@ -59,10 +59,14 @@ impl DragLaw {
                 point.1 += answer;
             }
         }
-        let fit = power_law(&points)
-            .map_err(|fault| self::wrong(fault, "give every axis two values and every point a moment above zero"))?;
+        let fit = power_law(&points).map_err(|fault| {
+            self::wrong(
+                fault,
+                "give every axis at least two values and every point a positive moment",
+            )
+        })?;
         if !fit.rms().is_finite() {
-            let message = "its moments are too large, or too far apart, to be fitted".to_owned();
+            let message = "the moments are too large, or differ too much, for a fit".to_owned();
             return Err(self::wrong(message, "check their unit"));
         }
         let mut parameters = vec![format!("moment: {} Nm", significant(fit.factor))];

@@ -102,11 +102,11 @@ impl Isotherm {
     }
 }
 
-/// Bounds of the Eyring stress, as lubricants are described. \[MPa\]
+/// Bounds of the Eyring stress as in `lubricants`. \[MPa\]
 const TAU0: [f64; 2] = [0.1, 50.0];
-/// Bounds of the exponent over pressure.
+/// Bounds of the pressure exponent.
 const Z: [f64; 2] = [0.2, 1.2];
-/// Where the search of the exponent starts.
+/// Start value of the pressure exponent.
 pub const START: f64 = 0.5;
 const MPA: f64 = 1e6;
 
@@ -168,7 +168,7 @@ pub fn boundary_friction(points: &[StribeckPoint], exponent: f64) -> Option<f64>
     (below > 0.0).then(|| above / below)
 }
 
-/// Bounds of the coefficient of boundary friction, as lubricants are described.
+/// Bounds of the coefficient of boundary friction as in `lubricants`.
 const MU_B: [f64; 2] = [0.01, 0.5];
 
 /// The coefficient of boundary friction within its bounds, with its accuracy.

@@ -1,12 +1,12 @@
-//! Traction curves: points by pressure and temperature, without those that heat or elastic creep rules.
+//! Traction curves: points by pressure and temperature, without points dominated by heating or elastic creep.
 
 use super::{Isotherm, TractionPoint};
 
-/// Sliding over rolling speed below which elastic creep of the bodies counts.
+/// Slide-to-roll ratio below which elastic creep of the bodies matters.
 const CREEP: f64 = 0.01;
-/// Share of the pressure within which points belong to one curve; loads repeat to that.
+/// Relative pressure difference within which points belong to one curve: repeatability of loads.
 const SAME_PRESSURE: f64 = 0.01;
-/// Temperatures within which points belong to one curve; baths are held to that. \[K\]
+/// Temperature difference within which points belong to one curve: control accuracy of baths. \[K\]
 const SAME_TEMPERATURE: f64 = 1.0;
 
 /// The points of one pressure and temperature, in order of their shear rate.
@@ -16,13 +16,13 @@ pub struct Curve {
     pub pressure: f64,
     /// Temperature of the first point. \[degC\]
     pub temperature: f64,
-    /// What is left.
+    /// The remaining points.
     pub points: Vec<TractionPoint>,
-    /// How many points were left out for little sliding.
+    /// Number of points omitted because of little sliding.
     pub creeping: usize,
-    /// How many points were left out because they lie behind the greatest stress, where heat rules.
+    /// Number of points omitted because they are beyond the maximum stress, where heating dominates.
     pub heated: usize,
-    /// Greatest stress over pressure. \[-\]
+    /// Maximum of stress over pressure. \[-\]
     pub greatest: f64,
 }
 
@@ -46,10 +46,10 @@ pub fn curves(points: &[TractionPoint], slide_roll: Option<&[f64]>) -> Vec<Curve
     curves
 }
 
-/// Curves whose pressure is at least this part of the greatest one show the limiting stress.
+/// Curves with at least this fraction of the maximum pressure determine the limiting stress.
 const HIGHEST: f64 = 0.9;
 
-/// Of the curves at the highest pressures the one with the greatest stress over pressure.
+/// The curve at the highest pressures with the maximum stress over pressure.
 pub fn limiting(curves: &[Curve]) -> Option<&Curve> {
     let highest = curves.iter().map(|c| c.pressure).fold(0.0, f64::max);
     let high = curves
@@ -75,7 +75,7 @@ impl Curve {
             && (point.temperature - self.temperature).abs() <= SAME_TEMPERATURE
     }
 
-    /// Leaves out what lies behind the greatest stress.
+    /// Omits points beyond the maximum stress.
     fn cut(&mut self) {
         self.points.sort_by(|p, q| p.shear_rate.total_cmp(&q.shear_rate));
         let greatest = self.points.iter().map(|p| p.stress).fold(0.0, f64::max);
@@ -94,14 +94,14 @@ impl Curve {
     /// The least stress of the points that a slope is based on, over the slope, and the part by which the slope is too low
     /// there: Eyring's law has the slope tau0 tanh(tau/tau0).
     pub fn error_of_slope(&self, found: &Isotherm) -> (f64, f64) {
-        // The points on the line are those of the greatest stresses.
+        // The points on the line have the largest stresses.
         let mut stresses: Vec<f64> = self.points.iter().map(|p| p.stress).collect();
         stresses.sort_by(|a, b| b.total_cmp(a));
         let begins = stresses[found.points - 1] / found.slope;
         (begins, 1.0 - begins.tanh())
     }
 
-    /// Pressure and temperature in words.
+    /// Pressure and temperature as text.
     pub fn name(&self) -> String {
         format!("{:.3} GPa, {:.1} degC", self.pressure * 1e-9, self.temperature)
     }
