@@ -19,8 +19,10 @@ pub mod schema;
 mod set;
 pub mod solve;
 
+use std::path::Path;
 use std::sync::OnceLock;
 
+use gearloss_framework::files::read_text;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::Transmission;
@@ -36,6 +38,11 @@ fn language() -> Result<&'static Language, Failure> {
     }
     let bug = || Failure::input("bug: the language was assembled but is missing", "report this");
     LINKED.get().ok_or_else(bug)
+}
+
+/// The text of a file that an argument names; `help` says what to do if it cannot be read.
+fn read_file(file: &Path, longest: u64, help: &str) -> Result<String, Failure> {
+    read_text(file, longest).map_err(|e| Failure::input(format!("cannot read {}: {e}", file.display()), help))
 }
 
 /// Prints warnings and notes of building to standard error.

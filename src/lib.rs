@@ -13,7 +13,6 @@ mod args;
 mod commands;
 mod interrupt;
 mod output;
-mod report;
 mod threads;
 
 use std::ffi::OsString;

@@ -2,6 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Findings;
 pub use gearloss_report::text::{TextTable as Table, beyond, figures, fixed, number, significant};
 use gearloss_studies::analyses::Stopped;
@@ -48,6 +49,16 @@ impl From<Findings> for Failure {
     }
 }
 
+/// One finding about something that is no document.
+impl From<Diagnostic> for Failure {
+    fn from(finding: Diagnostic) -> Self {
+        match &finding.help {
+            Some(help) => Self::input(&finding.message, help),
+            None => Self::Input(format!("error: {}\n", finding.message)),
+        }
+    }
+}
+
 /// `Checked` is not a failure and is never converted.
 impl From<Stopped> for Failure {
     fn from(stopped: Stopped) -> Self {
@@ -82,8 +93,6 @@ pub struct Out {
     to: Box<dyn Write>,
     terminal: bool,
     closed: bool,
-    /// Text printed since the copy was started.
-    copy: Option<String>,
 }
 
 impl Out {
@@ -93,7 +102,6 @@ impl Out {
             to: Box::new(io::stdout().lock()),
             terminal: io::stdout().is_terminal(),
             closed: false,
-            copy: None,
         }
     }
 
@@ -103,17 +111,15 @@ impl Out {
             to: Box::new(io::stderr().lock()),
             terminal: io::stderr().is_terminal(),
             closed: false,
-            copy: None,
         }
     }
 
-    /// No output; only copies are kept.
+    /// No output.
     pub fn nowhere() -> Self {
         Self {
             to: Box::new(io::sink()),
             terminal: false,
             closed: true,
-            copy: None,
         }
     }
 
@@ -122,21 +128,8 @@ impl Out {
         self.terminal
     }
 
-    /// Starts a copy of the printed text.
-    pub fn begin_copy(&mut self) {
-        self.copy = Some(String::new());
-    }
-
-    /// Ends and returns the copy.
-    pub fn end_copy(&mut self) -> String {
-        self.copy.take().unwrap_or_default()
-    }
-
     /// Prints a text unchanged.
     pub fn text(&mut self, text: &str) -> io::Result<()> {
-        if let Some(copy) = &mut self.copy {
-            copy.push_str(text);
-        }
         if self.closed {
             return Ok(());
         }
@@ -146,13 +139,6 @@ impl Out {
                 Ok(())
             }
             other => other,
-        }
-    }
-
-    /// Adds a text to the copy only.
-    pub fn only_copy(&mut self, text: &str) {
-        if let Some(copy) = &mut self.copy {
-            copy.push_str(text);
         }
     }
 

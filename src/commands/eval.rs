@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use gearloss_framework::eval;
-use gearloss_framework::files::{LONGEST_TEXT, read_text};
+use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::loss::Step;
 use serde_json::json;
@@ -16,8 +16,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     let (mechanism, entry) = eval::named(language, &args.model).map_err(Findings::from)?;
     let (text, folder) = match &args.input {
         Some(file) => (
-            read_text(file, LONGEST_TEXT)
-                .map_err(|e| Failure::input(format!("cannot read {}: {e}", file.display()), "check the file name"))?,
+            super::read_file(file, LONGEST_TEXT, "check the file name")?,
             file.parent().map(Path::to_path_buf).unwrap_or_default(),
         ),
         None => Default::default(),

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use gearloss_framework::document::{Unit, parse_quantity};
-use gearloss_framework::files::{LONGEST_TEXT, read_text};
+use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::mechanism::Mechanism;
 use gearloss_framework::mechanism::planetary_drag::PlanetaryDrag;
 use gearloss_framework::table::{Reading, Table as Csv};
@@ -33,8 +33,7 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
         None => f64::INFINITY,
     };
     let window = [from, to];
-    let text = read_text(runs, LONGEST_TEXT)
-        .map_err(|e| Failure::input(format!("cannot read {}: {e}", runs.display()), "check the file name"))?;
+    let text = super::read_file(runs, LONGEST_TEXT, "check the file name")?;
     let list = Runs::read(&text).map_err(|fault| {
         Failure::input(
             format!("{}: {fault}", runs.display()),

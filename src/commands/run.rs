@@ -2,7 +2,6 @@
 
 mod folder;
 mod manifest;
-mod report;
 mod runner;
 mod shard;
 mod shard_tasks;
@@ -21,12 +20,12 @@ use self::runner::{Run, Runner};
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::coefficients::changed_from_source;
+use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::axes::{speeds, torques};
-use gearloss_studies::analyses::{Built, gear_of};
 use gearloss_studies::study::Study;
 
+use super::read_file;
 use crate::args::{ResultArgs, RunArgs};
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
@@ -148,8 +147,8 @@ fn warnings(language: &Language, study: &Study) -> (Vec<Findings>, Vec<String>) 
 /// A line for each coefficient with a value other than the published one, under the gearbox defaults or a model set of the analyses.
 fn changed_coefficients(language: &Language, study: &Study) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for (i, (name, gearbox)) in study.gearboxes.iter().enumerate() {
-        let sets = report::sets(study, name, i == 0);
+    for (name, gearbox) in &study.gearboxes {
+        let sets = study.sets_used_for(name);
         let own_models = std::iter::once(None).chain(sets.iter().map(|set| {
             let set = set.rsplit('/').next();
             set.filter(|set| *set != "own")
@@ -187,7 +186,9 @@ pub(super) fn all(
             "write --deny extrapolation, or `check --deny GRADE` for evidence",
         ));
     }
-    let template = report::template(args.template.as_deref())?;
+    let template = args.template.as_deref();
+    let template = template.map(|file| read_file(file, LONGEST_TEXT, "give a template with --template"));
+    let template = template.transpose()?;
     let held = taken(&folder, args.force, out)?;
     let runner = Run::new(language, study, folder, tasks);
     if let Some(title) = &study.entry.title {
@@ -218,7 +219,7 @@ pub(super) fn all(
             Ok(()) => {}
             Err(failure) => {
                 let Some(text) = failure.text() else {
-                    runner.report.borrow_mut().drop_last();
+                    runner.report.borrow_mut().sections.pop();
                     finished = Some(done_so_far);
                     break;
                 };
@@ -226,7 +227,7 @@ pub(super) fn all(
                 failed += 1;
                 write::remove(&runner, name);
                 out.line(format!("{name}: failed"))?;
-                runner.report.borrow_mut().text(&format!("failed\n{text}"));
+                runner.in_section(|section| section.text.push_str(&format!("failed\n{text}")));
                 if let Some(text) = reported.rest(failure).and_then(|rest| rest.text()) {
                     Out::error().text(&text)?;
                 }
@@ -235,7 +236,7 @@ pub(super) fn all(
         done_so_far += 1;
     }
     runner.print_stated_ranges(out)?;
-    report::write(&runner, template.as_deref())?;
+    write::report(&runner, template.as_deref())?;
     held.finish();
     out.line(format!(
         "results in {}, report in report.html",

@@ -131,7 +131,7 @@ impl Gearbox {
             Ok(text) => text,
             Err(e) => {
                 let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
-                    .help("check the name of the file")
+                    .help("check the file name")
                     .code(Code::Unreadable);
                 return Err(Findings {
                     list: vec![error],

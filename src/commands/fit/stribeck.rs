@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use gearloss_framework::document::Dimension;
-use gearloss_numerics::least_squares::{Parameter, Problem};
-use gearloss_plugins::tooth_friction::ehl_mixed::identification::{StribeckPoint, boundary_friction, mixed_residual};
+use gearloss_plugins::tooth_friction::ehl_mixed::identification::{
+    StribeckPoint, fit_boundary_friction, mixed_residual,
+};
+use gearloss_studies::fit::columns::{Columns, Measure, Quantity};
 
-use super::columns::{Columns, Measure, Quantity};
-use super::squares::Squares;
-use super::traction::estimates_table;
+use super::{estimates_table, print_unused};
 use crate::commands::point::quantity;
 use crate::output::{End, Failure, Out, Table, figures, significant};
 
@@ -17,9 +17,6 @@ const FILM: Quantity = Quantity::new("film", Measure::Of(Dimension::Length), "nm
 const MU: Quantity = Quantity::plain("mu");
 const MU_FILM: Quantity = Quantity::plain("mu_film");
 
-/// Bounds of the coefficient, as in `lubricants`.
-const MU_B: [f64; 2] = [0.01, 0.5];
-
 pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Result<End, Failure> {
     if !(0.1..=10.0).contains(&exponent) {
         return Err(Failure::input(
@@ -27,21 +24,16 @@ pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Resul
             "omit it for the usual value 2",
         ));
     }
-    let columns = Columns::read(path)?;
+    let columns = super::columns(path)?;
     let points = points(&columns, rq)?;
-    let start = boundary_friction(&points, exponent).unwrap_or(MU_B[0]);
-    let mu_b = Parameter::new("mu_b", start.clamp(MU_B[0], MU_B[1])).within(MU_B[0], MU_B[1]);
-    let all = |theta: &[f64]| Ok(points.iter().map(|p| mixed_residual(theta[0], exponent, p)).collect());
-    let squares = Squares::of(&Problem::new(all, vec![mu_b])).map_err(|fault| {
+    let squares = fit_boundary_friction(&points, exponent).map_err(|fault| {
         Failure::input(
-            format!("{}: {fault}", columns.file()),
+            format!("{}: {fault}", path.display()),
             "measure at film thicknesses below the roughness",
         )
     })?;
-    out.line(format!("{}: {} points", columns.file(), points.len()))?;
-    if let Some(note) = columns.unused(&[LAMBDA, FILM, MU, MU_FILM]) {
-        out.line(note)?;
-    }
+    out.line(format!("{}: {} points", path.display(), points.len()))?;
+    print_unused(&columns, &[LAMBDA, FILM, MU, MU_FILM], out)?;
     let mut table = Table::new(&["lambda", "film friction", "mu", "law", "law minus mu"]);
     let found = squares.estimates[0].value;
     for point in &points {
@@ -62,9 +54,22 @@ pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Resul
 }
 
 fn points(columns: &Columns, rq: Option<&str>) -> Result<Vec<StribeckPoint>, Failure> {
-    let lambda = match (rq, columns.has(&LAMBDA), columns.has(&FILM)) {
-        (None, true, false) => columns.numbers(&LAMBDA)?,
-        (Some(text), false, true) => {
+    let [message, help] = match (rq, columns.has(&LAMBDA), columns.has(&FILM)) {
+        (None, true, false) | (Some(_), false, true) => ["", ""],
+        (Some(_), true, _) => ["both `lambda` and --rq", "omit --rq, which applies to films"],
+        (None, true, true) => ["both `lambda` and `film`", "delete one of them"],
+        (None, false, true) => ["`film` without a roughness", "add --rq, such as --rq \"0.28 um\""],
+        (_, false, false) => [
+            "neither `lambda` nor `film [nm]`",
+            "add `lambda`, or `film [nm]` with --rq",
+        ],
+    };
+    if !message.is_empty() {
+        return Err(columns.wrong(None, message, help).into());
+    }
+    let lambda = match rq {
+        None => columns.numbers(&LAMBDA)?,
+        Some(text) => {
             let rq = quantity("--rq", text, "um")?;
             if rq <= 0.0 {
                 let message = format!("--rq \"{text}\" is not above zero");
@@ -74,19 +79,6 @@ fn points(columns: &Columns, rq: Option<&str>) -> Result<Vec<StribeckPoint>, Fai
                 ));
             }
             columns.numbers(&FILM)?.iter().map(|film| film / rq).collect()
-        }
-        (Some(_), true, _) => {
-            return Err(columns.wrong(None, "both `lambda` and --rq", "omit --rq, which applies to films"));
-        }
-        (None, true, true) => {
-            return Err(columns.wrong(None, "both `lambda` and `film`", "delete one of them"));
-        }
-        (None, false, true) => {
-            return Err(columns.wrong(None, "`film` without a roughness", "add --rq, such as --rq \"0.28 um\""));
-        }
-        (_, false, false) => {
-            let help = "add `lambda`, or `film [nm]` with --rq";
-            return Err(columns.wrong(None, "neither `lambda` nor `film [nm]`", help));
         }
     };
     let (mu, film) = (columns.numbers(&MU)?, columns.numbers(&MU_FILM)?);

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
+use gearloss_report::html::{Report, Section};
 use gearloss_report::page::{Page, Text};
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Context, Stopped};
@@ -19,7 +20,6 @@ use super::table::Tables;
 use super::write;
 use crate::interrupt;
 use crate::output::{Failure, Out};
-use crate::report::Report;
 
 /// Shared state of the analyses of one run.
 pub struct Run<'a> {
@@ -137,7 +137,11 @@ impl<'a> Run<'a> {
     /// Runs an analysis and adds its section to the report. Files read by earlier analyses are cleared, so that its results list only its
     /// own inputs.
     pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
-        self.report.borrow_mut().begin(name, analysis.kind().meaning);
+        self.report.borrow_mut().sections.push(Section {
+            name: name.to_owned(),
+            about: analysis.kind().meaning.to_owned(),
+            ..Section::default()
+        });
         for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
             gearbox.files.forget_all_but(known);
         }
@@ -151,8 +155,7 @@ impl<'a> Run<'a> {
             let help = format!("correct `{by}`, or choose another set");
             return Err(runner.wrong(&format!("analyses.{name}"), message, &help).into());
         }
-        out.begin_copy();
-        let done = match analysis.run(&runner.cx) {
+        match analysis.run(&runner.cx) {
             Ok(outcome) => {
                 let shown = runner.present(analysis, outcome.as_ref(), out);
                 drop(runner);
@@ -161,10 +164,14 @@ impl<'a> Run<'a> {
             }
             Err(Stopped::Checked) => Ok(()),
             Err(stopped) => Err(stopped.into()),
-        };
-        let printed = out.end_copy();
-        self.report.borrow_mut().text(&printed);
-        done
+        }
+    }
+
+    /// Changes the section of the present analysis.
+    pub(super) fn in_section(&self, change: impl FnOnce(&mut Section)) {
+        if let Some(section) = self.report.borrow_mut().sections.last_mut() {
+            change(section);
+        }
     }
 }
 
@@ -186,14 +193,11 @@ impl Runner<'_> {
             self.keep_outside_at_samples(path, name);
         }
         let page = Page::of(outcome);
+        self.run.in_section(|section| section.add_text(&page));
         for text in &page.text {
-            match text {
-                Text::Everywhere(text) => out.text(text)?,
-                Text::InReport(text) => out.only_copy(text),
+            if let Text::Everywhere(text) = text {
+                out.text(text)?;
             }
-        }
-        for verdict in &page.verdicts {
-            self.run.report.borrow_mut().verdict(verdict);
         }
         let formats = analysis.formats();
         for file in outcome.files() {

@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
+use gearloss_report::html::{Frame, gearbox_page};
 use gearloss_studies::analyses::AnyOutcome;
 use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
 use gearloss_studies::study::Write;
@@ -26,6 +27,17 @@ pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome) -> Result<(), Fail
 
 /// Name of the report.
 pub const REPORT: &str = "report.html";
+
+/// Writes the page beside the results.
+pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
+    let context = run.context("report");
+    let mut report = run.report.borrow_mut();
+    for (name, gearbox) in &run.study.gearboxes {
+        report.gearboxes.push(gearbox_page(&context, name, gearbox)?);
+    }
+    let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
+    keep(run, REPORT, Ok(report.html(&frame, template)?.into_bytes()))
+}
 
 /// Removes files of an earlier run of an analysis, which could be mistaken for current results. Files of this run are kept: an analysis may
 /// fail in part.
@@ -129,7 +141,7 @@ pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, formats: &[Write
         let file = format!("{}.svg", name.replace('/', "-"));
         keep(runner.run, &file, figure.svg().map(String::into_bytes))?;
     }
-    runner.run.report.borrow_mut().figure(figure);
+    runner.run.in_section(|section| section.figures.push(figure));
     Ok(())
 }
 

@@ -6,17 +6,17 @@ use gearloss_framework::flow::Tolerance;
 use gearloss_framework::mechanism::bearing::BearingPart;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analyses::axes::{speeds, torques};
+use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::{Built, Context, gear_of};
 use gearloss_studies::analysis::{Given, OilTemperature, evidence};
 
-use super::super::super::solve::RPM;
-use super::super::{Built, gear_of, speeds, torques};
-use super::table;
-use crate::output::{fixed, number};
-use crate::report::PageTable;
-use gearloss_studies::analyses::Context;
+use super::PageTable;
+use super::gearbox::table;
+use crate::text::{fixed, number};
 
 /// The point of the report: from the study, or the largest torque and speed of its first grid.
-pub fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
+fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
     let entry = &runner.study.entry;
     let given = |torque, speed| Given {
         torque,

@@ -1,94 +1,24 @@
-//! The report of a run.
-
-mod point;
-
-use std::io::Write as _;
-use std::path::Path;
+//! A gearbox in the report: geometry, kinematics, and what its results rest on.
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::description::AssumedEntry;
-use gearloss_framework::evaluate::PowerFlow;
-use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
-use gearloss_report::schematic;
-use gearloss_studies::study::Study;
+use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::{Built, Context, Stopped};
 use serde_json::Value;
 
-use super::super::solve::RPM;
-use super::Run;
-use super::write::{Place, REPORT};
-use crate::output::{Failure, number};
-use crate::report::{Frame, GearboxPage, PageFault, PageTable};
-use gearloss_studies::analyses::{Built, Context};
-
-/// The user's template if given.
-pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
-    let read = |file: &Path| {
-        read_text(file, LONGEST_TEXT).map_err(|e| {
-            Failure::input(
-                format!("cannot read {}: {e}", file.display()),
-                "give a template with --template",
-            )
-        })
-    };
-    file.map(read).transpose()
-}
-
-/// Writes `report.html` beside the results.
-pub fn write(runner: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
-    let context = runner.context("report");
-    for (i, (name, gearbox)) in runner.study.gearboxes.iter().enumerate() {
-        let page = page(&context, name, gearbox, i == 0)?;
-        runner.report.borrow_mut().gearbox(page);
-    }
-    let frame = Frame {
-        title: runner.study.entry.title.clone().unwrap_or_else(|| "Study".to_owned()),
-        question: runner.study.entry.question.clone().unwrap_or_default(),
-        conditions: conditions(runner),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        packages: runner
-            .language
-            .registry()
-            .packages()
-            .into_iter()
-            .map(|package| package.to_string())
-            .collect(),
-        study: runner.study.text.clone(),
-    };
-    let (place, mut to) = Place::new(&runner.files, REPORT)?;
-    let written = runner.report.borrow().html(&frame, template, &mut to);
-    written.map_err(|fault| match fault {
-        PageFault::Template(e) => Failure::input(
-            format!("the template of the report: {e}"),
-            "correct it, or omit --template",
-        ),
-        PageFault::Write(e) => place.cannot(&e),
-    })?;
-    place.done(to.flush().map_err(|e| e.to_string()))
-}
-
-/// The conditions of all analyses as a sentence.
-fn conditions(runner: &Run<'_>) -> String {
-    let given = &runner.study.entry.conditions;
-    let oil = given.oil_temperature.map_or_else(
-        || "oil temperature of the gearbox".to_owned(),
-        |oil| format!("oil at {oil} °C"),
-    );
-    let flow = match given.power_flow {
-        PowerFlow::Real => "torque reduced by upstream losses (real power flow)",
-        PowerFlow::Ideal => "torque without losses (ideal power flow)",
-    };
-    format!(
-        "Torque at `{}`, speed at `{}`, {oil}; {flow}. Model sets are listed in the study at the end of this page.",
-        given.torque_at, given.speed_at
-    )
-}
+use super::{GearboxPage, PageTable, point};
+use crate::schematic;
+use crate::text::number;
 
 /// The basis of a gearbox's results: geometry and description with its default models, loads and losses with the model sets of the
 /// analyses.
-fn page(cx: &Context<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<GearboxPage, Failure> {
-    let sets = sets(cx.study, name, first);
+///
+/// # Errors
+/// Everything that resolving and building find.
+pub fn gearbox_page(cx: &Context<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPage, Stopped> {
+    let sets = cx.study.sets_used_for(name);
     // Overrides may apply only to the models of a set and not to the defaults of the gearbox.
     let own = cx.built(gearbox, &[]).or_else(|fault| match &sets[..] {
         [] => Err(fault),
@@ -148,26 +78,7 @@ fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> 
     (!rows.is_empty()).then(|| table("Coefficients that differ from their source", &head, rows))
 }
 
-/// Names of the model sets that the analyses use for a gearbox, without repetition.
-pub(super) fn sets(study: &Study, name: &str, first: bool) -> Vec<String> {
-    let mut sets: Vec<String> = Vec::new();
-    for (_, analysis) in study.entry.analyses.iter() {
-        let uses = analysis.uses();
-        let of_analysis = uses.gearbox.map_or(first, |g| g == name);
-        for set in uses.sets {
-            let own = match set.split_once('/') {
-                Some((product, _)) => (product == name).then(|| set.clone()),
-                None => of_analysis.then(|| set.clone()),
-            };
-            if let Some(set) = own.filter(|set| !sets.contains(set)) {
-                sets.push(set);
-            }
-        }
-    }
-    sets
-}
-
-fn table(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> PageTable {
+pub(super) fn table(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> PageTable {
     PageTable {
         title: title.to_owned(),
         head: head.iter().map(|h| (*h).to_owned()).collect(),

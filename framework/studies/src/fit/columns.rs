@@ -1,11 +1,6 @@
 //! Columns of a CSV file by name, in SI: `name [unit]` in the header, comments after `#`.
 
-use std::path::Path;
-
-use gearloss_framework::document::{Dimension, Unit, did_you_mean};
-use gearloss_framework::files::{LONGEST_DATA, read_text};
-
-use crate::output::Failure;
+use gearloss_framework::document::{Diagnostic, Dimension, Unit, did_you_mean};
 
 /// Dimension of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,6 +23,7 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// A quantity with its name, what its unit measures, and the unit to recommend.
     pub const fn new(name: &'static str, measure: Measure, unit: &'static str) -> Self {
         Self { name, measure, unit }
     }
@@ -69,16 +65,21 @@ pub struct Columns {
     rows: Vec<(u64, Vec<String>)>,
 }
 
+fn wrong_input(message: String, help: impl Into<String>) -> Diagnostic {
+    Diagnostic::error("", message).help(help)
+}
+
 fn cells(record: &csv::StringRecord) -> Vec<String> {
     record.iter().map(str::to_owned).collect()
 }
 
 impl Columns {
-    /// Reads a file.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        let file = path.display().to_string();
-        let text = read_text(path, LONGEST_DATA)
-            .map_err(|e| Failure::input(format!("cannot read {file}: {e}"), "check the file name"))?;
+    /// Reads the text of a file; errors name the file.
+    ///
+    /// # Errors
+    /// A row that has another number of cells than the header, or no row at all.
+    pub fn of_text(file: &str, text: &str) -> Result<Self, Diagnostic> {
+        let file = file.to_owned();
         let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
         // Line by line: a reader of the whole text would count comments to the next record.
         for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
@@ -91,7 +92,7 @@ impl Columns {
                 .from_reader(text.as_bytes());
             let cells: Vec<String> = reader.records().flatten().flat_map(|r| cells(&r)).collect();
             if let Some((_, header)) = rows.first().filter(|(_, header)| header.len() != cells.len()) {
-                return Err(Failure::input(
+                return Err(wrong_input(
                     format!(
                         "{file}: line {line}: {} cells, but the header has {}",
                         cells.len(),
@@ -103,7 +104,7 @@ impl Columns {
             rows.push((line, cells));
         }
         if rows.len() < 2 {
-            return Err(Failure::input(
+            return Err(wrong_input(
                 format!("{file}: no row of numbers"),
                 "write a header and a row for each point",
             ));
@@ -124,29 +125,22 @@ impl Columns {
         })
     }
 
-    /// Name of the file.
-    pub fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// Number of points.
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
     /// Whether there is a column of this name.
     pub fn has(&self, quantity: &Quantity) -> bool {
         self.names.iter().any(|(name, _)| name == quantity.name)
     }
 
     /// An input error in a row of the file (index from zero); without a row, in the header.
-    pub fn wrong(&self, row: Option<usize>, message: &str, help: impl std::fmt::Display) -> Failure {
+    pub fn wrong(&self, row: Option<usize>, message: &str, help: impl Into<String>) -> Diagnostic {
         let line = row.map_or(self.head, |row| self.rows[row].0);
-        Failure::input(format!("{}: line {line}: {message}", self.file), help)
+        wrong_input(format!("{}: line {line}: {message}", self.file), help)
     }
 
     /// A quantity in SI, one number for each point; only temperatures may be zero or negative.
-    pub fn numbers(&self, quantity: &Quantity) -> Result<Vec<f64>, Failure> {
+    ///
+    /// # Errors
+    /// If there is no such column, its unit is none of the quantity, or a cell is no such number.
+    pub fn numbers(&self, quantity: &Quantity) -> Result<Vec<f64>, Diagnostic> {
         let Some(column) = self.names.iter().position(|(name, _)| name == quantity.name) else {
             let there: Vec<&str> = self.names.iter().map(|(name, _)| name.as_str()).collect();
             let near = did_you_mean(quantity.name, there.iter().copied());
@@ -186,16 +180,10 @@ impl Columns {
         (0..self.rows.len()).map(cell).collect()
     }
 
-    /// Names of columns other than these quantities.
-    pub fn others(&self, quantities: &[Quantity]) -> Vec<&str> {
+    /// Names of columns other than these quantities: those that are not used.
+    pub fn unused(&self, quantities: &[Quantity]) -> Vec<&str> {
         let known = |name: &str| quantities.iter().any(|q| q.name == name);
         let names = self.names.iter().map(|(name, _)| name.as_str());
         names.filter(|name| !known(name)).collect()
-    }
-
-    /// A note on unused columns; absent if all are used.
-    pub fn unused(&self, quantities: &[Quantity]) -> Option<String> {
-        let others = self.others(quantities);
-        (!others.is_empty()).then(|| format!("note: not used: {}", others.join(", ")))
     }
 }
