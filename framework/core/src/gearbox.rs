@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
 use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, Span, read_yaml};
-use crate::files::{LONGEST_TEXT, read_text};
+use crate::files::{Disk, LONGEST_TEXT, SharedSource};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
 use crate::resolve::{Came, Choice, Resolved, called_own, expand_set, meets, resolve, sets_of};
@@ -121,59 +122,71 @@ impl Language {
 }
 
 impl Gearbox {
-    /// Reads a gearbox file and what it extends.
+    /// Reads a gearbox file of the disk and what it extends.
     ///
     /// # Errors
     /// Everything that reading and the walk find.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
-        let mut sources = Sources::default();
-        let text = match read_text(file, LONGEST_TEXT) {
-            Ok(text) => text,
-            Err(e) => {
-                let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
-                    .help("check the name of the file")
-                    .code(Code::Unreadable);
-                return Err(Findings {
-                    list: vec![error],
-                    sources,
-                });
-            }
-        };
-        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
-        Self::parse(language, &text, &file.display().to_string(), folder, &mut sources)
-            .map_err(|list| Findings { list, sources })
+        Self::read_from(language, &Disk::shared(), file)
     }
 
-    /// Reads a gearbox from a text; `folder` is where the files that it names lie.
+    /// Reads a gearbox file of a source and what it extends. Data that the description names are read from the same source.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn read_from(language: &Language, source: &SharedSource, file: &Path) -> Result<Self, Findings> {
+        let text = source.read_text(file, LONGEST_TEXT).map_err(|e| {
+            Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
+                .help("check the name of the file")
+                .code(Code::Unreadable)
+        })?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        Self::from_text(language, source, &text, &file.display().to_string(), folder)
+    }
+
+    /// Reads a gearbox from a text; `folder` is where the files on the disk that it names lie.
     ///
     /// # Errors
     /// Everything that reading and the walk find.
     pub fn of_text(language: &Language, text: &str, name: &str, folder: impl Into<PathBuf>) -> Result<Self, Findings> {
-        let mut sources = Sources::default();
-        Self::parse(language, text, name, folder.into(), &mut sources).map_err(|list| Findings { list, sources })
+        Self::from_text(language, &Disk::shared(), text, name, folder)
     }
 
-    fn parse(
+    /// Reads a gearbox from a text; the files that it names are read from a source, relative to `folder`.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn from_text(
         language: &Language,
+        source: &SharedSource,
         text: &str,
         name: &str,
-        folder: PathBuf,
-        sources: &mut Sources,
-    ) -> Result<Self, Vec<Diagnostic>> {
-        let mut found = Vec::new();
-        let node = chain(text, name, &folder, sources, &mut found, &mut Vec::new(), None);
-        let Some(node) = node.filter(|_| found.is_empty()) else {
-            return Err(found);
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Findings> {
+        let (mut sources, mut found, folder) = (Sources::default(), Vec::new(), folder.into());
+        let mut chain = Chain {
+            source,
+            sources: &mut sources,
+            found: &mut found,
+            seen: Vec::new(),
+        };
+        let node = chain.read(text, name, &folder, None);
+        let node = match node {
+            Some(node) if found.is_empty() => node,
+            _ => return Err(Findings { list: found, sources }),
         };
         let walked = language.walk_gearbox(&node);
         if !walked.findings.is_empty() {
-            return Err(walked.findings);
+            return Err(Findings {
+                list: walked.findings,
+                sources,
+            });
         }
         Ok(Self {
             value: walked.value,
             places: walked.places,
-            sources: sources.clone(),
-            files: Files::beside(folder),
+            sources,
+            files: Files::from_source(Arc::clone(source), folder),
         })
     }
 
@@ -336,59 +349,61 @@ pub fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagn
     Some(Diagnostic::error("gearloss", message).at(key.span).help(help))
 }
 
-/// A document laid over what it extends; `from` is where another one names it.
-fn chain(
-    text: &str,
-    name: &str,
-    folder: &Path,
-    sources: &mut Sources,
-    found: &mut Vec<Diagnostic>,
-    seen: &mut Vec<PathBuf>,
-    from: Option<Span>,
-) -> Option<Node> {
-    let source = sources.add(name, text);
-    let read = read_yaml(source, text);
-    if !read.findings.is_empty() {
-        found.extend(read.findings);
-        return None;
-    }
-    if let Some(error) = other_kind(&read.node, DocumentKind::Gearbox, name) {
-        found.push(match from {
-            Some(span) => Diagnostic::error(
-                "extends",
-                format!("{name} is a study, and only a gearbox can be extended"),
-            )
-            .at(span)
-            .help("name a gearbox file, such as one under `gearboxes` of that study"),
-            None => error,
-        });
-        return None;
-    }
-    let Some(base) = read.node.get("extends").and_then(Node::text) else {
-        return Some(read.node);
-    };
-    let span = read.node.get("extends").map(|n| n.span);
-    let error = |message: String| {
-        let error = Diagnostic::error("extends", message).help("name a gearbox file, relative to this one");
-        if let Some(span) = span { error.at(span) } else { error }
-    };
-    let file = folder.join(base);
-    if seen.contains(&file) || seen.len() >= LONGEST_CHAIN {
-        found.push(error(
-            "files extend each other in a circle, or too many of them".to_owned(),
-        ));
-        return None;
-    }
-    seen.push(file.clone());
-    match read_text(&file, LONGEST_TEXT) {
-        Err(e) => {
-            found.push(error(format!("cannot read {}: {e}", file.display())).code(Code::Unreadable));
-            None
+/// Documents that extend each other.
+struct Chain<'a> {
+    source: &'a SharedSource,
+    sources: &'a mut Sources,
+    found: &'a mut Vec<Diagnostic>,
+    seen: Vec<PathBuf>,
+}
+
+impl Chain<'_> {
+    /// A document laid over what it extends; `from` is where another one names it.
+    fn read(&mut self, text: &str, name: &str, folder: &Path, from: Option<Span>) -> Option<Node> {
+        let read = read_yaml(self.sources.add(name, text), text);
+        if !read.findings.is_empty() {
+            self.found.extend(read.findings);
+            return None;
         }
-        Ok(text) => {
-            let inner = file.parent().unwrap_or(Path::new("")).to_path_buf();
-            let base = chain(&text, &file.display().to_string(), &inner, sources, found, seen, span)?;
-            Some(read.node.over(base))
+        if let Some(error) = other_kind(&read.node, DocumentKind::Gearbox, name) {
+            self.found.push(match from {
+                Some(span) => Diagnostic::error(
+                    "extends",
+                    format!("{name} is a study, and only a gearbox can be extended"),
+                )
+                .at(span)
+                .help("name a gearbox file, such as one under `gearboxes` of that study"),
+                None => error,
+            });
+            return None;
+        }
+        let Some(base) = read.node.get("extends").and_then(Node::text) else {
+            return Some(read.node);
+        };
+        let span = read.node.get("extends").map(|n| n.span);
+        let error = |message: String| {
+            let error = Diagnostic::error("extends", message).help("name a gearbox file, relative to this one");
+            if let Some(span) = span { error.at(span) } else { error }
+        };
+        let file = folder.join(base);
+        if self.seen.contains(&file) || self.seen.len() >= LONGEST_CHAIN {
+            self.found.push(error(
+                "files extend each other in a circle, or too many of them".to_owned(),
+            ));
+            return None;
+        }
+        self.seen.push(file.clone());
+        match self.source.read_text(&file, LONGEST_TEXT) {
+            Err(e) => {
+                let message = format!("cannot read {}: {e}", file.display());
+                self.found.push(error(message).code(Code::Unreadable));
+                None
+            }
+            Ok(text) => {
+                let inner = file.parent().unwrap_or(Path::new(""));
+                let base = self.read(&text, &file.display().to_string(), inner, span)?;
+                Some(read.node.over(base))
+            }
         }
     }
 }

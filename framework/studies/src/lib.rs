@@ -6,6 +6,7 @@ pub mod duty;
 pub mod identify;
 pub mod measured;
 pub mod results;
+pub mod run;
 pub mod study;
 pub mod table;
 pub mod tasks;
