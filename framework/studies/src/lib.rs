@@ -5,6 +5,7 @@ pub mod analysis;
 pub mod duty;
 pub mod identify;
 pub mod measured;
+pub mod prelude;
 pub mod results;
 pub mod run;
 pub mod study;
