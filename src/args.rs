@@ -9,44 +9,44 @@ use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 #[derive(Debug, Parser)]
 #[command(name = "gearloss", version, about)]
 pub struct Args {
-    /// What to do.
+    /// Command.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// What to do.
+/// Command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Checks gearbox and study files: reads, resolves and builds them.
+    /// Checks gearbox and study files.
     Check(CheckArgs),
     /// Solves one operating point.
     Solve(SolveArgs),
-    /// Shows every step of the loss of one component at one operating point.
+    /// Shows every calculation step of one component's loss at one operating point.
     Explain(ExplainArgs),
     /// Runs a study and writes its results.
     Run(RunArgs),
-    /// Joins the parts of `run --shard` to the results of the whole study.
+    /// Merges the parts of `run --shard` into the results of the whole study.
     Merge(MergeArgs),
-    /// Lists mechanisms and models, or what a gearbox lacks for them.
+    /// Lists mechanisms and models, or the inputs that a gearbox lacks for them.
     Models(ModelsArgs),
-    /// Lists the designations of bearings and oils that a gearbox may name.
+    /// Lists the designations of bearings and oils for gearbox files.
     Catalogue(CatalogueArgs),
-    /// Evaluates one model alone.
+    /// Evaluates one model without a gearbox.
     Eval(EvalArgs),
     /// Prints a JSON Schema for editors.
     Schema(SchemaArgs),
     /// Fits a law to a table and prints it with its residuals.
     Fit(FitArgs),
-    /// Makes a table from the files of another program.
+    /// Converts files of another program into a table.
     Import(ImportArgs),
-    /// Writes a commented file to start from.
+    /// Writes a commented template: gearbox, study or plugin.
     New(NewArgs),
 }
 
 /// Arguments of `fit`.
 #[derive(Debug, ClapArgs)]
 pub struct FitArgs {
-    /// The law.
+    /// Law to fit.
     #[command(subcommand)]
     pub law: FitLaw,
 }
@@ -54,43 +54,43 @@ pub struct FitArgs {
 /// A law to fit.
 #[derive(Debug, Subcommand)]
 pub enum FitLaw {
-    /// Fits `planetary_drag/power_law` to a table over `speed [rpm]`, `nu [mm2/s]` and, where it counts, `volume [ml]`.
+    /// Fits `planetary_drag/power_law` to a table over `speed [rpm]`, `nu [mm2/s]` and, if relevant, `volume [ml]`.
     PowerLaw {
-        /// CSV file, as a drag model `table` reads it.
+        /// CSV file in the format of the drag model `table`.
         table: PathBuf,
     },
-    /// Eyring stress, exponent over pressure and limiting stress of an oil from traction curves.
+    /// Fits Eyring stress, pressure exponent and limiting stress of an oil to traction curves.
     Traction {
-        /// CSV file: `pressure [GPa]` (mean of the contact), `temperature [degC]` (of the film), `shear_rate [1/s]` or `sliding [m/s]`
-        /// and `film [nm]`, `stress [MPa]` or `mu`; and, if wanted, `slide_roll [%]`, below 1 % of which points are left out.
+        /// CSV file with the columns `pressure [GPa]` (mean of the contact), `temperature [degC]` (of the film), `shear_rate [1/s]` or
+        /// `sliding [m/s]` and `film [nm]`, `stress [MPa]` or `mu`, and optionally `slide_roll [%]`; points below 1 % are omitted.
         curves: PathBuf,
         #[command(flatten)]
         oil: OilArgs,
     },
-    /// Coefficient of boundary friction from a Stribeck curve.
+    /// Fits the coefficient of boundary friction to a Stribeck curve.
     Stribeck {
-        /// CSV file: `lambda`, or `film [nm]` with `--rq`; measured `mu`, and `mu_film`, the friction of the film alone.
+        /// CSV file with the columns `lambda`, or `film [nm]` with `--rq`; measured `mu`; and `mu_film`, the friction of the film alone.
         curve: PathBuf,
-        /// Rms roughness of both flanks together, such as `"0.28 um"`; for films in place of `lambda`.
+        /// Combined rms roughness of both flanks, such as `"0.28 um"`; required with `film` instead of `lambda`.
         #[arg(long, value_name = "ROUGHNESS")]
         rq: Option<String>,
-        /// Exponent of the share of boundary friction over one plus the film ratio.
+        /// Exponent k of the share of boundary friction, 1 / (1 + lambda)^k.
         #[arg(long, default_value_t = 2.0)]
         exponent: f64,
     },
 }
 
-/// Whose viscosity holds.
+/// The oil that defines the viscosity.
 #[derive(Debug, Clone, ClapArgs)]
 #[group(required = true, multiple = true)]
 pub struct OilArgs {
     /// Gearbox file that describes the oil.
     #[arg(long, value_name = "GEARBOX", conflicts_with = "oil")]
     pub gearbox: Option<PathBuf>,
-    /// Its name among the `lubricants` of that file; not needed where there is only one.
+    /// Lubricant of that gearbox; not needed if there is only one.
     #[arg(long, value_name = "ID", requires = "gearbox")]
     pub lubricant: Option<String>,
-    /// The oil itself, as below `lubricants` of a gearbox: `"{ viscosity: { kv40: 27.3 mm2/s, kv100: 5.9 mm2/s } }"`.
+    /// The oil as an entry of `lubricants` in a gearbox: `"{ viscosity: { kv40: 27.3 mm2/s, kv100: 5.9 mm2/s } }"`.
     #[arg(long, value_name = "YAML")]
     pub oil: Option<String>,
 }
@@ -98,19 +98,19 @@ pub struct OilArgs {
 /// Arguments of `new`.
 #[derive(Debug, ClapArgs)]
 pub struct NewArgs {
-    /// What to start.
+    /// Kind of template.
     #[command(subcommand)]
     pub what: NewWhat,
 }
 
-/// What to start.
+/// Kind of template.
 #[derive(Debug, Subcommand)]
 pub enum NewWhat {
-    /// A gearbox of a usual layout, which runs as it is: replace its figures by your own.
+    /// A gearbox with a common layout, ready to run: replace its values with yours.
     Gearbox(NewGearboxArgs),
-    /// A study of a gearbox: map, comparison of models, stack-up of losses, losses without load.
+    /// A study of a gearbox: efficiency map, comparison of models, loss breakdown, no-load losses.
     Study(NewStudyArgs),
-    /// A crate with a loss model of your own: it compiles as it is and has a test for you to finish.
+    /// A crate with your own loss model: it compiles and contains a test to complete.
     Plugin(NewPluginArgs),
 }
 
@@ -118,36 +118,36 @@ pub enum NewWhat {
 #[derive(Debug, ClapArgs)]
 #[command(override_usage = "gearloss new gearbox [OPTIONS] <LAYOUT>")]
 pub struct NewGearboxArgs {
-    /// How the shafts and gears are laid out.
+    /// Layout of shafts and gears.
     #[arg(value_enum)]
     pub layout: Option<Layout>,
-    /// File to write; refused where it exists.
+    /// File to write; an existing file is an error.
     #[arg(short, long, value_name = "FILE", default_value = "gearbox.yaml")]
     pub output: PathBuf,
 }
 
-/// How shafts and gears are laid out.
+/// Layout of shafts and gears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Layout {
     /// Reducer with one helical stage.
     SingleStage,
     /// Reducer with two helical stages on parallel shafts.
     TwoStage,
-    /// Planetary set: sun in, ring held, carrier out, planets on needle cages.
+    /// Planetary set: sun input, fixed ring, carrier output, planets on needle cages.
     Planetary,
-    /// Two speeds: loose wheels on needle cages, a synchronizer between them, neutral.
+    /// Two speeds and neutral: idler gears on needle cages with a synchronizer.
     TwoSpeed,
-    /// Two countershafts that share the power between coaxial shafts.
+    /// Two countershafts in parallel between coaxial shafts.
     DualCountershaft,
 }
 
 /// Arguments of `new study`.
 #[derive(Debug, ClapArgs)]
 pub struct NewStudyArgs {
-    /// Gearbox that the study is about; its gear states, rating and first mesh are written into the study.
+    /// Gearbox of the study; the template uses its gears, rating and first mesh.
     #[arg(long, value_name = "FILE", default_value = "gearbox.yaml")]
     pub gearbox: PathBuf,
-    /// File to write; refused where it exists.
+    /// File to write; an existing file is an error.
     #[arg(short, long, value_name = "FILE", default_value = "study.yaml")]
     pub output: PathBuf,
 }
@@ -157,11 +157,11 @@ pub struct NewStudyArgs {
 pub struct NewPluginArgs {
     /// Name of the crate, such as `acme-losses`.
     pub name: String,
-    /// Folder to write; absent, the name. Refused where it holds anything but `.git`.
+    /// Folder to write [default: the name]; must be empty apart from `.git`.
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Checkout of gearloss that the crate is built on; absent, the one that this program was built from while it is there,
-    /// else this version in the registry of crates.
+    /// Checkout of gearloss that the crate depends on [default: the checkout that this program was built from if it exists, otherwise this
+    /// version on the crate registry].
     #[arg(long, value_name = "PATH")]
     pub gearloss: Option<PathBuf>,
 }
@@ -169,7 +169,7 @@ pub struct NewPluginArgs {
 /// Arguments of `import`.
 #[derive(Debug, ClapArgs)]
 pub struct ImportArgs {
-    /// What to read.
+    /// Format to import.
     #[command(subcommand)]
     pub from: ImportFrom,
 }
@@ -177,24 +177,24 @@ pub struct ImportArgs {
 /// Files of another program.
 #[derive(Debug, Subcommand)]
 pub enum ImportFrom {
-    /// Means of the moments that OpenFOAM's `forces` function object has written, one run for each point of a table.
+    /// Mean moments of OpenFOAM's `forces` function object, one run for each point of a table.
     OpenfoamForces {
-        /// CSV file of the runs: a column for each axis of the table, such as `speed [rpm]`, `nu [mm2/s]`, `volume [ml]`, and
-        /// last `folder`: the output folder of the function object, or a file, relative to this file.
+        /// CSV file of the runs: one column for each axis of the table, such as `speed [rpm]`, `nu [mm2/s]`, `volume [ml]`, and `folder` as
+        /// the last column: output folder or file of the function object, relative to this file.
         runs: PathBuf,
-        /// Axis that the moment is about.
+        /// Axis of the moment.
         #[arg(long, value_enum)]
         axis: AxisArg,
-        /// Time from which on the mean is taken, such as `"0.5 s"`.
+        /// Start of the averaging time, such as `"0.5 s"`.
         #[arg(long, value_name = "TIME")]
         from: String,
-        /// Time up to which the mean is taken; else all.
+        /// End of the averaging time [default: end of the run].
         #[arg(long, value_name = "TIME")]
         to: Option<String>,
-        /// Factor on the moments, such as 3 where a third of the gearbox was simulated.
+        /// Factor on the moments, such as 3 if a third of the gearbox was simulated.
         #[arg(long, default_value_t = 1.0)]
         factor: f64,
-        /// Table to write; refused where the file exists.
+        /// Table to write; an existing file is an error.
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
     },
@@ -214,10 +214,10 @@ pub enum AxisArg {
 /// Models and overrides.
 #[derive(Debug, Clone, Default, ClapArgs)]
 pub struct ChoiceArgs {
-    /// Set of models: one of the gearbox's `model_sets`, or one that a linked crate ships.
+    /// Model set: one of the gearbox's `model_sets`, or one from a linked crate.
     #[arg(long, value_name = "SET")]
     pub models: Option<String>,
-    /// Changes a value of the resolved document; may be given several times. `*` stands for one key.
+    /// Changes a value of the resolved document; may be repeated. `*` matches one key.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
 }
@@ -230,13 +230,13 @@ pub struct CheckArgs {
     pub files: Vec<PathBuf>,
     #[command(flatten)]
     pub choice: ChoiceArgs,
-    /// Prints the resolved document of a gearbox: every default, catalogue value and model in its place.
+    /// Prints the resolved document of a gearbox, with all defaults, catalogue values and models.
     #[arg(long)]
     pub resolved: bool,
-    /// Makes it a finding to rest on evidence of this grade or a weaker one, such as `recalled`.
+    /// Exit with code 1 if a result depends on evidence of this grade or lower, such as `recalled`.
     #[arg(long, value_name = "GRADE")]
     pub deny: Option<String>,
-    /// Text, or JSON with code, place and help of each finding.
+    /// Output format: text, or JSON with code, place and help of each finding.
     #[arg(long, value_enum, default_value = "table")]
     pub format: Format,
 }
@@ -244,7 +244,7 @@ pub struct CheckArgs {
 /// The operating point.
 #[derive(Debug, Clone, ClapArgs)]
 pub struct PointArgs {
-    /// Gear state; not needed where there is only one.
+    /// Gear; not needed if there is only one.
     #[arg(long)]
     pub gear: Option<String>,
     /// Torque that a port applies: `"10 Nm"` at `input`, or `"output=-200 Nm"`.
@@ -253,10 +253,10 @@ pub struct PointArgs {
     /// Speed of a port: `"8000 rpm"` at `input`, or `"output=300 rpm"`.
     #[arg(long, value_name = "[PORT=]SPEED", allow_hyphen_values = true)]
     pub speed: Vec<String>,
-    /// Temperature of the oil, such as `"80 degC"`; else that of the gearbox.
+    /// Oil temperature, such as `"80 degC"` [default: from the gearbox].
     #[arg(long, value_name = "TEMPERATURE", allow_hyphen_values = true)]
     pub oil_temperature: Option<String>,
-    /// Whether losses change the torques of what comes after them.
+    /// Whether torque downstream is reduced by upstream losses.
     #[arg(long, value_enum, default_value_t = FlowArg::Real)]
     pub power_flow: FlowArg,
 }
@@ -264,18 +264,18 @@ pub struct PointArgs {
 /// Real or ideal flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum FlowArg {
-    /// Torque after a stage is reduced by the losses before it.
+    /// Torque is reduced by upstream losses.
     Real,
     /// Torques without losses.
     Ideal,
 }
 
-/// How to print.
+/// Output format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// A table to read.
+    /// Tables as text.
     Table,
-    /// JSON to process.
+    /// JSON.
     Json,
 }
 
@@ -288,10 +288,11 @@ pub struct SolveArgs {
     pub point: PointArgs,
     #[command(flatten)]
     pub choice: ChoiceArgs,
-    /// How to print.
+    /// Output format.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub format: Format,
-    /// Makes it a finding to leave the stated range of a model: `extrapolation`, or to rest on a grade of evidence.
+    /// Exit with code 1 if a model is used outside its range (`extrapolation`), or if the result depends on evidence of the given grade or
+    /// lower.
     #[arg(long, value_name = "WHAT")]
     pub deny: Vec<String>,
 }
@@ -314,8 +315,8 @@ pub struct ExplainArgs {
 pub struct RunArgs {
     /// Study file.
     pub study: PathBuf,
-    /// Computes only part K of N, for `merge`: what is not yet there of it. Its folder is `shards/K-of-N` beside the study, or
-    /// that of -o.
+    /// Computes only part K of N, for `merge`; skips pieces that are already complete. Results are written to -o [default: `shards/K-of-N`
+    /// beside the study].
     #[arg(long, value_name = "K/N", conflicts_with_all = ["template", "force", "deny"])]
     pub shard: Option<Shard>,
     #[command(flatten)]
@@ -327,25 +328,25 @@ pub struct RunArgs {
 pub struct MergeArgs {
     /// Study file.
     pub study: PathBuf,
-    /// Folders of all shards; absent, those in `shards` beside the study.
+    /// Folders of all shards [default: the folders in `shards` beside the study].
     pub parts: Vec<PathBuf>,
     #[command(flatten)]
     pub results: ResultArgs,
 }
 
-/// Where the results of a study go, and how it ends.
+/// Output and exit code of a study.
 #[derive(Debug, ClapArgs)]
 pub struct ResultArgs {
-    /// Folder for the results; absent, `results` beside the study.
+    /// Folder for the results [default: `results` beside the study].
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Template of the report, in place of the built-in one.
+    /// Template of the report [default: built-in].
     #[arg(long, value_name = "FILE")]
     pub template: Option<PathBuf>,
-    /// Writes into a folder that holds other files.
+    /// Writes even if the folder contains other files.
     #[arg(long)]
     pub force: bool,
-    /// Makes it a finding to leave the stated range of a model at any point: `extrapolation`.
+    /// `extrapolation`: exit with code 1 if a model is used outside its range at any point.
     #[arg(long, value_name = "WHAT")]
     pub deny: Vec<String>,
 }
@@ -357,10 +358,10 @@ pub struct ModelsArgs {
     pub mechanism: Option<String>,
     /// Model, such as `skf`.
     pub model: Option<String>,
-    /// Says for each model which inputs it needs and whether this gearbox has them.
+    /// Lists the inputs that each model needs, and whether this gearbox has them.
     #[arg(long, value_name = "GEARBOX", conflicts_with = "format")]
     pub needs: Option<PathBuf>,
-    /// Tables, or JSON with everything of the models listed.
+    /// Output format: tables, or JSON with all data of the listed models.
     #[arg(long, value_enum, default_value = "table")]
     pub format: Format,
 }
@@ -371,7 +372,7 @@ pub struct CatalogueArgs {
     /// Which catalogue.
     #[arg(value_enum)]
     pub of: CatalogueArg,
-    /// Part of the designations to list, such as `6208` or `"VG 150"`; absent, all.
+    /// Part of the designations to list, such as `6208` or `"VG 150"` [default: all].
     pub text: Option<String>,
 }
 
@@ -389,10 +390,10 @@ pub enum CatalogueArg {
 pub struct EvalArgs {
     /// Mechanism and model, such as `bearing/skf`.
     pub model: String,
-    /// YAML file with `part`, `at` and, if wanted, `model`; absent, the mechanism's example at its usual point.
+    /// YAML file with `part`, `at` and optionally `model` [default: the mechanism's example at its usual point].
     #[arg(long, value_name = "FILE")]
     pub input: Option<PathBuf>,
-    /// How to print.
+    /// Output format.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub format: Format,
 }
@@ -414,13 +415,13 @@ pub enum KindArg {
     Study,
     /// Input of `eval`.
     Eval,
-    /// What `run` writes for an analysis.
+    /// Result of an analysis from `run`.
     Result,
-    /// What `solve --format json` prints.
+    /// Output of `solve --format json`.
     Point,
-    /// What `check --format json` prints.
+    /// Output of `check --format json`.
     Check,
-    /// What `models --format json` prints.
+    /// Output of `models --format json`.
     Models,
 }
 

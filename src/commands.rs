@@ -19,26 +19,33 @@ pub mod schema;
 mod set;
 pub mod solve;
 
+use std::path::Path;
 use std::sync::OnceLock;
 
+use gearloss_framework::files::read_text;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::Transmission;
 
 use crate::output::{Failure, Out};
 
-/// The language of everything that is linked into the program, put together once however many commands it runs.
+/// The language of all linked crates, assembled once per process.
 fn language() -> Result<&'static Language, Failure> {
     static LINKED: OnceLock<Language> = OnceLock::new();
     if LINKED.get().is_none() {
-        // Of two threads that come here at once the first one's stays.
+        // If two threads arrive at once, the result of the first is kept.
         let _ = LINKED.set(Language::linked()?);
     }
-    let bug = || Failure::input("bug: the language was put together and is not there", "report this");
+    let bug = || Failure::input("bug: the language was assembled but is missing", "report this");
     LINKED.get().ok_or_else(bug)
 }
 
-/// Prints what was noticed while building, to standard error.
+/// The text of a file that an argument names; `help` says what to do if it cannot be read.
+fn read_file(file: &Path, longest: u64, help: &str) -> Result<String, Failure> {
+    read_text(file, longest).map_err(|e| Failure::input(format!("cannot read {}: {e}", file.display()), help))
+}
+
+/// Prints warnings and notes of building to standard error.
 fn warn(gearbox: &Gearbox, transmission: &Transmission) -> Result<(), Failure> {
     for warning in &transmission.warnings {
         Out::error().line(format!("{}\n", gearbox.sources.render(warning)))?;

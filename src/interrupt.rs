@@ -1,10 +1,10 @@
-//! Ctrl-C: what is finished is kept. The first press lets the present analysis go, the second ends the program at once.
+//! Ctrl-C: finished analyses are kept. The first press stops the current analysis, the second ends the program at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static PRESSED: AtomicBool = AtomicBool::new(false);
 
-/// Listens from here on. Where the system refuses, Ctrl-C ends the program as it always did.
+/// Installs the handler. If the system refuses, Ctrl-C ends the program immediately.
 pub fn listen() {
     let _ = ctrlc::set_handler(|| {
         if PRESSED.swap(true, Ordering::Relaxed) {
@@ -13,7 +13,7 @@ pub fn listen() {
     });
 }
 
-/// True once Ctrl-C was pressed.
+/// True after Ctrl-C was pressed.
 pub fn pressed() -> bool {
     PRESSED.load(Ordering::Relaxed)
 }

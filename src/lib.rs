@@ -14,14 +14,13 @@ mod args;
 mod commands;
 mod interrupt;
 mod output;
-mod report;
 mod threads;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::Parser;
-// The built-in models register themselves; naming the crate once links them.
+// The built-in models register themselves; this line links them.
 use gearloss_plugins as _;
 
 pub use gearloss_document as document;
@@ -35,19 +34,19 @@ use output::{End, Failure, Out};
 
 /// Runs the program with the arguments of the process.
 ///
-/// Exit codes: 0 fine, 1 a finding, 2 wrong input, 3 a bug, 130 interrupted.
+/// Exit codes: 0 success, 1 a finding, 2 an input error, 3 a bug, 130 interrupted.
 pub fn main() -> ExitCode {
     ExitCode::from(call(std::env::args_os()))
 }
 
-/// Runs one command with its arguments, the first of which names the program, and says the exit code that [`main`] would end with.
+/// Runs one command with its arguments, the first of which is the program name; returns the exit code of [`main`].
 pub fn call(args: impl IntoIterator<Item = OsString>) -> u8 {
     let args = match Args::try_parse_from(args) {
         Ok(args) => args,
         Err(error) => {
             let wrong = error.use_stderr();
             let mut out = if wrong { Out::error() } else { Out::standard() };
-            // A closed pipe is no failure.
+            // A closed pipe is not a failure.
             let _ = out.text(&error.render().to_string());
             return if wrong { 2 } else { 0 };
         }

@@ -2,6 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Findings;
 pub use gearloss_report::text::{TextTable as Table, beyond, figures, fixed, number, significant};
 use gearloss_studies::analyses::Stopped;
@@ -9,30 +10,30 @@ use gearloss_studies::analyses::Stopped;
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// All is well.
+    /// Success.
     Fine,
-    /// Something deserves attention.
+    /// A warning is treated as an error.
     Finding,
 }
 
 /// Why a command ended early.
 #[derive(Debug)]
 pub enum Failure {
-    /// Wrong documents: what was found in them.
+    /// Findings in documents.
     Found(Findings),
-    /// Other wrong input, with the text to print.
+    /// Other input errors, with the text to print.
     Input(String),
     /// Ctrl-C was pressed.
     Interrupted,
 }
 
 impl Failure {
-    /// Wrong input in one line, with how to fix it.
+    /// An input error with its help.
     pub fn input(message: impl std::fmt::Display, help: impl std::fmt::Display) -> Self {
         Self::Input(format!("error: {message}\n  = help: {help}\n"))
     }
 
-    /// The text to print; none where Ctrl-C was pressed.
+    /// The text to print; empty after Ctrl-C.
     pub fn text(&self) -> Option<String> {
         match self {
             Self::Found(findings) => Some(findings.render()),
@@ -48,7 +49,17 @@ impl From<Findings> for Failure {
     }
 }
 
-/// An analysis that was only checked is no failure; nobody asks this of it.
+/// One finding about something that is no document.
+impl From<Diagnostic> for Failure {
+    fn from(finding: Diagnostic) -> Self {
+        match &finding.help {
+            Some(help) => Self::input(&finding.message, help),
+            None => Self::Input(format!("error: {}\n", finding.message)),
+        }
+    }
+}
+
+/// `Checked` is not a failure and is never converted.
 impl From<Stopped> for Failure {
     fn from(stopped: Stopped) -> Self {
         match stopped {
@@ -60,30 +71,28 @@ impl From<Stopped> for Failure {
     }
 }
 
-/// Several inputs that are wrong, one after the other.
+/// Several input errors.
 impl From<&[Findings]> for Failure {
     fn from(list: &[Findings]) -> Self {
         Self::Input(list.iter().map(Findings::render).collect())
     }
 }
 
-/// What is printed cannot be written; errors of files name the file.
+/// An error of standard output; errors of files contain the file name.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         Self::input(
             format!("cannot write to the standard output: {error}"),
-            "look at where it goes, such as a full disk",
+            "check its target, such as a full disk",
         )
     }
 }
 
-/// Where a command prints. When its reader has gone it falls silent, and the command goes on: files are still written.
+/// Output of a command. After its pipe is closed it prints nothing, and the command continues, because files are still written.
 pub struct Out {
     to: Box<dyn Write>,
     terminal: bool,
     closed: bool,
-    /// What was printed since the copy was begun.
-    copy: Option<String>,
 }
 
 impl Out {
@@ -93,7 +102,6 @@ impl Out {
             to: Box::new(io::stdout().lock()),
             terminal: io::stdout().is_terminal(),
             closed: false,
-            copy: None,
         }
     }
 
@@ -103,40 +111,25 @@ impl Out {
             to: Box::new(io::stderr().lock()),
             terminal: io::stderr().is_terminal(),
             closed: false,
-            copy: None,
         }
     }
 
-    /// Nowhere: only copies are kept.
+    /// No output.
     pub fn nowhere() -> Self {
         Self {
             to: Box::new(io::sink()),
             terminal: false,
             closed: true,
-            copy: None,
         }
     }
 
-    /// True on a terminal.
+    /// Whether the output is a terminal.
     pub fn is_terminal(&self) -> bool {
         self.terminal
     }
 
-    /// Keeps a copy of what is printed from here on.
-    pub fn begin_copy(&mut self) {
-        self.copy = Some(String::new());
-    }
-
-    /// The copy, which ends here.
-    pub fn end_copy(&mut self) -> String {
-        self.copy.take().unwrap_or_default()
-    }
-
-    /// Prints a text as it is.
+    /// Prints a text unchanged.
     pub fn text(&mut self, text: &str) -> io::Result<()> {
-        if let Some(copy) = &mut self.copy {
-            copy.push_str(text);
-        }
         if self.closed {
             return Ok(());
         }
@@ -146,13 +139,6 @@ impl Out {
                 Ok(())
             }
             other => other,
-        }
-    }
-
-    /// Adds a text to the copy alone.
-    pub fn only_copy(&mut self, text: &str) {
-        if let Some(copy) = &mut self.copy {
-            copy.push_str(text);
         }
     }
 

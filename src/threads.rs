@@ -1,18 +1,17 @@
-//! How many threads work.
+//! Number of threads.
 
 use crate::output::{Failure, Out};
 
-/// The variable that states it.
+/// The environment variable.
 const ASKED: &str = "RAYON_NUM_THREADS";
 
-/// Threads for each core from which on more of them only take memory and time.
+/// Maximum number of threads for each core; more only cost memory and time.
 const MOST_PER_CORE: usize = 4;
 
-/// Threads that are allowed on any machine, so that a number for a larger one may be tried on a small one.
+/// Number of threads that is allowed on any machine.
 const ALWAYS: usize = 64;
 
-/// Starts fewer threads than `RAYON_NUM_THREADS` asks for where it asks for too many, and prints a note about it. Results do not
-/// depend on their number.
+/// Limits an excessive `RAYON_NUM_THREADS` and prints a note. Results do not depend on the number of threads.
 pub fn limit() -> Result<(), Failure> {
     let asked = std::env::var(ASKED)
         .ok()
@@ -22,10 +21,10 @@ pub fn limit() -> Result<(), Failure> {
     let Some(asked) = asked.filter(|asked| *asked > most) else {
         return Ok(());
     };
-    // Where a program that calls this one has started its threads, it has chosen their number.
+    // A calling program that has started its threads has already chosen their number.
     if rayon::ThreadPoolBuilder::new().num_threads(most).build_global().is_ok() {
         Out::error().line(format!(
-            "note: {ASKED}={asked}: {most} threads are used, more would only slow it down"
+            "note: {ASKED}={asked}: using {most} threads, because more would be slower"
         ))?;
     }
     Ok(())

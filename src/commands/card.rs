@@ -1,11 +1,11 @@
-//! The figures of a gearbox at a glance: its stages and the ratio of each gear.
+//! Key data of a gearbox: its stages and the ratio of each gear.
 
 use gearloss_framework::transmission::{Stage, Transmission};
 use serde_json::Value;
 
 use crate::output::{Table, number, significant};
 
-/// A line per stage and a line per gear, set in.
+/// One indented line per stage and per gear.
 pub fn card(transmission: &Transmission) -> String {
     let mut text = String::new();
     let mut stages = Table::new(&[
@@ -34,7 +34,7 @@ pub fn card(transmission: &Transmission) -> String {
             .ratios(i)
             .into_iter()
             .map(|(port, ratio)| {
-                let ratio = ratio.map_or_else(|| "stands still".to_owned(), significant);
+                let ratio = ratio.map_or_else(|| "stationary".to_owned(), significant);
                 format!("{reference}/{} {ratio}", ports[port].name)
             })
             .collect();
@@ -65,7 +65,7 @@ fn row(stage: &Stage) -> Vec<String> {
     ]
 }
 
-/// All figures of a stage at full precision, one line each: key and value as in JSON.
+/// All data of a stage at full precision, one line each: key and value as in JSON.
 pub fn figures(stage: &Stage) -> Vec<String> {
     let value = serde_json::to_value(stage).unwrap_or_default();
     let fields = value.as_object().into_iter().flatten();

@@ -1,4 +1,4 @@
-//! `catalogue`: designations of bearings and oils that a gearbox may name.
+//! `catalogue`: designations of bearings and oils for gearbox files.
 
 use gearloss_framework::language::LUBRICANTS;
 use gearloss_framework::resolve::without_suffix;
@@ -21,11 +21,11 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
         let text = args.text.as_deref().unwrap_or_default();
         let help = match without_suffix(text, rows().map(|(designation, _)| designation.as_str())) {
             Some((base, _)) => format!("there is `{base}`, without the suffix"),
-            None => "give fewer letters, or none for all; other parts state their own figures, or come from a CSV under `catalogues` of \
+            None => "shorten the text, or omit it to list all; other parts state their own data, or come from a CSV under `catalogues` of \
                      the gearbox"
                 .to_owned(),
         };
-        return Err(Failure::input(format!("no designation holds `{text}`"), help));
+        return Err(Failure::input(format!("no designation contains `{text}`"), help));
     }
     let mut keys: Vec<&str> = Vec::new();
     for (key, _) in found.iter().flat_map(|(_, row)| &row.values) {

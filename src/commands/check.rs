@@ -1,4 +1,4 @@
-//! `check`: reads, resolves and builds, and says everything that is wrong.
+//! `check`: reads, resolves and builds; reports all errors.
 
 mod json;
 
@@ -60,7 +60,10 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
                 out.text(&text)?;
                 if deny.is_some_and(|deny| weakest.is_some_and(|w| w >= deny)) {
                     end = End::Finding;
-                    out.line(format!("  denied: {}", args.deny.as_deref().unwrap_or_default()))?;
+                    out.line(format!(
+                        "  error (--deny {}): the lowest evidence grade is not above it",
+                        args.deny.as_deref().unwrap_or_default()
+                    ))?;
                 }
             }
             Err(findings) => wrong.push_str(&findings.render_new(&mut shown)),
@@ -73,7 +76,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     }
 }
 
-/// Refuses options that say nothing of a study.
+/// Rejects options that do not apply to a study.
 fn belongs_to_gearboxes(args: &CheckArgs, file: &std::path::Path) -> Result<(), Failure> {
     let given = [
         ("--set", !args.choice.set.is_empty()),
@@ -83,14 +86,14 @@ fn belongs_to_gearboxes(args: &CheckArgs, file: &std::path::Path) -> Result<(), 
     ];
     match given.into_iter().find(|(_, given)| *given) {
         Some((option, _)) => Err(Failure::input(
-            format!("{option} has no meaning for {}, which is a study", file.display()),
-            format!("check its gearbox with {option}, or the study without"),
+            format!("{option} does not apply to {}, which is a study", file.display()),
+            format!("use {option} with its gearbox, or check the study without it"),
         )),
         None => Ok(()),
     }
 }
 
-/// Grades from the best to the weakest.
+/// Grades from highest to lowest.
 const GRADES: [&str; 8] = [
     "several_sources",
     "derived",
@@ -110,11 +113,11 @@ pub fn grade(name: &str) -> Result<Evidence, Failure> {
             Some(close) => format!("write {close}; the grades are {grades}"),
             None => format!("write one of {grades}"),
         };
-        Failure::input(format!("no grade of evidence is called `{name}`"), help)
+        Failure::input(format!("`{name}` is not an evidence grade"), help)
     })
 }
 
-/// Bearings with too little static safety at the torque and speed that the gearbox is made for, in any gear, driven and driving.
+/// Bearings with insufficient static safety at the rated torque and speed, in any gear, in drive and coast.
 fn overloaded(t: &Transmission) -> Vec<Note> {
     let Some(rating) = t.rating else { return Vec::new() };
     let mut seen = Vec::new();
@@ -167,10 +170,10 @@ fn gearbox(
         match serde_saphyr::to_string(&language.readable(&resolved.value)) {
             Ok(yaml) => {
                 text.push_str(&format!(
-                    "# {} with every default, catalogue value and model; names of files are relative to its folder\n",
+                    "# {} with all defaults, catalogue values and models; file names are relative to its folder\n",
                     file.display()
                 ));
-                // As comments, so that what is printed can be read as a gearbox.
+                // As comments, so that the output is a valid gearbox.
                 for warning in &transmission.warnings {
                     for line in gearbox.sources.render(warning).lines() {
                         text.push_str(format!("# {line}").trim_end());
@@ -178,7 +181,7 @@ fn gearbox(
                     }
                 }
                 text.push_str(&yaml);
-                // As comments: they are no keys of a gearbox.
+                // As comments, because they are not keys of a gearbox.
                 text.push_str("# derived geometry\n");
                 for stage in transmission.stages() {
                     text.push_str(&format!("# {}:\n", stage.mesh));
@@ -203,7 +206,7 @@ fn gearbox(
     }
     let states: Vec<&str> = transmission.states().iter().map(|s| s.name.as_str()).collect();
     text.push_str(&format!(
-        "{}: fine; {} parts, gear states: {}\n",
+        "{}: fine; {} components, gears: {}\n",
         file.display(),
         transmission.parts().len(),
         states.join(", ")
@@ -221,7 +224,7 @@ fn gearbox(
     }
     if let Some(weak) = known.first() {
         text.push_str(&format!(
-            "  weakest evidence: {} ({}: {})\n",
+            "  lowest evidence grade: {} ({}: {})\n",
             weak.grade.name(),
             weak.what,
             weak.because

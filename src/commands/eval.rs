@@ -1,9 +1,9 @@
-//! `eval`: one model alone, without a gearbox.
+//! `eval`: one model without a gearbox.
 
 use std::path::Path;
 
 use gearloss_framework::eval;
-use gearloss_framework::files::{LONGEST_TEXT, read_text};
+use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::loss::Step;
 use serde_json::json;
@@ -16,12 +16,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     let (mechanism, entry) = eval::named(language, &args.model).map_err(Findings::from)?;
     let (text, folder) = match &args.input {
         Some(file) => (
-            read_text(file, LONGEST_TEXT).map_err(|e| {
-                Failure::input(
-                    format!("cannot read {}: {e}", file.display()),
-                    "check the name of the file",
-                )
-            })?,
+            super::read_file(file, LONGEST_TEXT, "check the file name")?,
             file.parent().map(Path::to_path_buf).unwrap_or_default(),
         ),
         None => Default::default(),
@@ -30,8 +25,8 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     let evaluated = eval::ask(language, &args.model, &source, &text, &folder)?;
     if !evaluated.total.is_finite() {
         return Err(Failure::input(
-            format!("{source}: {} answers with no finite number at these values", args.model),
-            "give quantities of the size that a transmission has",
+            format!("{source}: {} has no finite result at these values", args.model),
+            "give quantities of realistic size",
         ));
     }
     if args.format == Format::Json {

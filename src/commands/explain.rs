@@ -1,4 +1,4 @@
-//! `explain`: every step of the loss of one component, in the source's symbols and units.
+//! `explain`: every calculation step of the loss of one component, in the symbols and units of the source.
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::document::did_you_mean;
@@ -75,7 +75,7 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
                 }
                 let moment = loss.moment().unwrap_or(0.0);
                 out.line(format!(
-                    "  together: {} W, {} Nm for one copy",
+                    "  sum: {} W, {} Nm for one copy",
                     significant(loss.watts()),
                     significant(moment)
                 ))?;
@@ -110,7 +110,7 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
     Ok(End::Fine)
 }
 
-/// The steps of a model, with the place of each model that took them.
+/// The steps of a model, with the path of each nested model.
 fn steps(transmission: &Transmission, trace: Trace, out: &mut Out) -> Result<(), Failure> {
     let mut last = usize::MAX;
     for step in trace.into_steps() {
@@ -132,7 +132,7 @@ fn steps(transmission: &Transmission, trace: Trace, out: &mut Out) -> Result<(),
     Ok(())
 }
 
-/// Ways of heat by path, by name, or all below `thermal`.
+/// Heat paths by path, by name, or all below `thermal`.
 fn ways_of(transmission: &Transmission, name: &str) -> Vec<usize> {
     let fits =
         |path: &str| path == name || path.starts_with(&format!("{name}.")) || path.split('.').nth(2) == Some(name);
@@ -197,7 +197,7 @@ fn source(transmission: &Transmission, info: &PartInfo) -> String {
     )
 }
 
-/// Every written, filled or default value below a path, with where it came from.
+/// All values below a path with their origin.
 fn inputs(path: &str, value: &Value, gearbox: &Gearbox, resolved: &Resolved, out: &mut Out) -> Result<(), Failure> {
     match value {
         Value::Object(map) => {
@@ -228,7 +228,7 @@ fn inputs(path: &str, value: &Value, gearbox: &Gearbox, resolved: &Resolved, out
     Ok(())
 }
 
-/// Parts of a component: by path, by id, or everything below a path.
+/// Component paths that match a path, an id, or the start of a path.
 fn parts_of(transmission: &Transmission, name: &str) -> Result<Vec<usize>, Failure> {
     let fits =
         |path: &str| path == name || path.starts_with(&format!("{name}.")) || path.split('.').nth(1) == Some(name);
@@ -242,7 +242,7 @@ fn parts_of(transmission: &Transmission, name: &str) -> Result<Vec<usize>, Failu
     let ids: Vec<&str> = paths.iter().filter_map(|p| p.split('.').nth(1)).collect();
     let help = match did_you_mean(name, paths.iter().chain(&ids).copied()) {
         Some(close) => format!("write {close}"),
-        None => format!("name one of {}", paths.join(", ")),
+        None => format!("write one of {}", paths.join(", ")),
     };
-    Err(Failure::input(format!("no part is called `{name}`"), help))
+    Err(Failure::input(format!("there is no component `{name}`"), help))
 }

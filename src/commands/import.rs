@@ -1,4 +1,4 @@
-//! `import`: tables from the files of other programs.
+//! `import`: tables from files of other programs.
 
 mod openfoam;
 
@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use gearloss_framework::document::{Unit, parse_quantity};
-use gearloss_framework::files::{LONGEST_TEXT, read_text};
+use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::mechanism::Mechanism;
 use gearloss_framework::mechanism::planetary_drag::PlanetaryDrag;
 use gearloss_framework::table::{Reading, Table as Csv};
@@ -25,7 +25,7 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
         output,
     } = &args.from;
     if !(factor.is_finite() && *factor > 0.0) {
-        return Err(Failure::input(format!("--factor {factor}"), "give a number above zero"));
+        return Err(Failure::input(format!("--factor {factor}"), "give a positive number"));
     }
     let from = seconds("--from", from)?;
     let to = match to {
@@ -33,16 +33,11 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
         None => f64::INFINITY,
     };
     let window = [from, to];
-    let text = read_text(runs, LONGEST_TEXT).map_err(|e| {
-        Failure::input(
-            format!("cannot read {}: {e}", runs.display()),
-            "check the name of the file",
-        )
-    })?;
+    let text = super::read_file(runs, LONGEST_TEXT, "check the file name")?;
     let list = Runs::read(&text).map_err(|fault| {
         Failure::input(
             format!("{}: {fault}", runs.display()),
-            "write a column `name [unit]` for each axis and last `folder`",
+            "write a column `name [unit]` for each axis and `folder` as the last column",
         )
     })?;
     let beside = runs.parent().unwrap_or(Path::new(""));
@@ -58,19 +53,19 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
         let samples = history(&folder).map_err(|fault| {
             told(
                 fault,
-                "name the folder under `postProcessing` that holds the output of the function object",
+                "give the folder under `postProcessing` with the output of the function object",
             )
         })?;
         let mean = Mean::over(&samples, *axis as usize, window)
-            .map_err(|fault| told(fault, "choose --from and --to inside the times of the run"))?;
+            .map_err(|fault| told(fault, "choose --from and --to within the times of the run"))?;
         means.push(mean.times(*factor));
     }
-    // Drag acts against the motion: all moments have one sign, which is that of the drag.
+    // Drag opposes the motion, so all moments have the same sign.
     let sign = means.first().map_or(1.0, |m: &Mean| m.total().signum());
     if let Some((run, mean)) = list.runs.iter().zip(&means).find(|(_, m)| m.total() * sign <= 0.0) {
         return Err(Failure::input(
             format!(
-                "{}, line {}: the mean moment about {} is {} Nm, of another sign than that of the first run",
+                "{}, line {}: the mean moment about {} is {} Nm, whose sign differs from the first run",
                 runs.display(),
                 run.line,
                 axis.name(),
@@ -82,8 +77,8 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     let table = list.table(&means, sign, *axis, window);
     readable(&table, list.axes.len()).map_err(|fault| {
         Failure::input(
-            format!("{}: the runs make no table: {fault}", runs.display()),
-            "give one run for each point of a full grid, its axes named as quantities with their units",
+            format!("{}: the runs do not form a table: {fault}", runs.display()),
+            "give one run for each point of a full grid, with quantities and units as names of the axes",
         )
     })?;
     write_new(output, &table)?;
@@ -103,14 +98,14 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     Ok(End::Fine)
 }
 
-/// What is written must be what a drag model reads: full grid, known axes, their units.
+/// The table must be valid for a drag model: full grid, known axes and units.
 fn readable(table: &str, axes: usize) -> Result<(), String> {
     let read = Csv::several_from_csv(table, &Reading::default(), axes)?;
     for axis in read.iter().flat_map(Csv::axes) {
         let Some(quantity) = PlanetaryDrag::QUANTITIES.iter().find(|q| q.name == axis.name) else {
             let names: Vec<&str> = PlanetaryDrag::QUANTITIES.iter().map(|q| q.name).collect();
             return Err(format!(
-                "`{}` is no quantity; there are: {}",
+                "`{}` is not a known quantity; known: {}",
                 axis.name,
                 names.join(", ")
             ));
@@ -145,12 +140,12 @@ fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
     file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| {
         Failure::input(
             format!("cannot write {}: {e}", path.display()),
-            "name another file with -o; a file that exists is not overwritten",
+            "choose another file with -o; an existing file is not overwritten",
         )
     })
 }
 
-/// One run: coordinates as written, folder, line.
+/// One run: coordinates as text, folder, line.
 struct Run {
     point: Vec<String>,
     folder: String,
@@ -193,7 +188,7 @@ impl Runs {
             runs.push(Run { point, folder, line });
         }
         if runs.is_empty() {
-            return Err("line 1: no run stands below".to_owned());
+            return Err("line 1: no runs below the header".to_owned());
         }
         Ok(Self {
             axes: axes.to_vec(),
@@ -201,7 +196,7 @@ impl Runs {
         })
     }
 
-    /// The table, its points in the order of rising axes.
+    /// The table with its points in ascending order of the axes.
     fn table(&self, means: &[Mean], sign: f64, axis: AxisArg, window: [f64; 2]) -> String {
         let mut text = format!(
             "# Means of OpenFOAM moments about {} from {} s{}.\n",

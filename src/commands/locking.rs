@@ -1,4 +1,4 @@
-//! Self-locking at a point in words: which way power cannot pass, and what holds the equilibrium instead.
+//! Self-locking at a point: the direction in which power cannot flow, and the torques that maintain the equilibrium instead.
 
 use gearloss_framework::evaluate::{Point, PowerFlow, Solution};
 use gearloss_framework::flow::Status;
@@ -8,24 +8,24 @@ use serde_json::{Value, json};
 use super::point::Prepared;
 use crate::output::significant;
 
-/// A torque this much larger shows whether pushing harder helps.
+/// Factor on the torque to test whether more torque helps.
 const HARDER: f64 = 1.5;
 
-/// Which way a transmission locks.
+/// The direction in which a transmission locks.
 pub struct Locking {
-    /// Ports that would put power in without losses.
+    /// Ports where power would enter without losses.
     from: Vec<String>,
-    /// Ports that it would leave at.
+    /// Ports where power would leave without losses.
     to: Vec<String>,
-    /// Meshes that lock; none where a torque at another port holds the equilibrium.
+    /// Meshes that lock; empty if a torque at another port maintains the equilibrium.
     meshes: Vec<String>,
-    /// Efficiency in the other sense; absent where it is none.
+    /// Efficiency in the other direction; absent if there is none.
     back: Option<f64>,
-    /// Torques that ports have to apply where power should leave; none where no torque holds the equilibrium. \[Nm\]
+    /// Torques that the output ports must apply; empty if no torque maintains the equilibrium. \[Nm\]
     helping: Vec<(String, f64)>,
 }
 
-/// Finds whether a solved point locks itself; with ideal flow nothing does.
+/// Determines whether a solved point is self-locking; with ideal flow it is not.
 pub fn find(t: &Transmission, prepared: &Prepared, solution: &Solution<'_>, temperatures: &[f64]) -> Option<Locking> {
     let status = solution.status();
     if prepared.flow == PowerFlow::Ideal || !matches!(status, Status::SelfLocking | Status::Dragged) {
@@ -57,7 +57,7 @@ pub fn find(t: &Transmission, prepared: &Prepared, solution: &Solution<'_>, temp
         let pushed = |powers: &[f64]| to.iter().map(|port| powers[*port]).sum::<f64>();
         let before = pushed(&port_powers(t, solution));
         let (harder, _, after) = powers(PowerFlow::Real, HARDER);
-        // Where drag alone holds it back, pushing harder at the one side spares the other.
+        // If only drag prevents motion, more torque at one side reduces the torque at the other.
         if before <= 0.0 || harder != Status::Dragged || pushed(&after) <= before {
             return None;
         }
@@ -79,7 +79,7 @@ pub fn find(t: &Transmission, prepared: &Prepared, solution: &Solution<'_>, temp
     })
 }
 
-/// Powers that the ports put in. \[W\]
+/// Input powers of the ports. \[W\]
 fn port_powers(t: &Transmission, solution: &Solution<'_>) -> Vec<f64> {
     let ports = t.ports().iter().enumerate();
     ports
@@ -88,7 +88,7 @@ fn port_powers(t: &Transmission, solution: &Solution<'_>) -> Vec<f64> {
 }
 
 impl Locking {
-    /// In a sentence.
+    /// As a sentence.
     pub fn words(&self) -> String {
         let quoted = |names: &[String]| -> String {
             let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
@@ -96,7 +96,7 @@ impl Locking {
         };
         let (from, to) = (quoted(&self.from), quoted(&self.to));
         let mut text = if self.helping.is_empty() {
-            format!("self-locking: no power passes from {from} to {to}, whatever the torque at {from}")
+            format!("self-locking: no power flows from {from} to {to} at any torque at {from}")
         } else {
             let torques: Vec<String> = self
                 .helping
@@ -105,7 +105,7 @@ impl Locking {
                 .collect();
             let pushes = if torques.len() == 1 { "pushes" } else { "push" };
             format!(
-                "self-locking: driven from {from} it does not turn by itself; the speeds hold only because {} {pushes} as well, and \
+                "self-locking: torque at {from} alone does not turn it; the speeds are only maintained because {} {pushes} as well, and \
                  no power comes out",
                 torques.join(" and ")
             )
@@ -114,7 +114,7 @@ impl Locking {
             text.push_str(&format!("; locked by {}", self.meshes.join(", ")));
         }
         if let Some(back) = self.back {
-            text.push_str(&format!("; driven from {to} its efficiency is {:.2} %", 100.0 * back));
+            text.push_str(&format!("; efficiency from {to}: {:.2} %", 100.0 * back));
         }
         text.push('\n');
         text

@@ -1,4 +1,4 @@
-//! `merge`: the parts of `run --shard`, joined to the results of the whole study.
+//! `merge`: merges the parts of `run --shard` into the results of the whole study.
 
 use super::run::{all, gather, read};
 use crate::args::MergeArgs;

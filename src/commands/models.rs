@@ -1,4 +1,4 @@
-//! `models`: what is linked into this program.
+//! `models`: mechanisms and models that are linked into this program.
 
 mod json;
 
@@ -50,7 +50,7 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
 }
 
 fn all(language: &Language, out: &mut Out) -> Result<(), Failure> {
-    let mut table = Table::new(&["mechanism", "model", "crate", "evidence", "what it is"]);
+    let mut table = Table::new(&["mechanism", "model", "crate", "evidence", "description"]);
     for mechanism in language.registry().mechanisms() {
         for model in language.registry().models(mechanism.key) {
             let grade = model
@@ -89,7 +89,7 @@ fn one_mechanism(language: &Language, mechanism: &MechanismEntry, out: &mut Out)
     }
     out.line(format!("registered at {}", mechanism.origin))?;
     out.line("")?;
-    let mut quantities = Table::new(&["quantity", "usual", "least", "greatest", "what it is", "from"]);
+    let mut quantities = Table::new(&["quantity", "usual", "min", "max", "description", "from"]);
     for q in (mechanism.quantities)() {
         quantities.row(vec![
             q.name.to_owned(),
@@ -105,7 +105,7 @@ fn one_mechanism(language: &Language, mechanism: &MechanismEntry, out: &mut Out)
         out.line(format!("law: {law}"))?;
     }
     out.line("")?;
-    let mut models = Table::new(&["model", "what it is", "source"]);
+    let mut models = Table::new(&["model", "description", "source"]);
     for model in language.registry().models(mechanism.key) {
         models.row(vec![model.name.to_owned(), model.meaning(), model.source.to_owned()]);
     }
@@ -123,7 +123,7 @@ fn one_model(language: &Language, entry: &Entry, out: &mut Out) -> Result<(), Fa
         .into_iter()
         .find_map(|(name, record)| (name == entry.name).then_some(record));
     let fields = own.and_then(|v| v["properties"].as_object());
-    let mut parameters = Table::new(&["parameter", "default", "range", "what it is"]);
+    let mut parameters = Table::new(&["parameter", "default", "range", "description"]);
     let own = |name: &str| !["type", COEFFICIENTS].contains(&name);
     for (name, field) in fields.into_iter().flatten().filter(|(name, _)| own(name.as_str())) {
         let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
@@ -145,7 +145,7 @@ fn one_model(language: &Language, entry: &Entry, out: &mut Out) -> Result<(), Fa
             "\n{COEFFICIENTS} of the formula, under the key `{COEFFICIENTS}`; published by {}",
             entry.source
         ))?;
-        let mut table = Table::new(&["coefficient", "published", "range", "what it is"]);
+        let mut table = Table::new(&["coefficient", "published", "range", "description"]);
         for own in coefficients {
             let range = format!("{} to {}", significant(own.least), significant(own.greatest));
             table.row(vec![own.name, own.published.to_string(), range, own.meaning]);

@@ -1,6 +1,6 @@
-//! `models --needs`: for each model, which inputs it needs beyond what every gearbox has, and where this one has them from.
+//! `models --needs`: the inputs of each model beyond those of every gearbox, and their origin in this gearbox.
 //!
-//! Needs are found by trying: an input is needed where building fails without it.
+//! Needs are found by trial: an input is needed if building fails without it.
 
 use std::path::Path;
 
@@ -43,7 +43,7 @@ pub fn run(language: &Language, file: &Path, only: Option<&str>, out: &mut Out) 
     Ok(End::Fine)
 }
 
-/// Paths of the model slots of a mechanism, and of the records that feed its parts.
+/// Paths of the model slots of a mechanism, and of the records that its parts are built from.
 fn slots(resolved: &Resolved, mechanism: &MechanismEntry) -> Vec<String> {
     let section = match &mechanism.section {
         Some(section) => section.name,
@@ -114,7 +114,7 @@ fn inputs(
     let builds = |resolved: &Resolved| Transmission::new(language, &gearbox.files, resolved);
     let mut rows = Vec::new();
     if let Err(list) = builds(&with) {
-        // Say it once for each distinct reason, with the components that it meets.
+        // One row for each distinct reason, with its components.
         let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
         for error in list {
             let text = error
@@ -164,7 +164,7 @@ fn inputs(
         }
     }
     if rows.is_empty() {
-        rows.push(("nothing beyond what every gearbox has".to_owned(), "given".to_owned()));
+        rows.push(("none beyond those of every gearbox".to_owned(), "given".to_owned()));
     }
     rows
 }
@@ -207,7 +207,7 @@ fn state(gearbox: &Gearbox, resolved: &Resolved, path: &str) -> String {
     }
 }
 
-/// True where a pattern names a path or something above it.
+/// True if a pattern matches a path or a parent of it.
 fn covers(pattern: &str, path: &str) -> bool {
     let (pattern, path): (Vec<&str>, Vec<&str>) = (pattern.split('.').collect(), path.split('.').collect());
     pattern.len() <= path.len() && pattern.iter().zip(&path).all(|(p, k)| *p == "*" || p == k)

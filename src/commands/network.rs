@@ -1,4 +1,4 @@
-//! A thermal network at rest, as lines and as JSON.
+//! The steady state of a thermal network as text and as JSON.
 
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::Steady;
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::output::{Table, significant};
 use gearloss_studies::analyses::balance::reason;
 
-/// What became of the nodes, in lines.
+/// The temperatures of the nodes as text.
 pub fn of_network(transmission: &Transmission, steady: &Steady) -> String {
     let Some(network) = transmission.network() else {
         return String::new();
@@ -39,16 +39,16 @@ pub fn of_network(transmission: &Transmission, steady: &Steady) -> String {
     }
     text.push_str(&table.render());
     for (path, heat) in network.exchangers().zip(&steady.leaving.exchangers) {
-        text.push_str(&format!("{path} takes {heat:.2} W\n"));
+        text.push_str(&format!("{path} transfers {heat:.2} W\n"));
     }
     if steady.leaving.flows.abs() > 1e-6 * steady.heat.iter().sum::<f64>().abs() {
-        text.push_str(&format!("flows carry {:.2} W away\n", steady.leaving.flows));
+        text.push_str(&format!("flows transfer {:.2} W\n", steady.leaving.flows));
     }
     text.push_str(&format!("residual {} W\n", significant(steady.residual)));
     text
 }
 
-/// The nodes and the ways of their heat.
+/// The nodes and the heat paths.
 pub fn json_of_network(transmission: &Transmission, steady: &Steady) -> Value {
     let Some(network) = transmission.network() else {
         return Value::Null;

@@ -1,4 +1,4 @@
-//! `new`: commented files to start from.
+//! `new`: commented templates.
 
 mod gearbox;
 mod plugin;
@@ -22,7 +22,7 @@ pub fn run(args: &NewArgs, out: &mut Out) -> Result<End, Failure> {
     }
 }
 
-/// Writes a file that does not exist yet, and tells so.
+/// Writes a new file and prints its name; an existing file is an error.
 fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
     use std::io::Write as _;
     let told = |what: String, help: String| Err(Failure::input(what, help));
@@ -30,17 +30,17 @@ fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
     if !folder.is_dir() {
         return told(
             format!(
-                "cannot write {}: there is no folder {}",
+                "cannot write {}: the folder {} does not exist",
                 file.display(),
                 folder.display()
             ),
-            "make the folder, or name a file in another one with -o".to_owned(),
+            "create the folder, or choose another one with -o".to_owned(),
         );
     }
     if file.is_dir() {
         return told(
             format!("cannot write {}: it is a folder", file.display()),
-            "name a file in it with -o".to_owned(),
+            "choose a file in it with -o".to_owned(),
         );
     }
     let opened = std::fs::OpenOptions::new().write(true).create_new(true).open(file);
@@ -51,16 +51,16 @@ fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
         }
         Err(error) if error.kind() == ErrorKind::AlreadyExists => told(
             format!("{} exists and is not overwritten", file.display()),
-            "name another file, such as -o other.yaml".to_owned(),
+            "choose another file, such as -o other.yaml".to_owned(),
         ),
         Err(error) => told(
             format!("cannot write {}: {error}", file.display()),
-            "name another file with -o".to_owned(),
+            "choose another file with -o".to_owned(),
         ),
     }
 }
 
-/// Writes the schema that the first line of a file names, for editors. One that is there stays: other files may count on it.
+/// Writes the schema that the first line of a file names, for editors. An existing schema is kept, because other files may use it.
 fn schema_beside(file: &Path, language: &Language, kind: Kind, name: &str, out: &mut Out) -> Result<(), Failure> {
     let schema = folder(file).join(name);
     let schema = schema.strip_prefix(".").unwrap_or(&schema);
@@ -70,11 +70,11 @@ fn schema_beside(file: &Path, language: &Language, kind: Kind, name: &str, out: 
         Ok(present) if present == text => Ok(()),
         Err(error) if error.kind() != ErrorKind::InvalidData => Err(Failure::input(
             format!("cannot read {}: {error}", schema.display()),
-            "give the file another folder with -o",
+            "choose another folder with -o",
         )),
         _ => {
             out.line(format!(
-                "kept {}, which is not the schema of this version; `gearloss schema` prints that",
+                "kept {}, which is not the schema of this version; `gearloss schema` prints the current one",
                 schema.display()
             ))?;
             Ok(())
@@ -82,7 +82,7 @@ fn schema_beside(file: &Path, language: &Language, kind: Kind, name: &str, out: 
     }
 }
 
-/// The folder of a file; the current one where none is named.
+/// The folder of a file; the current folder if the path has none.
 fn folder(file: &Path) -> &Path {
     match file.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -90,13 +90,13 @@ fn folder(file: &Path) -> &Path {
     }
 }
 
-/// A path as one word of a shell.
+/// A path quoted for a shell.
 fn word(path: &Path) -> String {
     let text = path.display().to_string();
     if text.chars().all(|c| c.is_alphanumeric() || "/\\._-:+".contains(c)) {
         text
     } else {
-        // Windows knows double quotes only; elsewhere they would let a shell look inside.
+        // Windows has double quotes only; other shells expand text inside double quotes.
         if cfg!(windows) {
             format!("\"{text}\"")
         } else {

@@ -34,7 +34,7 @@ impl Prepared {
 /// A quantity of an option in SI.
 pub fn quantity(option: &str, text: &str, unit: &'static str) -> Result<f64, Failure> {
     let unit = Unit::of_symbol(unit).unwrap_or(Unit::ONE);
-    // A bare number is one in the documented unit, as in a file.
+    // A bare number is in the documented unit, as in a file.
     if let Ok(bare) = text.trim().parse::<f64>()
         && bare.is_finite()
     {
@@ -81,7 +81,7 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
         .state(&gear)
         .map_err(|e| Failure::from(gearbox.findings(vec![e])))?;
     let ports: Vec<&str> = transmission.ports().iter().map(|p| p.name.as_str()).collect();
-    // A port that the program assumed must exist by that name.
+    // The assumed port must exist.
     for (port, _) in speeds.iter_mut().chain(&mut torques) {
         if *port == "input" && !ports.contains(port) {
             *port = ports[transmission.reference_port()];
@@ -117,8 +117,8 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
         Some(text) => {
             let given = quantity("--oil-temperature", text, "degC")?;
             if !(-60.0..=250.0).contains(&given) {
-                let message = format!("--oil-temperature \"{text}\" is no temperature of an oil");
-                return Err(Failure::input(message, "write one from -60 to 250 degC"));
+                let message = format!("--oil-temperature \"{text}\" is not a valid oil temperature");
+                return Err(Failure::input(message, "write a temperature from -60 to 250 degC"));
             }
             Some(given)
         }

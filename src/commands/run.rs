@@ -2,7 +2,6 @@
 
 mod folder;
 mod manifest;
-mod report;
 mod runner;
 mod shard;
 mod shard_tasks;
@@ -21,12 +20,12 @@ use self::runner::{Run, Runner};
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::coefficients::changed_from_source;
+use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::axes::{speeds, torques};
-use gearloss_studies::analyses::{Built, gear_of};
 use gearloss_studies::study::Study;
 
+use super::read_file;
 use crate::args::{ResultArgs, RunArgs};
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
@@ -47,14 +46,14 @@ pub(super) fn read(language: &Language, file: &Path) -> Result<Study, Failure> {
     Ok(study)
 }
 
-/// What there is to say of a study before it runs.
+/// Findings of a study before it runs.
 #[derive(Default)]
 pub(super) struct Looked {
-    /// What `run` would refuse before it computes anything, analysis by analysis; each text once.
+    /// Errors that `run` reports before it computes, by analysis, without repetition.
     pub refused: Vec<Failure>,
     /// Warnings of its gearboxes.
     pub warnings: Vec<Findings>,
-    /// What of its gearboxes has no model.
+    /// Components of its gearboxes without a model.
     pub notes: Vec<String>,
 }
 
@@ -69,7 +68,7 @@ impl Reported {
             .extend(list.map(|finding| (finding.path.clone(), finding.message.clone())));
     }
 
-    /// What of a failure was not reported yet.
+    /// The part of a failure that was not reported yet.
     fn rest(&self, failure: Failure) -> Option<Failure> {
         let Failure::Found(mut findings) = failure else {
             return Some(failure);
@@ -82,7 +81,7 @@ impl Reported {
     }
 }
 
-/// Looks a study over as `run` would read it.
+/// Checks a study as `run` would.
 pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
     let study = match read(language, file) {
         Ok(study) => study,
@@ -123,7 +122,7 @@ pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
 fn warnings(language: &Language, study: &Study) -> (Vec<Findings>, Vec<String>) {
     let (mut warnings, mut notes) = (Vec::new(), Vec::new());
     for (name, gearbox) in &study.gearboxes {
-        // What cannot be built so is refused by the analyses that need it.
+        // Analyses that need an invalid gearbox report its errors.
         let Ok((resolved, t)) = study.built(language, gearbox, &study.choice(None), &[]) else {
             continue;
         };
@@ -145,19 +144,18 @@ fn warnings(language: &Language, study: &Study) -> (Vec<Findings>, Vec<String>) 
     (warnings, notes)
 }
 
-/// A line for each coefficient that a gearbox uses with another value than the published one, under its own models or under
-/// a set of the analyses.
+/// A line for each coefficient with a value other than the published one, under the gearbox defaults or a model set of the analyses.
 fn changed_coefficients(language: &Language, study: &Study) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for (i, (name, gearbox)) in study.gearboxes.iter().enumerate() {
-        let sets = report::sets(study, name, i == 0);
+    for (name, gearbox) in &study.gearboxes {
+        let sets = study.sets_used_for(name);
         let own_models = std::iter::once(None).chain(sets.iter().map(|set| {
             let set = set.rsplit('/').next();
             set.filter(|set| *set != "own")
         }));
         let mut told: Vec<String> = Vec::new();
         for set in own_models {
-            // What cannot be built is refused by the analyses that need it.
+            // Analyses that need an invalid gearbox report its errors.
             let Ok((resolved, t)) = study.built(language, gearbox, &study.choice(set), &[]) else {
                 continue;
             };
@@ -173,7 +171,7 @@ fn changed_coefficients(language: &Language, study: &Study) -> Vec<String> {
     lines
 }
 
-/// All analyses and the report; what shards have computed is taken from them.
+/// Runs all analyses and writes the report; uses the results of shards.
 pub(super) fn all(
     language: &Language,
     study: &Study,
@@ -184,11 +182,13 @@ pub(super) fn all(
     let folder = args.output.clone().unwrap_or_else(|| study.folder.join("results"));
     if let Some(wrong) = args.deny.iter().find(|what| *what != "extrapolation") {
         return Err(Failure::input(
-            format!("--deny {wrong}: a study can deny `extrapolation` only"),
+            format!("--deny {wrong}: `run` accepts only `extrapolation`"),
             "write --deny extrapolation, or `check --deny GRADE` for evidence",
         ));
     }
-    let template = report::template(args.template.as_deref())?;
+    let template = args.template.as_deref();
+    let template = template.map(|file| read_file(file, LONGEST_TEXT, "give a template with --template"));
+    let template = template.transpose()?;
     let held = taken(&folder, args.force, out)?;
     let runner = Run::new(language, study, folder, tasks);
     if let Some(title) = &study.entry.title {
@@ -205,7 +205,7 @@ pub(super) fn all(
     for note in notes {
         Out::error().line(format!("note: {note}"))?;
     }
-    // What is wrong with files of points is printed once, not by every analysis that uses them.
+    // Errors in files of points are printed once, not by every analysis that uses them.
     let mut reported = Reported::default();
     let wrong_data = study.data_findings();
     if let Some(findings) = &wrong_data {
@@ -219,15 +219,15 @@ pub(super) fn all(
             Ok(()) => {}
             Err(failure) => {
                 let Some(text) = failure.text() else {
-                    runner.report.borrow_mut().drop_last();
+                    runner.report.borrow_mut().sections.pop();
                     finished = Some(done_so_far);
                     break;
                 };
-                // What was computed before and what comes after is kept.
+                // Finished analyses are kept.
                 failed += 1;
                 write::remove(&runner, name);
                 out.line(format!("{name}: failed"))?;
-                runner.report.borrow_mut().text(&format!("failed\n{text}"));
+                runner.in_section(|section| section.text.push_str(&format!("failed\n{text}")));
                 if let Some(text) = reported.rest(failure).and_then(|rest| rest.text()) {
                     Out::error().text(&text)?;
                 }
@@ -236,7 +236,7 @@ pub(super) fn all(
         done_so_far += 1;
     }
     runner.print_stated_ranges(out)?;
-    report::write(&runner, template.as_deref())?;
+    write::report(&runner, template.as_deref())?;
     held.finish();
     out.line(format!(
         "results in {}, report in report.html",
@@ -249,14 +249,14 @@ pub(super) fn all(
     }
     if failed == 0 && !args.deny.is_empty() && runner.left.get() > 0 {
         out.line(format!(
-            "denied: extrapolation; {} stated ranges were left",
+            "error (--deny extrapolation): {} quantities outside their stated ranges",
             runner.left.get()
         ))?;
         return Ok(End::Finding);
     }
     if failed == 0 && wrong_data.is_some() {
         return Err(Failure::Input(
-            "error: a measurement that no analysis uses cannot be read, see above\n".to_owned(),
+            "error: an unused measurement cannot be read, see above\n".to_owned(),
         ));
     }
     if failed == 0 {
@@ -269,7 +269,7 @@ pub(super) fn all(
     }
 }
 
-/// Says where the conditions take the place of a temperature that a gearbox states.
+/// Notes that the conditions replace a temperature of a gearbox.
 fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
     let Some(oil) = study.entry.conditions.oil_temperature else {
         return Ok(());
@@ -278,19 +278,19 @@ fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
         let thermal = &gearbox.value["thermal"];
         let own = thermal["oil"].as_f64().filter(|own| (own - oil).abs() > 1e-9);
         let words = match (own, thermal["mode"].as_str()) {
-            (_, Some("balance")) => "the balance of".to_owned(),
+            (_, Some("balance")) => "the heat balance of".to_owned(),
             (Some(own), _) if gearbox.places.is_written("thermal.oil") => format!("{own} degC of"),
             _ => continue,
         };
         out.line(format!(
-            "note: `conditions.oil_temperature`, {oil} degC, takes the place of {words} gearbox `{name}`"
+            "note: `conditions.oil_temperature`, {oil} degC, replaces {words} gearbox `{name}`"
         ))?;
     }
     Ok(())
 }
 
-/// Takes the folder of the results before anything is computed. One that holds something else than earlier results is not
-/// written into unasked; earlier results are replaced, which is said.
+/// Claims the result folder before computation. A folder with other files than earlier results needs `--force`; earlier results are
+/// replaced with a note.
 fn taken(folder: &Path, force: bool, out: &mut Out) -> Result<Held, Failure> {
     let files: Vec<PathBuf> = std::fs::read_dir(folder)
         .into_iter()
@@ -314,19 +314,19 @@ fn taken(folder: &Path, force: bool, out: &mut Out) -> Result<Held, Failure> {
         ];
         kind.is_some_and(|kind| kinds.contains(&kind)) || file.ends_with(folder::MARK)
     };
-    // Every run leaves a report, or the mark of one that is not finished; a folder without them is the user's own.
+    // Every run leaves a report, or the lock file of an unfinished run; a folder without them belongs to the user.
     let is_one = |file: &PathBuf| file.ends_with(write::REPORT) || file.ends_with(folder::MARK);
     let replace = !files.is_empty() && !force;
     if replace && !(files.iter().any(is_one) && files.iter().all(written)) {
         return Err(Failure::input(
-            format!("{} holds files, and no results of a study", folder.display()),
-            "name another folder with -o, or write into it with --force",
+            format!("{} contains files that are not results of a study", folder.display()),
+            "choose another folder with -o, or use --force",
         ));
     }
     let (held, broken_off) = Held::take(folder)?;
     if broken_off {
         out.line(format!(
-            "an earlier run into {} was broken off; its files are replaced",
+            "an earlier run into {} was interrupted; its files are replaced",
             folder.display()
         ))?;
     } else if replace {

@@ -5,7 +5,7 @@ use gearloss_framework::language::{Kind, Language};
 use crate::args::{KindArg, SchemaArgs};
 use crate::output::{End, Failure, Out};
 
-/// Schemas of what the program writes beside results.
+/// Schemas of the other outputs of the program.
 const POINT: &str = include_str!("../../schemas/point.schema.json");
 const CHECK: &str = include_str!("../../schemas/check.schema.json");
 const MODELS: &str = include_str!("../../schemas/models.schema.json");

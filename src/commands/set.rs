@@ -1,4 +1,4 @@
-//! `--set PATH=VALUE`: overrides from the arguments, with their own places in errors.
+//! `--set PATH=VALUE`: overrides from the arguments, with their positions in errors.
 
 use gearloss_framework::document::{Diagnostic, Sources, Span, read_yaml};
 use gearloss_framework::gearbox::{Findings, Gearbox};
@@ -7,13 +7,13 @@ use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved, lookup, matches}
 
 use crate::args::ChoiceArgs;
 
-/// How an option is called where errors point into it.
+/// Name of an option in errors.
 const OPTION: &str = "--set";
 
 /// Resolves a gearbox with the models and overrides of the arguments.
 ///
 /// # Errors
-/// Everything that reading the overrides and resolving find; what an override caused points at its path or value.
+/// All errors of reading the overrides and of resolving; errors caused by an override point at its path or value.
 pub fn resolve(language: &Language, gearbox: &Gearbox, args: &ChoiceArgs) -> Result<Resolved, Findings> {
     let choice = choice(args)?;
     gearbox.resolve(language, &choice).map_err(|findings| {
@@ -29,7 +29,7 @@ pub fn resolve(language: &Language, gearbox: &Gearbox, args: &ChoiceArgs) -> Res
 /// Models and overrides of the arguments.
 ///
 /// # Errors
-/// An option without `=`, and a value that is not YAML.
+/// If an option has no `=`, or a value is not YAML.
 pub fn choice(args: &ChoiceArgs) -> Result<Choice, Findings> {
     let mut overrides = Vec::new();
     for text in &args.set {
@@ -42,7 +42,7 @@ pub fn choice(args: &ChoiceArgs) -> Result<Choice, Findings> {
                 .help("write `--set PATH=VALUE`");
             return Err(found(vec![error], sources));
         };
-        // Findings count from the first character of the value.
+        // Positions of findings are relative to the first character of the value.
         let start = text.len() - value.trim_start().len();
         let read = read_yaml(source, value.trim());
         if !read.findings.is_empty() {
@@ -71,8 +71,8 @@ fn span(source: u16, start: usize, end: usize) -> Span {
     }
 }
 
-/// Gives findings at the path of an option the place in that option: the first key that meets nothing in the document without
-/// overrides, else the value.
+/// Moves findings at the path of an option into that option: to the first key that matches nothing in the document without overrides,
+/// otherwise to the value.
 fn point_at_options(
     language: &Language,
     plain: Option<&Resolved>,
@@ -80,7 +80,7 @@ fn point_at_options(
     mut findings: Findings,
 ) -> Findings {
     for finding in &mut findings.list {
-        // Of several options for one path the last is in force.
+        // The last of several options for one path applies.
         let option = options.iter().rev().find_map(|text| {
             let (path, value) = text.split_once('=')?;
             reaches(path.trim(), &finding.path).then_some((text, path, value))
@@ -96,7 +96,7 @@ fn point_at_options(
     findings
 }
 
-/// Whether a finding at a path is about the override of a pattern: at what it meets, or below.
+/// Whether a finding at a path concerns the override of a pattern: at a match or below it.
 fn reaches(pattern: &str, path: &str) -> bool {
     let mut keys = path.split('.');
     pattern
@@ -104,13 +104,13 @@ fn reaches(pattern: &str, path: &str) -> bool {
         .all(|key| keys.next().is_some_and(|own| key == "*" || own == key))
 }
 
-/// Where in a pattern the first key stands that meets nothing.
+/// Position in a pattern of the first key that matches nothing.
 fn failing_key(language: &Language, plain: &Resolved, pattern: &str) -> Option<(usize, usize)> {
     let mut start = 0;
     for key in pattern.split('.') {
         let end = start + key.len();
         let prefix = pattern[..end].trim();
-        // The last key may be absent where the schema has a place for it.
+        // The last key may be absent if the schema allows it.
         let known = |path: &String| {
             let last = end == pattern.len();
             (last || lookup(&plain.value, path).is_some()) && language.has_place(&plain.value, path)

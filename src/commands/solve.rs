@@ -1,4 +1,4 @@
-//! `solve`: one operating point, every part's loss, the sum and the efficiency.
+//! `solve`: one operating point with the loss of each component, sums and efficiency.
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::evaluate::Solution;
@@ -32,7 +32,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let mut scratch = transmission.scratch(&prepared.case);
     let point = prepared.point();
     let warm = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
-    // What ways of heat noted counts over all points, of which there is one.
+    // Notes of heat paths count over all points; here there is one.
     let of_heat = scratch.totals.clone();
     let solution = transmission.evaluate(&prepared.case, &point, warm.temperatures(), &mut scratch);
     let locking = locking::find(&transmission, &prepared, &solution, warm.temperatures());
@@ -49,7 +49,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             let mut value = as_json(&transmission, &solution, &prepared);
             value["packages"] = json!(language.registry().packages());
             value["self_locking"] = json!(locking.map(|locking| locking.json()));
-            // Without a balance there is no temperature of the oil; the losses belong to another one.
+            // Without a heat balance there is no oil temperature; the losses are at another one.
             value["oil_temperature_degc"] = json!(warm.is_sound().then_some(warm.oil));
             value["evaluated_at_degc"] = json!(warm.oil);
             value["balance"] = json!(warm.balance.as_ref().map(|b| BalanceOfPoint::new(&transmission, b)));
@@ -64,7 +64,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             let at = if warm.is_sound() {
                 format!("oil {} degC", significant(warm.oil))
             } else {
-                format!("no balance, losses at {} degC", significant(warm.oil))
+                format!("no heat balance, losses at {} degC", significant(warm.oil))
             };
             out.text(&as_table(&transmission, &solution, &prepared, &at))?;
             out.text(&locking.map_or_else(String::new, |locking| locking.words()))?;
@@ -78,7 +78,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             }
             if let Some(weak) = known.first() {
                 out.line(format!(
-                    "weakest evidence: {} ({}: {})",
+                    "lowest evidence grade: {} ({}: {})",
                     weak.grade.name(),
                     weak.what,
                     weak.because
@@ -106,7 +106,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     Ok(end)
 }
 
-/// The point in words and the state of the transmission.
+/// The point as text and the state of the transmission.
 pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, at: &str) -> String {
     let mut text = String::new();
     if !transmission.title().is_empty() {
@@ -138,10 +138,10 @@ pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &
 
 fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared, at: &str) -> String {
     let mut text = heading(transmission, solution, prepared, at);
-    // Without a flow there are no loads and no losses to show.
+    // Without a power flow there are no loads and losses.
     let flow = solution.has_flow();
     if flow && !transmission.supports().is_empty() {
-        let mut loads = Table::new(&["support", "radial N", "axial N", "tilting Nm"]);
+        let mut loads = Table::new(&["bearing", "radial N", "axial N", "tilting Nm"]);
         let row = |path: String, load: SupportLoad| {
             vec![
                 path,
@@ -160,7 +160,7 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
         text.push('\n');
     }
     let mut parts = Table::new(&[
-        "part",
+        "component",
         "model",
         "loss W",
         "load-dependent W",
@@ -198,17 +198,17 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
         text.push_str(&format!("sums W: {}\n", words.join(", ")));
     }
     text.push_str(&format!(
-        "status {}, loss {} W, efficiency {} %, loss torque {} Nm, {} passes\n",
+        "status {}, loss {} W, efficiency {} %, loss torque {} Nm, {} iterations\n",
         solution.status().name(),
         number(solution.loss(), 4),
         number(solution.efficiency().map(|e| 100.0 * e), 4),
         number(solution.loss_torque(), 6),
         solution.passes(),
     ));
-    // Only trains in which power circulates hold more than goes in.
+    // The internal power exceeds the input only with circulating power.
     if let Some(times) = multiplied(solution).filter(|times| *times > 1.001) {
         text.push_str(&format!(
-            "largest power inside {} W, {times:.2} times the input\n",
+            "largest internal power {} W, {times:.2} times the input\n",
             number(Some(solution.largest_power()), 2),
         ));
     }
@@ -218,7 +218,7 @@ fn as_table(transmission: &Transmission, solution: &Solution<'_>, prepared: &Pre
     text
 }
 
-/// How the temperatures of a point were found, in lines; none where they are given.
+/// The heat balance of a point as text; empty if temperatures are given.
 pub fn of_warmth(transmission: &Transmission, warm: &Found) -> String {
     let balance = warm
         .balance
@@ -228,7 +228,7 @@ pub fn of_warmth(transmission: &Transmission, warm: &Found) -> String {
     balance.or(network).unwrap_or_default()
 }
 
-/// The largest power inside over the power that goes in.
+/// The largest internal power relative to the input power.
 fn multiplied(solution: &Solution<'_>) -> Option<f64> {
     let input = solution.input_power().filter(|input| *input > 0.0)?;
     Some(solution.largest_power() / input)
@@ -242,7 +242,7 @@ pub fn by_name(sums: [f64; 6]) -> Value {
         .collect()
 }
 
-/// The usual sums; absent where no flow was found.
+/// The usual sums; absent if there is no power flow.
 fn sums(transmission: &Transmission, solution: &Solution<'_>) -> Option<[f64; 6]> {
     if !solution.has_flow() {
         return None;
@@ -257,7 +257,7 @@ fn sums(transmission: &Transmission, solution: &Solution<'_>) -> Option<[f64; 6]
 }
 
 fn as_json(transmission: &Transmission, solution: &Solution<'_>, prepared: &Prepared) -> Value {
-    // Without a flow loads and losses are null.
+    // Without a power flow loads and losses are null.
     let flow = solution.has_flow();
     let known = |value: f64| flow.then_some(value);
     let ports: Vec<Value> = transmission

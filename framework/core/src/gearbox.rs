@@ -137,7 +137,7 @@ impl Gearbox {
     pub fn read_from(language: &Language, source: &SharedSource, file: &Path) -> Result<Self, Findings> {
         let text = source.read_text(file, LONGEST_TEXT).map_err(|e| {
             Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
-                .help("check the name of the file")
+                .help("check the file name")
                 .code(Code::Unreadable)
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));

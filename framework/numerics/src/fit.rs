@@ -1,4 +1,8 @@
-//! Power laws fitted to points by least squares of logarithms.
+//! Fits of laws with few parameters: power laws by least squares of logarithms, other laws by least squares with their accuracy.
+
+mod squares;
+
+pub use squares::{Estimate, Squares};
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,9 +1,9 @@
 //! Lines of equal value over a lattice, by marching squares.
 
-/// A straight piece of a line, in places of the lattice: whole numbers are its points.
+/// A straight piece of a line in lattice coordinates; whole numbers are lattice points.
 pub type Piece = [(f64, f64); 2];
 
-/// About as many round values between the least and the greatest.
+/// About `count` round values between the minimum and the maximum.
 pub fn levels(low: f64, high: f64, about: usize) -> Vec<f64> {
     let raw = (high - low) / about.max(1) as f64;
     if !raw.is_finite() || raw <= 0.0 {
@@ -20,7 +20,7 @@ pub fn levels(low: f64, high: f64, about: usize) -> Vec<f64> {
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// The pieces of the line of one value; cells with a gap have none. Values run over the columns first.
+/// The pieces of the contour of one value; cells with a missing corner have none. Values are stored row by row.
 pub fn pieces(values: &[Option<f64>], columns: usize, level: f64) -> Vec<Piece> {
     let mut pieces = Vec::new();
     if columns < 2 {
@@ -49,7 +49,7 @@ pub fn pieces(values: &[Option<f64>], columns: usize, level: f64) -> Vec<Piece> 
                 .collect();
             match crossed[..] {
                 [p, q] => pieces.push([p, q]),
-                // A saddle: the mean of the corners says which sides belong together.
+                // A saddle: the mean of the corners decides which sides are connected.
                 [p, q, r, s] => {
                     let together = ((a + b + c + d) < 0.0) == (a < 0.0);
                     pieces.extend(if together { [[p, q], [r, s]] } else { [[p, s], [q, r]] });

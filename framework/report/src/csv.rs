@@ -8,19 +8,19 @@ use std::ops::Range;
 use gearloss_studies::table::{Table, Values};
 use rayon::prelude::*;
 
-/// A table that is written some rows at a time.
+/// A table that is written in batches of rows.
 pub struct CsvTable<W: io::Write> {
     to: W,
 }
 
-/// Rows whose lines one thread makes at a time.
+/// Number of rows that one thread formats at a time.
 const ROWS: usize = 1024;
 
 impl<W: io::Write> CsvTable<W> {
-    /// A table with the names of its columns.
+    /// Writes the header line.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn new(mut to: W, header: &Table) -> io::Result<Self> {
         let mut line = csv::Writer::from_writer(Vec::new());
         line.write_record(header.columns.iter().map(|column| inert(&column.name).into_owned()))?;
@@ -31,7 +31,7 @@ impl<W: io::Write> CsvTable<W> {
     /// Adds rows.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn rows(&mut self, rows: &Table) -> io::Result<()> {
         let starts: Vec<usize> = (0..rows.len()).step_by(ROWS).collect();
         let lines = |start: &usize| lines(rows, *start..(start + ROWS).min(rows.len()));
@@ -39,16 +39,16 @@ impl<W: io::Write> CsvTable<W> {
         all.into_iter().try_for_each(|lines| self.to.write_all(&lines?))
     }
 
-    /// Ends the table.
+    /// Completes the table.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn finish(mut self) -> io::Result<()> {
         self.to.flush()
     }
 }
 
-/// Some rows as lines: all digits of a number, nothing for a gap.
+/// Rows as lines: all digits of a number, an empty cell for a missing value.
 fn lines(table: &Table, rows: Range<usize>) -> io::Result<Vec<u8>> {
     let mut lines = csv::Writer::from_writer(Vec::new());
     let mut digits = String::new();
@@ -70,8 +70,8 @@ fn lines(table: &Table, rows: Range<usize>) -> io::Result<Vec<u8>> {
     lines.into_inner().map_err(csv::IntoInnerError::into_error)
 }
 
-/// A text as a spreadsheet takes for one: what would begin a formula there stands behind an apostrophe, which spreadsheets read
-/// as the sign of a text. Numbers keep their sign, and a sign alone, such as the unit `-`, is no formula.
+/// A text that no spreadsheet evaluates as a formula: texts that would begin a formula get an apostrophe in front, which marks a text in
+/// spreadsheets. Numbers keep their sign; a sign alone, such as the unit `-`, is not a formula.
 fn inert(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if !is_formula || text.len() == 1 || text.parse().is_ok_and(f64::is_finite) {
@@ -116,9 +116,9 @@ mod tests {
             table.push(cells!["first", (i != 1).then_some(i as f64 + 0.1)]);
         }
         let mut bytes = Vec::new();
-        let mut csv = CsvTable::new(&mut bytes, &table).expect("a vector takes all");
-        csv.rows(&table).expect("a vector takes all");
-        csv.finish().expect("a vector takes all");
+        let mut csv = CsvTable::new(&mut bytes, &table).expect("writing to a vector cannot fail");
+        csv.rows(&table).expect("writing to a vector cannot fail");
+        csv.finish().expect("writing to a vector cannot fail");
         let text = String::from_utf8(bytes).expect("text");
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines[..3], ["gear,loss_w", "first,0.1", "first,"]);

@@ -1,4 +1,4 @@
-//! Pictures of differences: over speed and torque, as histograms, one quantity over another.
+//! Figures of differences: over speed and torque, as histograms, as parity plots.
 
 use gearloss_studies::analysis::{histogram, levels};
 
@@ -8,8 +8,8 @@ use crate::{Cloud, Figure, Map};
 /// A difference at a torque in Nm and a speed in rpm.
 pub type Deviation = (f64, f64, Option<f64>);
 
-/// As a map where the points lie on a grid, but for the scatter of a rig; else as dots. `unseen` is the accuracy of the
-/// measurement, `ends` those of the colours where several pictures share them.
+/// A map if the points lie on a grid apart from the scatter of a rig, otherwise dots. `unseen` is the accuracy of the measurement; `ends`
+/// is the colour range if several figures share it.
 pub fn picture(title: String, points: &[Deviation], unseen: Option<f64>, ends: Option<(f64, f64)>) -> Figure {
     let (torques, speeds) = lines(points);
     let mut values = vec![None; torques.len() * speeds.len()];
@@ -46,8 +46,8 @@ pub fn picture(title: String, points: &[Deviation], unseen: Option<f64>, ends: O
     })
 }
 
-/// Places of the points by torque, and by speed. Speeds are set, while torques are shown with what the rig adds: the first torque
-/// of every speed is one line, the second the next; none where speeds have not as many points each, or lines overlap.
+/// Points as a grid of torques and speeds. Speeds are set values; torques scatter. The first torque of every speed forms one row, the
+/// second the next. Absent if speeds have different numbers of points or rows overlap.
 fn lines(points: &[Deviation]) -> (Vec<Vec<usize>>, Vec<Vec<usize>>) {
     let speeds = levels(&points.iter().map(|p| p.1).collect::<Vec<_>>());
     let count = speeds.first().map_or(0, Vec::len);
@@ -73,7 +73,7 @@ fn lines(points: &[Deviation]) -> (Vec<Vec<usize>>, Vec<Vec<usize>>) {
     (torques, speeds)
 }
 
-/// Numbers of points over their difference, in the same cells for every set.
+/// Histogram of the differences with the same bins for every set.
 pub fn histograms(name: &str, (what, unit): (&str, &str), lists: Vec<(String, Vec<f64>)>) -> Figure {
     let all: Vec<f64> = lists.iter().flat_map(|(_, list)| list.iter().copied()).collect();
     let (from, width, cells) = histogram(&all);
@@ -96,14 +96,14 @@ pub fn histograms(name: &str, (what, unit): (&str, &str), lists: Vec<(String, Ve
         }
     };
     Figure::Lines {
-        title: format!("{name}: how often a difference occurs"),
+        title: format!("{name}: histogram of the differences"),
         x: format!("difference of {what} in {unit}"),
         y: "points".to_owned(),
         lines: lists.into_iter().map(steps).collect(),
     }
 }
 
-/// One quantity over the same of what it is compared with, and the line of equal values.
+/// A parity plot: one quantity over its reference value, with the line of equal values.
 pub fn parity(name: &str, what: &str, (x, y): (&str, &str), lists: Vec<(String, Vec<Option<(f64, f64)>>)>) -> Figure {
     let all = || lists.iter().flat_map(|(_, list)| list.iter().flatten());
     let ends = all().fold(None, |ends: Option<(f64, f64)>, (a, b)| {

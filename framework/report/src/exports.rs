@@ -1,4 +1,4 @@
-//! Tables of losses for other programs, one file for each gear state.
+//! Loss tables for other programs, one file for each gear state.
 //!
 //! A format implements [`ExportFormat`](gearloss_studies::analyses::map::ExportFormat) and registers itself with
 //! [`register_export!`](gearloss_studies::register_export), in any crate.
@@ -12,7 +12,7 @@ use gearloss_studies::analyses::map::{ExportMap, MapOfSet, MapOutcome};
 
 use crate::page::Page;
 
-/// Adds the files that are asked for, with a line for each; the first refusal ends them.
+/// Adds the requested files, with a line for each; stops at the first error.
 pub fn add(outcome: &MapOutcome, page: &mut Page) {
     for (format, export) in outcome.exports.iter().enumerate() {
         for (i, map) in outcome.maps.iter().enumerate() {
@@ -31,7 +31,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
                 Ok(Some(file)) => {
                     let missed = map.export.between.map_or_else(String::new, |(worst, rms)| {
                         format!(
-                            "; between its points the table of the map misses the loss torque by {worst:.4} Nm at most, {rms:.4} Nm rms"
+                            "; interpolation error of the loss torque between grid points: at most {worst:.4} Nm, {rms:.4} Nm rms"
                         )
                     });
                     page.line(format!(

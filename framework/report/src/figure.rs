@@ -1,19 +1,19 @@
-//! One picture as data: drawn as SVG for files, told as traces for an interactive report.
+//! A figure as data: SVG for files, Plotly traces for an interactive report.
 
 use serde_json::{Value, json};
 
 use super::plot::{self, Bar, COLOURS, Interval, Line, PlotFault, Stroke};
 
-/// A picture as data.
+/// A figure as data.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Figure {
     /// Stacked bars.
     Bars {
         /// Title.
         title: String,
-        /// What the bars stand over, with its unit; empty where their labels tell it.
+        /// Name of the horizontal axis with its unit; empty if the labels of the bars contain it.
         over: String,
-        /// What the height is, with its unit.
+        /// Name of the vertical axis with its unit.
         height: String,
         /// Names of the shares.
         names: Vec<String>,
@@ -35,7 +35,7 @@ pub enum Figure {
         /// The lines.
         lines: Vec<Line>,
     },
-    /// Areas on top of each other over one coordinate.
+    /// Stacked areas over one coordinate.
     Areas {
         /// Title.
         title: String,
@@ -45,12 +45,12 @@ pub enum Figure {
         y: String,
         /// Names of the areas.
         names: Vec<String>,
-        /// Places along the coordinate.
+        /// Values of the coordinate.
         places: Vec<f64>,
-        /// Values of all areas at each place, from below.
+        /// Values of all areas at each coordinate value, from the bottom up.
         stacks: Vec<Vec<f64>>,
     },
-    /// Intervals under each other.
+    /// Intervals, one below the other.
     Intervals {
         /// Title.
         title: String,
@@ -72,21 +72,21 @@ pub struct Map {
     pub x: (String, Vec<String>),
     /// Name of the second coordinate and its values.
     pub y: (String, Vec<String>),
-    /// Values; the first coordinate runs first.
+    /// Values; the first coordinate varies fastest.
     pub values: Vec<Option<f64>>,
-    /// Differences: zero in the middle of the colours.
+    /// Differences: zero is the middle of the colour scale.
     pub diverging: bool,
-    /// Ends of the colours, where several maps share them; absent, those of the values.
+    /// Ends of the colour scale if several maps share it; absent: minimum and maximum of the values.
     pub ends: Option<(f64, f64)>,
-    /// Cells at which a model left its stated range; empty, none.
+    /// Cells outside a model's validity range; empty: none.
     pub hatched: Vec<bool>,
     /// Points that are marked, in the coordinates.
     pub marks: Vec<(f64, f64)>,
-    /// What the marks are; empty, measured points.
+    /// Legend text of the marks; empty: "measured".
     pub marked: String,
-    /// A cell that is marked with a cross: its number and what it is.
+    /// A cell that is marked with a cross: its index and legend text.
     pub crossed: Option<(usize, String)>,
-    /// Accuracy of an instrument: the lines at plus and minus this value bound what it cannot see.
+    /// Accuracy of an instrument: lines at plus and minus this value bound the differences that it cannot resolve.
     pub unseen: Option<f64>,
 }
 
@@ -99,12 +99,12 @@ pub struct Cloud {
     pub axes: (String, String),
     /// Coordinates and value of each point.
     pub points: Vec<(f64, f64, f64)>,
-    /// Differences: zero in the middle of the colours.
+    /// Differences: zero is the middle of the colour scale.
     pub diverging: bool,
 }
 
 impl Map {
-    /// True where every cell with a value left a stated range: said in words, because hatching all of it would tell nothing.
+    /// True if every cell with a value is outside a validity range: then a text replaces the hatching.
     pub(super) fn is_hatched_all_over(&self) -> bool {
         let cells = || {
             self.values
@@ -115,7 +115,7 @@ impl Map {
         cells().next().is_some() && cells().all(|(_, outside)| *outside)
     }
 
-    /// Coordinates as numbers; absent where they are words.
+    /// Coordinates as numbers; absent if they are texts.
     pub(super) fn numbers(&self) -> Option<(Vec<f64>, Vec<f64>)> {
         let number = |label: &String| label.split(' ').next().and_then(|n| n.parse::<f64>().ok());
         let all = |labels: &[String]| labels.iter().map(number).collect::<Option<Vec<f64>>>();
@@ -210,7 +210,7 @@ fn stack((over, height): (&str, &str), names: &[String], bars: &[Bar]) -> (Vec<V
         .enumerate()
         .map(|(i, name)| {
             let share: Vec<Option<f64>> = bars.iter().map(|b| b.shares.get(i).copied()).collect();
-            // Colours that come again carry a pattern.
+            // Repeated colours get a pattern.
             let pattern = ["", "/", ".", "x"][(i / COLOURS.len()) % 4];
             json!({
                 "type": "bar", "name": name, "x": labels, "y": share,
@@ -262,7 +262,7 @@ fn areas((x, y): (&str, &str), names: &[String], places: &[f64], stacks: &[Vec<f
     )
 }
 
-/// The most hatching marks of a picture.
+/// Maximum number of hatching marks of a figure.
 const MOST_HATCHED: usize = 1600;
 
 fn scale(diverging: bool) -> (&'static str, Value) {
@@ -273,7 +273,7 @@ fn scale(diverging: bool) -> (&'static str, Value) {
     }
 }
 
-/// Contours with their values where both coordinates are numbers, else coloured cells.
+/// Labelled contours if both coordinates are numbers, otherwise coloured cells.
 fn contours(map: &Map) -> (Vec<Value>, Value) {
     let ((x_name, xs), (y_name, ys)) = (&map.x, &map.y);
     let rows: Vec<&[Option<f64>]> = map.values.chunks(xs.len().max(1)).collect();
@@ -322,7 +322,7 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
         let at = |axis: &Value, i: usize| axis[i].clone();
         let shown = || places.iter().step_by(every);
         data.push(json!({
-            "type": "scatter", "mode": "markers", "name": "outside of a stated range", "hoverinfo": "skip", "showlegend": true,
+            "type": "scatter", "mode": "markers", "name": "outside a validity range", "hoverinfo": "skip", "showlegend": true,
             "x": shown().map(|i| at(&x, i % xs.len())).collect::<Vec<_>>(),
             "y": shown().map(|i| at(&y, i / xs.len())).collect::<Vec<_>>(),
             "marker": { "symbol": "line-ne-open", "size": 9, "color": "rgba(0, 0, 0, 0.35)" },
@@ -342,7 +342,7 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
             "marker": { "symbol": "x", "size": 12, "color": "white", "line": { "width": 2, "color": "black" } },
         }));
     }
-    // Values with a unit lose it on an axis of numbers; there its name takes it.
+    // On an axis of numbers the unit moves from the values to the name of the axis.
     let named = |name: &str, labels: &[String]| match labels.first().and_then(|l| l.split_once(' ')) {
         Some((_, unit)) if numbers.is_some() => format!("{name} in {unit}"),
         _ => name.to_owned(),
@@ -351,7 +351,7 @@ fn contours(map: &Map) -> (Vec<Value>, Value) {
     layout["legend"] = json!({ "orientation": "h", "y": -0.18 });
     if all_over {
         layout["annotations"] = json!([{
-            "text": "outside of a model's stated range all over", "xref": "paper", "yref": "paper", "x": 0, "y": 1.0,
+            "text": "all points outside a model's validity range", "xref": "paper", "yref": "paper", "x": 0, "y": 1.0,
             "xanchor": "left", "yanchor": "bottom", "showarrow": false, "font": { "size": 11, "color": "#666" },
         }]);
     }
@@ -413,7 +413,7 @@ fn traces(x: &str, y: &str, lines: &[Line]) -> (Vec<Value>, Value) {
                 Stroke::Marked => "lines+markers",
                 Stroke::Dots => "markers",
             };
-            // Colours that come again are dashed.
+            // Repeated colours are dashed.
             let dash = ["solid", "dash", "dot", "dashdot"][(i / COLOURS.len()) % 4];
             json!({
                 "type": "scatter", "mode": mode, "name": line.name, "x": coordinate(|p| p.0), "y": coordinate(|p| p.1),
@@ -443,19 +443,19 @@ mod tests {
                 ..Map::default()
             })
         };
-        let told = map(["60 ml", "90 ml"]).plotly();
-        assert_eq!(told["data"][0]["type"], "contour");
-        assert_eq!(told["layout"]["yaxis"]["title"]["text"], "volume in ml");
-        assert_eq!(told["data"][0]["z"], json!([[1.0, null], [3.0, 4.0]]));
+        let plotly = map(["60 ml", "90 ml"]).plotly();
+        assert_eq!(plotly["data"][0]["type"], "contour");
+        assert_eq!(plotly["layout"]["yaxis"]["title"]["text"], "volume in ml");
+        assert_eq!(plotly["data"][0]["z"], json!([[1.0, null], [3.0, 4.0]]));
         assert_eq!(map(["low", "high"]).plotly()["data"][0]["type"], "heatmap");
-        assert_eq!(told["layout"]["title"]["text"], "Loss");
-        assert_eq!(told["data"][1]["contours"]["end"], 0.5);
+        assert_eq!(plotly["layout"]["title"]["text"], "Loss");
+        assert_eq!(plotly["data"][1]["contours"]["end"], 0.5);
         assert_eq!(
-            (&told["data"][2]["x"], &told["data"][2]["y"]),
+            (&plotly["data"][2]["x"], &plotly["data"][2]["y"]),
             (&json!([1000.0]), &json!([90.0]))
         );
-        assert_eq!(told["data"][3]["name"], "measured");
-        let cross = &told["data"][4];
+        assert_eq!(plotly["data"][3]["name"], "measured");
+        let cross = &plotly["data"][4];
         assert_eq!(
             (&cross["name"], &cross["x"], &cross["y"]),
             (&json!("least"), &json!([1000.0]), &json!([90.0]))
@@ -476,11 +476,11 @@ mod tests {
             marks: vec![0.0, 1.0],
             list: vec![interval],
         };
-        let told = figure.plotly();
-        let error = |key: &str| told["data"][0]["error_x"][key][0].as_f64().unwrap_or(f64::NAN);
+        let plotly = figure.plotly();
+        let error = |key: &str| plotly["data"][0]["error_x"][key][0].as_f64().unwrap_or(f64::NAN);
         assert!((error("array") - 0.2).abs() < 1e-12 && (error("arrayminus") - 0.1).abs() < 1e-12);
-        assert_eq!(told["data"][1]["x"], json!([0.5]));
-        assert_eq!(told["layout"]["shapes"].as_array().map(Vec::len), Some(2));
+        assert_eq!(plotly["data"][1]["x"], json!([0.5]));
+        assert_eq!(plotly["layout"]["shapes"].as_array().map(Vec::len), Some(2));
         assert!(figure.svg().is_ok_and(|svg| svg.contains("viscosity")));
     }
 
@@ -493,7 +493,7 @@ mod tests {
             measured: Some((3.1, 0.2)),
             above_measured: String::new(),
         };
-        let told = Figure::Bars {
+        let plotly = Figure::Bars {
             title: "Tests".to_owned(),
             over: String::new(),
             height: "loss".to_owned(),
@@ -501,9 +501,9 @@ mod tests {
             bars: vec![bar],
         }
         .plotly();
-        assert_eq!(told["data"][1]["y"], json!([2.0]));
+        assert_eq!(plotly["data"][1]["y"], json!([2.0]));
         assert_eq!(
-            (&told["data"][2]["y"], &told["data"][3]["y"]),
+            (&plotly["data"][2]["y"], &plotly["data"][3]["y"]),
             (&json!([3.0]), &json!([3.1]))
         );
     }

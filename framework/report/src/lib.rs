@@ -1,10 +1,11 @@
-//! What readers get to see of results beside numbers: pictures.
+//! Text, figures, pages and files of results.
 
 mod contours;
 pub mod csv;
 pub mod deviations;
 pub mod exports;
 pub mod figure;
+pub mod html;
 pub mod page;
 pub mod parquet;
 pub mod plot;

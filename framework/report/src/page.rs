@@ -1,7 +1,7 @@
-//! What a reader gets to see of an outcome: text, sentences that must not be missed, pictures.
+//! The presentation of an outcome: text, verdicts, figures.
 //!
-//! A view is a function of an outcome. It registers itself with [`register_view!`](crate::register_view); an outcome without one is
-//! shown as its tables.
+//! A view is a function of an outcome. It registers itself with [`register_view!`](crate::register_view). For an outcome without a view the
+//! page shows its tables.
 
 use std::any::{Any, TypeId};
 
@@ -15,18 +15,18 @@ use gearloss_studies::table::Table;
 use crate::Figure;
 use crate::text::{TextTable, beyond, significant};
 
-/// How an outcome is shown, in the order of reading.
+/// The presentation of an outcome, in reading order.
 #[derive(Debug, Default)]
 pub struct Page {
-    /// Text, as on a terminal and in the report.
+    /// Text for terminal and report.
     pub text: Vec<Text>,
-    /// Sentences that a reader must not miss; the report begins with them.
+    /// Main conclusions; the report begins with them.
     pub verdicts: Vec<String>,
     /// Pictures.
     pub figures: Vec<NamedFigure>,
     /// Files for other programs.
     pub files: Vec<NamedFile>,
-    /// Why files for other programs are missing.
+    /// Reasons for missing files for other programs.
     pub faults: Vec<Diagnostic>,
 }
 
@@ -35,7 +35,7 @@ pub struct Page {
 pub struct NamedFile {
     /// Its name.
     pub name: String,
-    /// What it holds.
+    /// Its content.
     pub bytes: Vec<u8>,
 }
 
@@ -48,12 +48,12 @@ pub enum Text {
     InReport(String),
 }
 
-/// A picture with the name of its file.
+/// A figure with the name of its file.
 #[derive(Debug)]
 pub struct NamedFigure {
     /// Name without extension.
     pub name: String,
-    /// The picture.
+    /// The figure.
     pub figure: Figure,
 }
 
@@ -63,41 +63,42 @@ impl Page {
         self.text.push(Text::Everywhere(format!("{}\n", text.as_ref())));
     }
 
-    /// Adds lines as they are.
+    /// Adds lines unchanged.
     pub fn lines(&mut self, text: String) {
         self.text.push(Text::Everywhere(text));
     }
 
-    /// Adds a sentence that a reader must not miss.
+    /// Adds a main conclusion, which is also shown at the top of the report.
     pub fn verdict(&mut self, sentence: String) {
         self.line(&sentence);
         self.verdicts.push(sentence);
     }
 
-    /// Adds what was outside its stated range. The terminal shows it once, at the end of a run.
+    /// Adds quantities outside their stated ranges. The terminal shows them once, at the end of a run.
     pub fn outside(&mut self, notes: &[Note]) {
         self.text.push(Text::InReport(outside(notes)));
     }
 
-    /// Adds stated ranges that samples left: path and quantity. The terminal shows them once, at the end of a run.
+    /// Adds quantities (path, name) that are outside their stated ranges in some samples. The terminal shows them once, at the end of a
+    /// run.
     pub fn outside_at_samples(&mut self, left: &[(&str, &str)]) {
         for (path, name) in left {
-            let text = format!("outside: {path}: {name} leaves its stated range at some samples\n");
+            let text = format!("outside: {path}: {name} is outside its validity range in some samples\n");
             self.text.push(Text::InReport(text));
         }
     }
 
-    /// Adds which of the varied quantities are coefficients of formulas, with the value of the source.
+    /// Adds the published values of varied quantities that are coefficients of formulas.
     pub fn published(&mut self, coefficients: &[PublishedCoefficient]) {
         for coefficient in coefficients {
             self.line(format!(
-                "`{}`: a coefficient of a formula, published {}; other values are changed from the source",
+                "`{}`: a coefficient of a formula, published value {}; other values differ from the source",
                 coefficient.pattern, coefficient.published
             ));
         }
     }
 
-    /// Adds a picture.
+    /// Adds a figure.
     pub fn figure(&mut self, name: impl Into<String>, figure: Figure) {
         let name = name.into();
         self.figures.push(NamedFigure { name, figure });
@@ -109,7 +110,7 @@ impl Page {
         self.files.push(NamedFile { name, bytes });
     }
 
-    /// Says why a file for another program is missing.
+    /// Adds the reason why a file for another program is missing.
     pub fn fault(&mut self, why: Diagnostic) {
         self.faults.push(why);
     }
@@ -127,7 +128,7 @@ impl Page {
         page
     }
 
-    /// Adds tables as text, some rows of each.
+    /// Adds tables as text with a limited number of rows.
     pub fn tables(&mut self, tables: &[Table]) {
         for table in tables {
             let head: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
@@ -150,10 +151,10 @@ impl Page {
     }
 }
 
-/// The most rows of a table that are shown where no view chooses.
+/// Maximum number of rows of a table without a view.
 const MOST_ROWS: usize = 40;
 
-/// How outcomes of one type are shown.
+/// The view of outcomes of one type.
 pub struct View {
     outcome: fn() -> TypeId,
     show: fn(&dyn Any, &mut Page),
@@ -171,7 +172,7 @@ impl View {
     }
 }
 
-/// Registers how outcomes of a type are shown: `register_view!(BalanceOutcome, show);` with `fn show(&BalanceOutcome, &mut Page)`.
+/// Registers the view of a type of outcome: `register_view!(BalanceOutcome, show);` with `fn show(&BalanceOutcome, &mut Page)`.
 #[macro_export]
 macro_rules! register_view {
     ($O:ty, $show:path) => {
@@ -185,7 +186,7 @@ macro_rules! register_view {
     };
 }
 
-/// What was outside of its stated range, one line for all components that left the same range.
+/// Quantities outside their stated ranges, one line for all components with the same range.
 pub fn outside(notes: &[Note]) -> String {
     let mut groups: Vec<(&Note, Vec<&Note>)> = Vec::new();
     for note in notes.iter().filter(|n| n.outside > 0) {

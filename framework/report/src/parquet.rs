@@ -1,4 +1,4 @@
-//! Tables as Parquet: numbers as double precision with gaps, texts as texts.
+//! Tables as Parquet: numbers as nullable doubles, texts as strings.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -14,24 +14,24 @@ use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedW
 use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type, TypePtr};
 use rayon::prelude::*;
 
-/// A table that is written some rows at a time.
+/// A table that is written in batches of rows.
 pub struct ParquetTable<W: Write + Send> {
     writer: SerializedFileWriter<W>,
-    /// Rows of a group that is not full yet.
+    /// Rows of the incomplete row group.
     rows: Table,
 }
 
-/// Rows that make a group, which may have more where they come at once.
+/// Minimum number of rows of a row group except the last.
 const GROUP: usize = 32_768;
 
-/// Number columns whose cells repeat so often that a dictionary pays.
+/// Number columns with so many repeated values that a dictionary saves space.
 const REPEATED: [&str; 3] = ["torque_nm", "speed_rpm", "oil_temperature_degc"];
 
 impl<W: Write + Send> ParquetTable<W> {
-    /// A table with its columns.
+    /// Writes the schema of the columns.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn new(to: W, header: &Table) -> Result<Self, ParquetError> {
         let mut properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
@@ -59,7 +59,7 @@ impl<W: Write + Send> ParquetTable<W> {
     /// Adds rows.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn rows(&mut self, rows: &Table) -> Result<(), ParquetError> {
         let values = rows.columns.iter().map(|column| column.values.clone()).collect();
         self.rows.extend(&[values], &[(0, 0..rows.len())]);
@@ -69,7 +69,7 @@ impl<W: Write + Send> ParquetTable<W> {
         self.group()
     }
 
-    /// Writes the rows so far as a group, the columns packed on all threads.
+    /// Writes the collected rows as a row group; columns are compressed in parallel.
     fn group(&mut self) -> Result<(), ParquetError> {
         let rows = std::mem::replace(&mut self.rows, Table::new("", []));
         self.rows = rows.header();
@@ -88,17 +88,17 @@ impl<W: Write + Send> ParquetTable<W> {
         group.close().map(|_| ())
     }
 
-    /// Ends the table.
+    /// Completes the table.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     pub fn finish(mut self) -> Result<(), ParquetError> {
         self.group()?;
         self.writer.close().map(|_| ())
     }
 }
 
-/// The bytes of a column of a group.
+/// The bytes of a column of a row group.
 fn packed(
     column: &Column,
     description: &ColumnDescPtr,

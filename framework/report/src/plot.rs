@@ -1,6 +1,6 @@
-//! Pictures as SVG with readable text: stacked bars, maps, lines.
+//! Figures as SVG: stacked bars, maps, lines.
 
-// Places of pixels are small numbers.
+// Pixel coordinates are small numbers.
 #![allow(clippy::cast_possible_wrap)]
 
 mod field;
@@ -11,7 +11,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Colours that stay apart for every kind of colour vision (Okabe and Ito 2008).
+/// Colours that are distinguishable for every kind of colour vision (Okabe and Ito 2008).
 pub(super) const COLOURS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(230, 159, 0),
@@ -23,7 +23,7 @@ pub(super) const COLOURS: [RGBColor; 8] = [
     RGBColor(120, 120, 120),
 ];
 
-/// Anchors of a scale from dark to light whose lightness rises evenly (viridis).
+/// Anchors of the colour scale viridis, whose lightness increases evenly.
 const SCALE: [(u8, u8, u8); 6] = [
     (68, 1, 84),
     (65, 68, 135),
@@ -36,7 +36,7 @@ const SCALE: [(u8, u8, u8); 6] = [
 const SIZE: (u32, u32) = (960, 560);
 const TEXT: i32 = 15;
 
-/// Why a picture could not be drawn.
+/// Why a figure could not be drawn.
 pub type PlotFault = String;
 
 pub(super) use field::{cloud, map};
@@ -48,11 +48,11 @@ pub(super) use intervals::intervals;
 pub struct Bar {
     /// Below the bar.
     pub label: String,
-    /// Heights from below, in the order of the names.
+    /// Heights from the bottom up, in the order of the names.
     pub shares: Vec<f64>,
     /// Above the bar.
     pub above: String,
-    /// Measured height with the error of the measurement, beside the stack.
+    /// Measured height with its accuracy, beside the stack.
     pub measured: Option<(f64, f64)>,
     /// Above the measured bar.
     pub above_measured: String,
@@ -63,7 +63,7 @@ pub struct Bar {
 pub struct Line {
     /// Name in the legend.
     pub name: String,
-    /// Points; a gap ends a stretch.
+    /// Points; a gap interrupts the line.
     pub points: Vec<Option<(f64, f64)>>,
     /// How it is drawn.
     pub stroke: Stroke,
@@ -123,7 +123,7 @@ fn two_sided(share: f64) -> RGBColor {
     RGBColor(mix(side.0), mix(side.1), mix(side.2))
 }
 
-/// A number with as many digits as a reader wants.
+/// A number with a sensible number of digits.
 fn short(x: f64) -> String {
     let digits = match x.abs() {
         0.0 => 0,
@@ -136,7 +136,7 @@ fn short(x: f64) -> String {
     format!("{x:.digits$}")
 }
 
-/// Range of numbers with a little air above; from zero where none is below.
+/// Range of numbers with a margin.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for x in values.filter(|x| x.is_finite()) {
@@ -166,7 +166,7 @@ fn legend(root: &DrawingArea<SVGBackend<'_>, Shift>, names: &[String], solid: bo
     Ok(())
 }
 
-/// Stacked bars side by side, with room for a measured bar and its error beside each.
+/// Stacked bars, each with space for a measured bar and its accuracy.
 ///
 /// # Errors
 /// If drawing fails.
@@ -284,7 +284,7 @@ fn axes<'a, 'b>(
     Ok(chart)
 }
 
-/// Areas on top of each other over one axis.
+/// Stacked areas over one axis.
 ///
 /// # Errors
 /// If drawing fails.

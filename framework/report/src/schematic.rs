@@ -14,19 +14,19 @@ use canvas::Canvas;
 use gearloss_framework::transmission::Transmission;
 use things::Things;
 
-/// Width that gears and bearings take at most. \[px\]
+/// Maximum width of gears and bearings. \[px\]
 const WIDTH: f64 = 760.0;
-/// Height that the drawing takes at most, where the symbols allow it. \[px\]
+/// Maximum height of the drawing if the symbols allow it. \[px\]
 const HEIGHT: f64 = 620.0;
 
 /// Draws a gearbox as a self-contained `<svg>` element.
 ///
-/// The x axis is the place along the shafts. Gears have their true face width and tip diameter, all to one scale that a bar
-/// states in mm; bearings have their true width. The axes are unfolded into one plane: that of the reference port first,
-/// each further one at the sum of the tip radii from the one that it meshes with, coaxial shafts on one line. Of a planetary
-/// set one planet is drawn, between its sun and the upper half of its ring. Gears in mesh that cannot touch in one plane are
-/// joined by a dotted line. Of seals, couplings and auxiliaries whose `at` was not written the resolved document says
-/// zero; they get a free place and a dashed outline. Every component is a group with its path in `data-part`.
+/// The x axis is the position along the shafts. Gears have their true face width and tip diameter, all to one scale, which a bar shows in
+/// mm; bearings have their true width. The axes are unfolded into one plane: first the axis of the reference port, then each further axis
+/// at the sum of the tip radii from the axis that it meshes with; coaxial shafts are on one line. A planetary set shows one planet, between
+/// its sun and the upper half of its ring. A dotted line connects meshing gears that cannot touch in one plane. Seals, couplings and
+/// auxiliaries without `at` have the position zero in the resolved document; they are drawn at a free position with a dashed outline. Every
+/// component is a group with its path in `data-part`.
 ///
 /// `resolved` is the resolved document that the transmission was built from (`Resolved::value`).
 pub fn schematic(transmission: &Transmission, resolved: &Value) -> String {
@@ -37,7 +37,7 @@ pub fn schematic(transmission: &Transmission, resolved: &Value) -> String {
     canvas.finish(&format!("Schematic of {}", transmission.title()))
 }
 
-/// The largest scale in px/m at which the drawing keeps its size, with all places.
+/// The largest scale in px/m at which the drawing has the allowed size, with the layout.
 fn laid_out(things: &Things) -> (f64, Along, Axes) {
     let mut scale = WIDTH / length(things);
     let lay = |scale: f64| {
@@ -46,7 +46,7 @@ fn laid_out(things: &Things) -> (f64, Along, Axes) {
         (along, axes)
     };
     let (mut places, mut heights) = lay(scale);
-    // Symbols keep their size at any scale, so the height does not follow it strictly.
+    // Symbols have a constant size, so the height is not proportional to the scale.
     for _ in 0..3 {
         let rects = (0..things.wheels.len()).map(|g| heights.rectangle(things, &places, g).y);
         let [top, bottom] = rects.fold([0.0_f64, 0.0_f64], |a, y| [a[0].min(y[0]), a[1].max(y[1])]);
@@ -59,7 +59,7 @@ fn laid_out(things: &Things) -> (f64, Along, Axes) {
     (scale, places, heights)
 }
 
-/// From the first face to the last, of all that has a place. \[m\]
+/// Distance from the first to the last face of all things with a position. \[m\]
 fn length(things: &Things) -> f64 {
     let gears = things.wheels.iter().map(|w| (w.at, 0.5 * w.width));
     let parts = things

@@ -6,13 +6,13 @@ pub use gearloss_studies::analyses::numbers::spread_over;
 use std::fmt::Write as _;
 
 pub use gearloss_studies::analyses::numbers::{beyond, figures, fixed, significant};
-/// A table of texts: the first column to the left, numbers to the right.
+/// A table of texts; columns of numbers are right-aligned.
 pub struct TextTable {
     rows: Vec<Vec<String>>,
 }
 
 impl TextTable {
-    /// A table with its head.
+    /// A table with its header.
     pub fn new(head: &[&str]) -> Self {
         Self {
             rows: vec![head.iter().map(|h| (*h).to_owned()).collect()],
@@ -36,7 +36,7 @@ impl TextTable {
                 .unwrap_or(0)
         };
         let widths: Vec<usize> = (0..columns).map(width).collect();
-        // A column of numbers stands to the right.
+        // Columns of numbers are right-aligned.
         let numeric = |i: usize| {
             self.rows
                 .iter()
@@ -69,12 +69,12 @@ impl TextTable {
     }
 }
 
-/// A number with a sensible number of digits; a dash where there is none.
+/// A number with `digits` decimals; a dash if absent.
 pub fn number(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(|| "-".to_owned(), |x| fixed(x, digits))
 }
 
-/// At most a handful of rows and columns, spread evenly, both ends among them.
+/// Indices of at most [`SHOWN`] rows or columns, evenly spread, with both ends.
 pub fn spread(count: usize) -> Vec<usize> {
     spread_over(count, SHOWN)
 }

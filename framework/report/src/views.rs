@@ -1,4 +1,4 @@
-//! How the outcomes of the analyses are shown.
+//! The views of the analyses.
 
 pub mod balance;
 pub mod breakdown;

@@ -58,7 +58,7 @@ use crate::table::Table;
 pub trait Entry: DeserializeOwned + JsonSchema + fmt::Debug + Send + Sync + 'static {
     /// Value of the key `type`.
     const TYPE: &'static str;
-    /// What the analysis is, as a sentence.
+    /// Description of the analysis as a sentence.
     const MEANING: &'static str;
 
     /// The names that it uses, to be looked up before anything is solved.

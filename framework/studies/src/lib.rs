@@ -3,6 +3,7 @@
 pub mod analyses;
 pub mod analysis;
 pub mod duty;
+pub mod fit;
 pub mod identify;
 pub mod measured;
 pub mod prelude;

@@ -59,7 +59,7 @@ impl<'a> StudyRun<'a> {
             gearbox.files.forget_all_but(known);
         }
         if let Some((set, by)) = self.study.pending(analysis).filter(|_| !cx.only_checks) {
-            let message = format!("the set `{set}` has no values: the analysis `{by}` found none");
+            let message = format!("the model set `{set}` has no values, because the analysis `{by}` produced none");
             let help = format!("correct `{by}`, or choose another set");
             return Err(cx.wrong(&cx.path(), message, &help));
         }

@@ -1,4 +1,4 @@
-//! `check --format json`: what is found, file by file, for editors and scripts.
+//! `check --format json`: findings by file, for editors and scripts.
 
 use std::path::Path;
 
@@ -16,8 +16,7 @@ use crate::commands::run::Looked;
 use crate::commands::set;
 use crate::output::{End, Failure, Out, significant};
 
-/// Prints one document for all files. Wrong files are told by what it says and by how the program ends, not by what is printed
-/// beside it.
+/// Prints one document for all files. Errors appear in the document and in the exit code, not on standard error.
 pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &mut Out) -> Result<End, Failure> {
     let mut end = End::Fine;
     let mut wrong = false;
@@ -68,20 +67,20 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
     }
 }
 
-/// What is known of a file.
+/// The result for a file.
 #[derive(Default)]
 struct Checked {
     findings: Vec<Value>,
-    /// What of the gearboxes of a study has no model.
+    /// Components of a study's gearboxes without a model.
     notes: Vec<String>,
-    /// It cannot be used.
+    /// The file cannot be used.
     wrong: bool,
-    /// What is said of a gearbox that was built.
+    /// The result for a valid gearbox.
     built: Option<serde_json::Map<String, Value>>,
     weakest: Option<Evidence>,
 }
 
-/// What `run` would refuse of a study, and what it would warn of.
+/// Errors and warnings that `run` would report for a study.
 fn study(looked: Looked) -> Result<Checked, Failure> {
     let mut checked = Checked {
         wrong: !looked.refused.is_empty(),
@@ -139,7 +138,7 @@ fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -
         );
         gearbox.places.place(
             Diagnostic::warning(note.path, message)
-                .help("choose a larger bearing, or check the rating")
+                .help("use a larger bearing, or check the rating")
                 .code(Code::Gearbox),
         )
     });
@@ -153,7 +152,7 @@ fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -
     })
 }
 
-/// The ratio from the reference port to every other one, gear by gear.
+/// The ratio from the reference port to each other port for each gear.
 fn ratios(t: &Transmission) -> Value {
     let from = &t.ports()[t.reference_port()].name;
     let of_gear = |(i, gear): (usize, &GearState)| {
@@ -165,7 +164,7 @@ fn ratios(t: &Transmission) -> Value {
     t.states().iter().enumerate().flat_map(of_gear).collect()
 }
 
-/// Findings with file, line and column in place of spans.
+/// Findings with file, line and column instead of spans.
 fn found(list: &[Diagnostic], sources: &Sources) -> Vec<Value> {
     let place = |span: Span| {
         sources

@@ -1,4 +1,4 @@
-//! The oil whose rheology is sought: from a gearbox, or written beside the command.
+//! The oil of the fit: from a gearbox, or from the command line.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ pub fn oil(args: &OilArgs) -> Result<Lubricant, Failure> {
     let gearbox = match (&args.gearbox, &args.oil) {
         (Some(file), _) => Gearbox::read(language, file)?,
         (None, text) => {
-            // The entry is checked and completed as that of a gearbox is; the rest is the least that a gearbox needs.
+            // The entry is checked and completed like an entry of a gearbox; the remainder is a minimal gearbox.
             let entry = text.as_deref().unwrap_or_default().trim();
             let text = format!(
                 "gearloss: gearbox/1\nports: {{ input: shaft }}\nshafts: {{ shaft: {{ axis: [0, 0] }} }}\nlubricants:\n  oil:\n    {entry}\n"

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use gearloss_framework::document::Dimension;
-use gearloss_numerics::least_squares::{Parameter, Problem};
-use gearloss_plugins::tooth_friction::ehl_mixed::identification::{StribeckPoint, boundary_friction, mixed_residual};
+use gearloss_plugins::tooth_friction::ehl_mixed::identification::{
+    StribeckPoint, fit_boundary_friction, mixed_residual,
+};
+use gearloss_studies::fit::columns::{Columns, Measure, Quantity};
 
-use super::columns::{Columns, Measure, Quantity};
-use super::squares::Squares;
-use super::traction::estimates_table;
+use super::{estimates_table, print_unused};
 use crate::commands::point::quantity;
 use crate::output::{End, Failure, Out, Table, figures, significant};
 
@@ -17,32 +17,24 @@ const FILM: Quantity = Quantity::new("film", Measure::Of(Dimension::Length), "nm
 const MU: Quantity = Quantity::plain("mu");
 const MU_FILM: Quantity = Quantity::plain("mu_film");
 
-/// Bounds of the coefficient, as lubricants are described.
-const MU_B: [f64; 2] = [0.01, 0.5];
-
 pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Result<End, Failure> {
     if !(0.1..=10.0).contains(&exponent) {
         return Err(Failure::input(
             format!("--exponent {exponent} is not between 0.1 and 10"),
-            "leave it out for the usual 2",
+            "omit it for the usual value 2",
         ));
     }
-    let columns = Columns::read(path)?;
+    let columns = super::columns(path)?;
     let points = points(&columns, rq)?;
-    let start = boundary_friction(&points, exponent).unwrap_or(MU_B[0]);
-    let mu_b = Parameter::new("mu_b", start.clamp(MU_B[0], MU_B[1])).within(MU_B[0], MU_B[1]);
-    let all = |theta: &[f64]| Ok(points.iter().map(|p| mixed_residual(theta[0], exponent, p)).collect());
-    let squares = Squares::of(&Problem::new(all, vec![mu_b])).map_err(|fault| {
+    let squares = fit_boundary_friction(&points, exponent).map_err(|fault| {
         Failure::input(
-            format!("{}: {fault}", columns.file()),
-            "measure at films that are thinner than the roughness",
+            format!("{}: {fault}", path.display()),
+            "measure at film thicknesses below the roughness",
         )
     })?;
-    out.line(format!("{}: {} points", columns.file(), points.len()))?;
-    if let Some(note) = columns.unused(&[LAMBDA, FILM, MU, MU_FILM]) {
-        out.line(note)?;
-    }
-    let mut table = Table::new(&["lambda", "film friction", "mu", "law", "law less mu"]);
+    out.line(format!("{}: {} points", path.display(), points.len()))?;
+    print_unused(&columns, &[LAMBDA, FILM, MU, MU_FILM], out)?;
+    let mut table = Table::new(&["lambda", "film friction", "mu", "law", "law minus mu"]);
     let found = squares.estimates[0].value;
     for point in &points {
         let residual = mixed_residual(found, exponent, point);
@@ -62,31 +54,31 @@ pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Resul
 }
 
 fn points(columns: &Columns, rq: Option<&str>) -> Result<Vec<StribeckPoint>, Failure> {
-    let lambda = match (rq, columns.has(&LAMBDA), columns.has(&FILM)) {
-        (None, true, false) => columns.numbers(&LAMBDA)?,
-        (Some(text), false, true) => {
+    let [message, help] = match (rq, columns.has(&LAMBDA), columns.has(&FILM)) {
+        (None, true, false) | (Some(_), false, true) => ["", ""],
+        (Some(_), true, _) => ["both `lambda` and --rq", "omit --rq, which applies to films"],
+        (None, true, true) => ["both `lambda` and `film`", "delete one of them"],
+        (None, false, true) => ["`film` without a roughness", "add --rq, such as --rq \"0.28 um\""],
+        (_, false, false) => [
+            "neither `lambda` nor `film [nm]`",
+            "add `lambda`, or `film [nm]` with --rq",
+        ],
+    };
+    if !message.is_empty() {
+        return Err(columns.wrong(None, message, help).into());
+    }
+    let lambda = match rq {
+        None => columns.numbers(&LAMBDA)?,
+        Some(text) => {
             let rq = quantity("--rq", text, "um")?;
             if rq <= 0.0 {
                 let message = format!("--rq \"{text}\" is not above zero");
                 return Err(Failure::input(
                     message,
-                    "write the rms roughness of both flanks together",
+                    "write the combined rms roughness of both flanks",
                 ));
             }
             columns.numbers(&FILM)?.iter().map(|film| film / rq).collect()
-        }
-        (Some(_), true, _) => {
-            return Err(columns.wrong(None, "`lambda` beside --rq", "leave out --rq, which is for films"));
-        }
-        (None, true, true) => {
-            return Err(columns.wrong(None, "`lambda` beside `film`", "leave out the one or the other"));
-        }
-        (None, false, true) => {
-            return Err(columns.wrong(None, "`film` without a roughness", "add --rq, such as --rq \"0.28 um\""));
-        }
-        (_, false, false) => {
-            let help = "add the one, or the other with --rq";
-            return Err(columns.wrong(None, "neither `lambda` nor `film [nm]`", help));
         }
     };
     let (mu, film) = (columns.numbers(&MU)?, columns.numbers(&MU_FILM)?);

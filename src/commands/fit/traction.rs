@@ -1,61 +1,68 @@
-//! `fit traction`: Eyring stress and exponent over pressure in three steps, and the limiting stress.
+//! `fit traction`: Eyring stress and pressure exponent in three steps, and the limiting stress.
 //!
 //! Source: LaFountain, Johnston, Spikes, Tribol. Trans. 44 (2001) 648-656, after Johnson and Tevaarwerk 1977.
 
 use std::path::Path;
 
-use gearloss_framework::lubricant::roelands::Roelands;
-use gearloss_numerics::least_squares::{Parameter, Problem};
-use gearloss_plugins::tooth_friction::ehl_mixed::identification::{Isotherm, TractionPoint, residual};
+use gearloss_framework::document::{Diagnostic, Dimension};
+use gearloss_plugins::tooth_friction::ehl_mixed::identification::{
+    Curve, Isotherm, START, TractionFit, TractionPoint, curves, limiting,
+};
+use gearloss_studies::fit::columns::{Columns, Measure, Quantity};
 
-use super::columns::Columns;
-use super::curves::{Curve, QUANTITIES, curves};
 use super::oil::oil;
-use super::squares::{Estimate, Squares};
+use super::{estimates_table, print_unused};
 use crate::args::OilArgs;
 use crate::output::{End, Failure, Out, Table, figures, number, significant};
 
 const MPA: f64 = 1e6;
-/// Bounds of the Eyring stress, in MPa, as lubricants are described.
-const TAU0: [f64; 2] = [0.1, 50.0];
-/// Bounds of the exponent over pressure and where its search starts.
-const Z: [f64; 2] = [0.2, 1.2];
-const START: f64 = 0.5;
-/// Part by which a slope may lie low before it is told.
+/// Relative underestimate of a slope that is reported.
 const LOW: f64 = 0.01;
-/// Curves whose pressure is at least this part of the greatest one tell the limiting stress.
-const HIGHEST: f64 = 0.9;
-/// Slopes of the limiting stress that lubricants are described with.
+/// Slopes of the limiting stress as in `lubricants`.
 const LIMITING: [f64; 2] = [0.005, 0.2];
 
+const PRESSURE: Quantity = Quantity::new("pressure", Measure::Of(Dimension::Pressure), "GPa");
+const TEMPERATURE: Quantity = Quantity::new("temperature", Measure::Of(Dimension::Temperature), "degC");
+const SHEAR_RATE: Quantity = Quantity::new("shear_rate", Measure::ShearRate, "1/s");
+const SLIDING: Quantity = Quantity::new("sliding", Measure::Of(Dimension::Speed), "m/s");
+const FILM: Quantity = Quantity::new("film", Measure::Of(Dimension::Length), "nm");
+const STRESS: Quantity = Quantity::new("stress", Measure::Of(Dimension::Pressure), "MPa");
+const MU: Quantity = Quantity::plain("mu");
+const SLIDE_ROLL: Quantity = Quantity::plain("slide_roll");
+
+const QUANTITIES: [Quantity; 8] = [PRESSURE, TEMPERATURE, SHEAR_RATE, SLIDING, FILM, STRESS, MU, SLIDE_ROLL];
+
 pub fn run(path: &Path, args: &OilArgs, out: &mut Out) -> Result<End, Failure> {
-    let columns = Columns::read(path)?;
-    let curves = curves(&columns)?;
+    let columns = super::columns(path)?;
+    let measured = points(&columns)?;
+    let slide_roll = columns.has(&SLIDE_ROLL).then(|| columns.numbers(&SLIDE_ROLL));
+    let curves = curves(&measured, slide_roll.transpose()?.as_deref());
     let law = oil(args)?.roelands(Some(START));
     let points: Vec<TractionPoint> = curves.iter().flat_map(|c| c.points.iter().copied()).collect();
     out.line(format!(
         "{}: {} of {} points on {} curves",
-        columns.file(),
+        path.display(),
         points.len(),
-        columns.len(),
+        measured.len(),
         curves.len()
     ))?;
-    if let Some(note) = columns.unused(&QUANTITIES) {
-        out.line(note)?;
-    }
+    print_unused(&columns, &QUANTITIES, out)?;
     out.line(format!(
         "viscosity: Roelands, {} Pa s at {} degC, S0 {}",
         significant(law.eta(0.0, law.reference)),
         significant(law.reference),
         significant(law.s0)
     ))?;
-    let slopes: Vec<Option<Isotherm>> = curves.iter().map(|c| Isotherm::slope(&c.points)).collect();
+    let slopes: Vec<Option<Isotherm>> = curves.iter().map(Curve::slope).collect();
     out.line("\nstep 1: slope of stress over the logarithm of the shear rate")?;
     out.text(&slopes_table(&curves, &slopes))?;
     let found: Vec<Isotherm> = slopes.iter().flatten().copied().filter(|s| s.slope > 0.0).collect();
     let (mean, spread) = Isotherm::mean(&found).ok_or_else(|| {
         Failure::input(
-            format!("{}: no curve whose stress rises over two shear rates", columns.file()),
+            format!(
+                "{}: no curve with increasing stress over two shear rates",
+                path.display()
+            ),
             "measure each pressure and temperature at several sliding speeds",
         )
     })?;
@@ -65,21 +72,18 @@ pub fn run(path: &Path, args: &OilArgs, out: &mut Out) -> Result<End, Failure> {
         significant(spread / MPA)
     ))?;
     out.text(&low_slopes(&curves, &slopes))?;
-    let tau0 = (mean / MPA).clamp(TAU0[0], TAU0[1]);
-    let failed = |fault: String| {
+    let fit = TractionFit::new(&law, &points, mean).map_err(|fault| {
         Failure::input(
-            format!("{}: {fault}", columns.file()),
+            format!("{}: {fault}", path.display()),
             "measure at more pressures, temperatures or sliding speeds",
         )
-    };
-    let alone = exponent(&law, &points, tau0).map_err(failed)?;
-    let both = together(&law, &points, [tau0, alone.estimates[0].value]).map_err(failed)?;
-    out.text(&steps_table(tau0, &alone, &both))?;
+    })?;
+    out.text(&steps_table(&fit))?;
     let limit = limiting(&curves);
     out.text(&limit_words(limit))?;
     let mut words = vec![
-        format!("tau0: {} MPa", figures(both.estimates[0].value, 4)),
-        format!("z: {}", figures(both.estimates[1].value, 4)),
+        format!("tau0: {} MPa", figures(fit.both.estimates[0].value, 4)),
+        format!("z: {}", figures(fit.both.estimates[1].value, 4)),
     ];
     words.extend(
         limit
@@ -90,33 +94,67 @@ pub fn run(path: &Path, args: &OilArgs, out: &mut Out) -> Result<End, Failure> {
     Ok(End::Fine)
 }
 
-/// Step 2: the exponent with the mean slope.
-fn exponent(law: &Roelands, points: &[TractionPoint], tau0: f64) -> Result<Squares, String> {
-    let z = Parameter::new("z", START).within(Z[0], Z[1]);
-    let all = |theta: &[f64]| Ok(residuals(law, points, tau0, theta[0]));
-    Squares::of(&Problem::new(all, vec![z]))
+fn points(columns: &Columns) -> Result<Vec<TractionPoint>, Diagnostic> {
+    let pressure = columns.numbers(&PRESSURE)?;
+    let temperature = columns.numbers(&TEMPERATURE)?;
+    if let Some(row) = temperature.iter().position(|t| !(-60.0..=300.0).contains(t)) {
+        let message = format!("{} degC is not a valid oil temperature", temperature[row]);
+        return Err(columns.wrong(
+            Some(row),
+            &message,
+            "write a temperature from -60 to 300 degC, and check the unit",
+        ));
+    }
+    one_of(columns, SHEAR_RATE, &[SLIDING, FILM])?;
+    let shear_rate = if columns.has(&SHEAR_RATE) {
+        columns.numbers(&SHEAR_RATE)?
+    } else {
+        let film = columns.numbers(&FILM)?;
+        columns
+            .numbers(&SLIDING)?
+            .iter()
+            .zip(film)
+            .map(|(v, h)| v / h)
+            .collect()
+    };
+    one_of(columns, STRESS, &[MU])?;
+    let stress: Vec<f64> = if columns.has(&STRESS) {
+        columns.numbers(&STRESS)?
+    } else {
+        columns
+            .numbers(&MU)?
+            .iter()
+            .zip(&pressure)
+            .map(|(mu, p)| mu * p)
+            .collect()
+    };
+    let point = |row: usize| TractionPoint {
+        pressure: pressure[row],
+        temperature: temperature[row],
+        shear_rate: shear_rate[row],
+        stress: stress[row],
+    };
+    Ok((0..pressure.len()).map(point).collect())
 }
 
-/// Step 3: both together.
-fn together(law: &Roelands, points: &[TractionPoint], [tau0, z]: [f64; 2]) -> Result<Squares, String> {
-    let tau0 = Parameter::new("tau0", tau0).within(TAU0[0], TAU0[1]);
-    let z = Parameter::new("z", z).within(Z[0], Z[1]);
-    let all = |theta: &[f64]| Ok(residuals(law, points, theta[0], theta[1]));
-    Squares::of(&Problem::new(all, vec![tau0, z]))
-}
-
-/// Calculated less measured stresses. \[MPa\]
-fn residuals(law: &Roelands, points: &[TractionPoint], tau0: f64, z: f64) -> Vec<f64> {
-    points.iter().map(|p| residual(law, tau0 * MPA, z, p) / MPA).collect()
-}
-
-/// Of the curves at the highest pressures the one with the greatest stress over pressure.
-fn limiting(curves: &[Curve]) -> Option<&Curve> {
-    let highest = curves.iter().map(|c| c.pressure).fold(0.0, f64::max);
-    let high = curves
-        .iter()
-        .filter(|c| c.pressure >= HIGHEST * highest && c.greatest > 0.0);
-    high.max_by(|a, b| a.greatest.total_cmp(&b.greatest))
+/// Rejects a quantity that is given twice or not at all.
+fn one_of(columns: &Columns, one: Quantity, others: &[Quantity]) -> Result<(), Diagnostic> {
+    let words: Vec<String> = others.iter().map(Quantity::header).collect();
+    let words = words.join(" and ");
+    let also = others.iter().any(|q| columns.has(q));
+    match (columns.has(&one), also) {
+        (true, true) => Err(columns.wrong(
+            None,
+            &format!("both {} and {words}", one.header()),
+            "delete one of them",
+        )),
+        (false, false) => Err(columns.wrong(
+            None,
+            &format!("neither {} nor {words}", one.header()),
+            "add one of them",
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn limit_words(limit: Option<&Curve>) -> String {
@@ -129,9 +167,9 @@ fn limit_words(limit: Option<&Curve>) -> String {
         curve.name()
     );
     let end = if curve.heated > 0 {
-        "behind it the stress falls: by a limit or by heat"
+        "beyond it the stress decreases: limiting stress or heating"
     } else {
-        "the curve still rises there: the limit lies at this or above"
+        "the curve still increases there: the limiting stress is at least this"
     };
     format!("{said}note: {end}\n")
 }
@@ -160,31 +198,27 @@ fn slopes_table(curves: &[Curve], slopes: &[Option<Isotherm>]) -> String {
     }
     let mut text = table.render();
     if curves.iter().any(|c| c.creeping > 0) {
-        text.push_str("creeping: left out, below 1 % of sliding the bodies creep\n");
+        text.push_str("creeping: omitted, elastic creep of the bodies below 1 % sliding\n");
     }
     if curves.iter().any(|c| c.heated > 0) {
-        text.push_str("heated: left out, behind the greatest stress heat rules\n");
+        text.push_str("heated: omitted, heating dominates beyond the maximum stress\n");
     }
     text
 }
 
-/// Which slopes lie low: that of Eyring's law over ln(shear rate) is tau0 tanh(tau/tau0).
+/// Underestimated slopes.
 fn low_slopes(curves: &[Curve], slopes: &[Option<Isotherm>]) -> String {
     let mut text = String::new();
     for (curve, slope) in curves.iter().zip(slopes) {
-        let Some(Isotherm { slope, points }) = slope else {
+        let Some(slope) = slope else {
             continue;
         };
-        // The points on the line are those of the greatest stresses.
-        let mut stresses: Vec<f64> = curve.points.iter().map(|p| p.stress).collect();
-        stresses.sort_by(|a, b| b.total_cmp(a));
-        let least = stresses[*points - 1];
-        let low = 1.0 - (least / slope).tanh();
+        let (begins, low) = curve.error_of_slope(slope);
         if low > LOW {
             text.push_str(&format!(
-                "note: at {} stress begins at {:.1} times the slope, which lies low by up to {:.0} % there; step 3 does not\n",
+                "note: at {} the stress starts at {:.1} times the slope, so the slope is up to {:.0} % too low there; step 3 is not affected\n",
                 curve.name(),
-                least / slope,
+                begins,
                 100.0 * low
             ));
         }
@@ -192,7 +226,8 @@ fn low_slopes(curves: &[Curve], slopes: &[Option<Isotherm>]) -> String {
     text
 }
 
-fn steps_table(tau0: f64, alone: &Squares, both: &Squares) -> String {
+fn steps_table(fit: &TractionFit) -> String {
+    let TractionFit { tau0, exponent, both } = fit;
     let mut steps = Table::new(&["step", "tau0 MPa", "z", "residual rms MPa"]);
     let row = |name: &str, tau0: f64, z: f64, rms: f64| {
         vec![name.to_owned(), significant(tau0), significant(z), significant(rms)]
@@ -200,9 +235,9 @@ fn steps_table(tau0: f64, alone: &Squares, both: &Squares) -> String {
     let [both_tau0, both_z] = [0, 1].map(|k| both.estimates[k].value);
     steps.row(row(
         "2: z with the mean slope",
-        tau0,
-        alone.estimates[0].value,
-        alone.rms,
+        *tau0,
+        exponent.estimates[0].value,
+        exponent.rms,
     ));
     steps.row(row("3: both by least squares", both_tau0, both_z, both.rms));
     let correlation = both
@@ -213,28 +248,4 @@ fn steps_table(tau0: f64, alone: &Squares, both: &Squares) -> String {
         steps.render(),
         estimates_table(&both.estimates)
     )
-}
-
-/// Parameters with their deviations and intervals, and those that stand at a bound.
-pub fn estimates_table(estimates: &[Estimate]) -> String {
-    let mut table = Table::new(&["parameter", "value", "standard deviation", "95 % from", "to"]);
-    let dash = || "-".to_owned();
-    for estimate in estimates {
-        let end = |i: usize| estimate.interval.map_or_else(dash, |ends| significant(ends[i]));
-        table.row(vec![
-            estimate.name.clone(),
-            significant(estimate.value),
-            estimate.deviation.map_or_else(dash, |d| figures(d, 3)),
-            end(0),
-            end(1),
-        ]);
-    }
-    let mut text = table.render();
-    for held in estimates.iter().filter(|e| e.held) {
-        text.push_str(&format!(
-            "note: {} stands at its bound; the points pull it beyond: check units and the oil\n",
-            held.name
-        ));
-    }
-    text
 }

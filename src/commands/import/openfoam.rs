@@ -1,5 +1,5 @@
-//! Output of OpenFOAM's `forces` function object: `forces.dat` of all releases until about 2016 and of openfoam.org, `moment.dat`
-//! of openfoam.com, with or without parentheses and porous parts.
+//! Output of OpenFOAM's `forces` function object: `forces.dat` (all releases until about 2016, and openfoam.org) and `moment.dat`
+//! (openfoam.com), with or without parentheses and porous parts.
 
 use std::path::{Path, PathBuf};
 
@@ -10,18 +10,18 @@ use gearloss_framework::files::{LONGEST_DATA, read_text};
 pub struct Sample {
     /// Time. \[s\]
     pub time: f64,
-    /// Part of the pressure, by axis.
+    /// Pressure part, by axis.
     pub pressure: [f64; 3],
-    /// Part of viscous shear, by axis.
+    /// Viscous part, by axis.
     pub viscous: [f64; 3],
 }
 
 /// Mean moment about one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mean {
-    /// Part of the pressure. \[Nm\]
+    /// Pressure part. \[Nm\]
     pub pressure: f64,
-    /// Part of viscous shear. \[Nm\]
+    /// Viscous part. \[Nm\]
     pub viscous: f64,
     /// Standard deviation of the sum over time. \[Nm\]
     pub spread: f64,
@@ -32,7 +32,7 @@ pub struct Mean {
 }
 
 impl Mean {
-    /// Mean over time between two times; steps may differ, so each stretch counts by its length.
+    /// Mean between two times, weighted by the length of the time steps.
     pub fn over(samples: &[Sample], axis: usize, [from, to]: [f64; 2]) -> Result<Self, String> {
         let inside: Vec<&Sample> = samples.iter().filter(|s| s.time >= from && s.time <= to).collect();
         if inside.len() < 2 {
@@ -40,7 +40,7 @@ impl Mean {
                 (Some(first), Some(last)) => format!("times are {} to {} s", first.time, last.time),
                 _ => "there is no sample".to_owned(),
             };
-            return Err(format!("{} samples in the asked time; {range}", inside.len()));
+            return Err(format!("{} samples in the averaging time; {range}", inside.len()));
         }
         let mean = |f: &dyn Fn(&Sample) -> f64| {
             let mut sum = 0.0;
@@ -66,7 +66,7 @@ impl Mean {
         self.pressure + self.viscous
     }
 
-    /// With all moments multiplied.
+    /// All moments multiplied by a factor.
     pub fn times(self, factor: f64) -> Self {
         Self {
             pressure: self.pressure * factor,
@@ -77,8 +77,8 @@ impl Mean {
     }
 }
 
-/// All samples of a run: of a file, or of a folder with one subfolder for each start of the solver. What a later start has
-/// computed anew replaces what came before.
+/// All samples of a run: from a file, or from a folder with one subfolder for each start of the solver. Samples of a later start replace
+/// earlier samples at the same times.
 pub fn history(place: &Path) -> Result<Vec<Sample>, String> {
     let files = if place.is_file() {
         vec![place.to_path_buf()]
@@ -117,13 +117,13 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
         .collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     if starts.is_empty() {
-        return Err("no moment.dat or forces.dat in it or in its time folders".to_owned());
+        return Err("no moment.dat or forces.dat in the folder or in its time folders".to_owned());
     }
     Ok(starts.into_iter().map(|(_, file)| file).collect())
 }
 
-/// Samples of one file. `forces.dat` holds forces, then moments, each as pressure, viscous and perhaps porous; `moment.dat`
-/// holds the total, pressure, viscous and perhaps porous moment. The count of numbers tells which.
+/// Samples of one file. `forces.dat` contains forces, then moments, each as pressure, viscous and optionally porous; `moment.dat` contains
+/// the total, pressure, viscous and optionally porous moment. The number of columns identifies the format.
 fn samples(text: &str) -> Result<Vec<Sample>, String> {
     let mut samples: Vec<Sample> = Vec::new();
     for (i, line) in text.lines().enumerate() {
@@ -160,7 +160,7 @@ fn samples(text: &str) -> Result<Vec<Sample>, String> {
             viscous: three(pressure + 3),
         };
         if samples.last().is_some_and(|last| last.time >= sample.time) {
-            return Err(format!("line {}: time {} does not rise", i + 1, sample.time));
+            return Err(format!("line {}: time {} does not increase", i + 1, sample.time));
         }
         samples.push(sample);
     }

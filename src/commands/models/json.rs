@@ -1,4 +1,4 @@
-//! `models --format json`: everything that is known of mechanisms and models, for programs.
+//! `models --format json`: all data of mechanisms and models, for programs.
 
 use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::{Unit, records_by_type};
@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 
 use crate::output::{Failure, Out};
 
-/// Prints mechanisms with the models among `models`; all of both where none is named.
+/// Prints mechanisms with the selected `models`; without a selection all of them.
 pub fn run(
     language: &Language,
     mechanism: Option<&MechanismEntry>,

@@ -1,4 +1,4 @@
-//! `new gearbox`: a gearbox of a usual layout.
+//! `new gearbox`: a gearbox with a common layout.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::{next, schema_beside, word, write};
 use crate::args::{Layout, NewGearboxArgs};
 use crate::output::{End, Failure, Out};
 
-/// A file to start from, with a usual operating point.
+/// A template with a typical operating point.
 struct Start {
     text: &'static str,
     point: &'static str,
@@ -69,7 +69,7 @@ pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
     Ok(End::Fine)
 }
 
-/// The command for a study beside the gearbox.
+/// The command for a study in the folder of the gearbox.
 fn study_of(file: &Path) -> String {
     let mut command = "new study".to_owned();
     if file != Path::new("gearbox.yaml") {
@@ -83,10 +83,10 @@ fn study_of(file: &Path) -> String {
 }
 
 fn unnamed() -> Failure {
-    let mut help = "name one: gearloss new gearbox LAYOUT, with".to_owned();
+    let mut help = "choose one: gearloss new gearbox LAYOUT, with".to_owned();
     for layout in Layout::value_variants().iter().filter_map(ValueEnum::to_possible_value) {
         let about = layout.get_help().map(ToString::to_string).unwrap_or_default();
         help += &format!("\n      {:<19}{about}", layout.get_name());
     }
-    Failure::input("no layout is named", help)
+    Failure::input("no layout is given", help)
 }

@@ -1,4 +1,4 @@
-//! `new plugin`: a crate with a loss model of one's own.
+//! `new plugin`: a crate with a user's loss model.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -8,7 +8,7 @@ use super::{folder, word, write};
 use crate::args::NewPluginArgs;
 use crate::output::{End, Failure, Out};
 
-/// Files of the crate with their templates. The ending `.in` keeps cargo and rustfmt from taking them for code of this crate.
+/// Files of the crate with their templates. With the suffix `.in` cargo and rustfmt do not treat them as code of this crate.
 const FILES: [(&str, &str); 8] = [
     ("Cargo.toml", include_str!("plugin/Cargo.toml.in")),
     ("README.md", include_str!("plugin/README.md.in")),
@@ -20,7 +20,7 @@ const FILES: [(&str, &str); 8] = [
     ("tests/conformance.rs", include_str!("plugin/conformance.rs.in")),
 ];
 
-/// Names that Rust or Cargo keep for themselves, those of the crate's dependencies, and those that Windows takes for devices.
+/// Reserved names of Rust and Cargo, names of the crate's dependencies, and device names of Windows.
 const TAKEN: &str = "abstract alloc as async aux await become box break build con const continue core crate deps do dyn \
     else enum examples extern false final fn for gen if impl in incremental let loop macro match mod \
     move mut nul override priv prn proc_macro pub ref return schemars self serde static std struct super \
@@ -47,7 +47,7 @@ pub fn run(args: &NewPluginArgs, out: &mut Out) -> Result<End, Failure> {
     Ok(End::Fine)
 }
 
-/// Refuses what cannot name a crate, or what Rust would warn of at every build.
+/// Rejects names that are invalid for a crate or cause a warning at every build.
 fn usable(name: &str) -> Result<(), Failure> {
     if !is_written_well(name) {
         let close = name.to_ascii_lowercase().replace(|c| !may_stand_in_a_name(c), "-");
@@ -60,20 +60,22 @@ fn usable(name: &str) -> Result<(), Failure> {
             "acme-losses"
         };
         return Err(Failure::input(
-            format!("`{name}` cannot name a crate: names have small letters, digits, `-` and `_`, with a letter first"),
+            format!(
+                "`{name}` cannot name a crate: names consist of lower-case letters, digits, `-` and `_`, and start with a letter"
+            ),
             format!("write a name such as `{close}`"),
         ));
     }
     if is_device(name) {
         return Err(Failure::input(
-            format!("`{name}` cannot name a crate: it names a device on Windows, so that its folder could not be made"),
-            format!("put the name of your house in front, such as `acme-{name}`"),
+            format!("`{name}` cannot name a crate: it is a device name on Windows, where its folder cannot be created"),
+            format!("add the name of your company, such as `acme-{name}`"),
         ));
     }
     if is_taken(name) {
         return Err(Failure::input(
-            format!("`{name}` cannot name a crate of yours: the name is taken"),
-            format!("put the name of your house in front, such as `acme-{name}`"),
+            format!("`{name}` cannot name your crate: the name is reserved"),
+            format!("add the name of your company, such as `acme-{name}`"),
         ));
     }
     Ok(())
@@ -97,10 +99,10 @@ fn holds_a_checkout(path: &Path) -> Result<(), Failure> {
     }
     Err(Failure::input(
         format!(
-            "{} holds no gearloss: there is no framework/core/Cargo.toml in it",
+            "{} is not a checkout of gearloss: it has no framework/core/Cargo.toml",
             path.display()
         ),
-        "name the folder of a checkout, which has README.md and framework in it, with --gearloss PATH",
+        "give the folder of a checkout, which contains README.md and framework, with --gearloss PATH",
     ))
 }
 
@@ -108,7 +110,7 @@ fn is_checkout(path: &Path) -> bool {
     path.join("Cargo.toml").is_file() && path.join("framework/core/Cargo.toml").is_file()
 }
 
-/// Makes the folders of the crate. One that is there serves where it is empty, but for what git keeps in it.
+/// Creates the folders of the crate. An existing folder must be empty apart from `.git`.
 fn make(home: &Path) -> Result<(), Failure> {
     let cannot = |why: String, help: &str| {
         Err(Failure::input(
@@ -116,17 +118,20 @@ fn make(home: &Path) -> Result<(), Failure> {
             help,
         ))
     };
-    let other = "name another folder with -o DIR";
+    let other = "choose another folder with -o DIR";
     if home.is_dir() {
         let mut entries = std::fs::read_dir(home)?;
         if entries.any(|entry| entry.is_ok_and(|entry| entry.file_name() != ".git")) {
-            return cannot("the folder is not empty, and nothing is overwritten".to_owned(), other);
+            return cannot(
+                "the folder is not empty, and files are not overwritten".to_owned(),
+                other,
+            );
         }
     } else if home.exists() {
         return cannot("it is a file".to_owned(), other);
     } else if !folder(home).is_dir() {
-        let why = format!("there is no folder {}", folder(home).display());
-        return cannot(why, "make that folder, or name another one with -o DIR");
+        let why = format!("the folder {} does not exist", folder(home).display());
+        return cannot(why, "create that folder, or choose another one with -o DIR");
     }
     for part in ["src", "tests"] {
         if let Err(error) = std::fs::create_dir_all(home.join(part)) {
@@ -136,9 +141,9 @@ fn make(home: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Where the crate takes gearloss from.
+/// The source of gearloss for the crate.
 enum Source {
-    /// A checkout that was named, as Cargo.toml finds it.
+    /// A given checkout, as a path in Cargo.toml.
     Named(PathBuf),
     /// The checkout that this program was built from.
     Own(PathBuf),
@@ -150,7 +155,7 @@ impl Source {
     fn of(named: Option<&Path>, home: &Path) -> Result<Self, Failure> {
         let own = Path::new(env!("CARGO_MANIFEST_DIR"));
         Ok(match named {
-            // Without links, as `..` leads elsewhere behind one.
+            // Links are resolved, because `..` after a link leads elsewhere.
             Some(path) if path.is_relative() => {
                 Self::Named(path_from(&std::fs::canonicalize(home)?, &std::fs::canonicalize(path)?))
             }
@@ -167,13 +172,16 @@ impl Source {
             return Ok([format!("\"{version}\""), format!("\"{version}\"")]);
         };
         let line = |path: &Path| match path.to_str() {
-            // A string of JSON is one of TOML too.
+            // A JSON string is also a TOML string.
             Some(text) => Ok(format!(
                 "{{ path = {}, version = \"{version}\" }}",
                 serde_json::Value::from(text)
             )),
             None => Err(Failure::input(
-                format!("Cargo.toml cannot name {}: the path is not in Unicode", path.display()),
+                format!(
+                    "Cargo.toml cannot contain {}: the path is not valid Unicode",
+                    path.display()
+                ),
                 "rename the folder",
             )),
         };
@@ -182,20 +190,20 @@ impl Source {
 
     fn told(&self) -> String {
         match self {
-            Self::Named(path) => format!("it takes gearloss from {}", path.display()),
+            Self::Named(path) => format!("it uses gearloss from {}", path.display()),
             Self::Own(path) => format!(
-                "it takes gearloss from {}, which this program was built from; --gearloss PATH names another checkout",
+                "it uses gearloss from {}, which this program was built from; --gearloss PATH selects another checkout",
                 path.display()
             ),
             Self::Registry => format!(
-                "it takes gearloss {} from the registry of crates; --gearloss PATH names a checkout instead",
+                "it uses gearloss {} from the crate registry; --gearloss PATH selects a checkout instead",
                 env!("CARGO_PKG_VERSION")
             ),
         }
     }
 }
 
-/// The way from a folder to another, both without links; with nothing in common, as on two drives, the other one itself.
+/// The relative path from one folder to another, both without links; the absolute path if they have no common root, as on two drives.
 fn path_from(folder: &Path, to: &Path) -> PathBuf {
     let common = folder
         .components()

@@ -1,4 +1,4 @@
-//! `new study`: a study that fits a gearbox.
+//! `new study`: a study of a gearbox.
 
 use std::path::{Path, PathBuf};
 
@@ -12,18 +12,18 @@ use super::{folder, next, schema_beside, word, write};
 use crate::args::NewStudyArgs;
 use crate::output::{End, Failure, Out, figures};
 
-/// The study, with words in capitals for what depends on the gearbox.
+/// The template of the study; words in capitals are placeholders.
 const STUDY: &str = include_str!("study.yaml");
 
-/// The shipped sets that the study compares.
+/// The shipped model sets that the study compares.
 const SHIPPED: [&str; 2] = ["iso14179_2", "joint"];
 
 pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::super::language()?;
     if !args.gearbox.is_file() {
         return Err(Failure::input(
-            format!("there is no gearbox {}", args.gearbox.display()),
-            "start one with `gearloss new gearbox LAYOUT`, or name yours with --gearbox",
+            format!("the gearbox {} does not exist", args.gearbox.display()),
+            "create one with `gearloss new gearbox LAYOUT`, or give yours with --gearbox",
         ));
     }
     let gearbox = Gearbox::read(language, &args.gearbox)?;
@@ -42,43 +42,43 @@ pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
     write(file, &start.study(&path), out)?;
     schema_beside(file, language, Kind::Study, "study.schema.json", out)?;
     out.line(format!(
-        "gear state `{}`, the first that drives; torque and speed at `{}`",
+        "gear `{}`, the first that transmits torque; torque and speed at `{}`",
         start.gear, start.port
     ))?;
     if let Some(set) = unfit {
         out.line(format!(
-            "left out the comparison of shipped sets: `gearloss check {} --models {set}` says what the gearbox lacks for it",
+            "omitted the comparison of shipped model sets: `gearloss check {} --models {set}` lists the missing inputs",
             word(&args.gearbox)
         ))?;
     }
     if start.rating.is_none() {
-        out.line("the gearbox states no `rating`: the torques and speeds in the study are stand-ins, replace them")?;
+        out.line("the gearbox has no `rating`: the torques and speeds in the study are placeholders, replace them")?;
     }
     let name = word(file);
     next(&[format!("check {name}"), format!("run {name}")], out)?;
     Ok(End::Fine)
 }
 
-/// What a study takes from its gearbox.
+/// Data of the gearbox for the template.
 struct Start {
     gear: String,
     port: String,
     mesh: Option<String>,
     /// Torque in Nm and speed in rpm.
     rating: Option<[f64; 2]>,
-    /// Whether the shipped sets fit the gearbox.
+    /// Whether the shipped model sets are applicable to the gearbox.
     shipped: bool,
 }
 
 impl Start {
     fn of(transmission: &Transmission, shipped: bool) -> Result<Self, Failure> {
         let port = transmission.ports()[transmission.reference_port()].name.clone();
-        // A state drives if torque and speed at one port are all that a point needs; neutral asks for the speeds of both.
+        // A gear transmits torque if torque and speed at one port determine a point; neutral needs the speeds of both ports.
         let drives = |gear: &str| transmission.case(gear, &[port.as_str()], &[port.as_str()]).is_ok();
         let Some(state) = transmission.states().iter().find(|state| drives(&state.name)) else {
             return Err(Failure::input(
-                format!("no gear state drives with torque and speed given at `{port}` alone"),
-                "write a gear state that joins this port with another",
+                format!("no gear is determined by torque and speed at `{port}` alone"),
+                "define a gear that connects this port to another",
             ));
         };
         Ok(Self {
@@ -93,7 +93,7 @@ impl Start {
         })
     }
 
-    /// The text of the study of the gearbox at a path as seen from the study.
+    /// The text of the study; `path` is the gearbox relative to the study.
     fn study(&self, gearbox: &Path) -> String {
         let (axes, half) = match self.rating {
             Some([torque, speed]) => {
@@ -120,8 +120,8 @@ impl Start {
     }
 }
 
-/// A line of the template with its words filled in, each once and from left to right, so that no name of the gearbox is taken for a word
-/// of the template. A line that needs what the gearbox does not have is left out, and says so.
+/// A line of the template with its placeholders replaced, once and from left to right, so that names of the gearbox are never treated as
+/// placeholders. A line without a value for its placeholder becomes a comment.
 fn filled(line: &str, words: &[(&str, Option<String>)]) -> String {
     let mut text = String::new();
     let mut rest = line;
@@ -136,13 +136,13 @@ fn filled(line: &str, words: &[(&str, Option<String>)]) -> String {
         text += &rest[..at];
         match value {
             Some(value) => text += value,
-            None => return "  # (left out: it does not fit this gearbox)".to_owned(),
+            None => return "  # (omitted: not applicable to this gearbox)".to_owned(),
         }
         rest = &rest[at + word.len()..];
     }
 }
 
-/// A text as one YAML value: plain where it can be taken for nothing else.
+/// A text as one YAML value, quoted unless it is unambiguous.
 fn scalar(text: &str) -> String {
     const WORDS: [&str; 3] = ["true", "false", "null"];
     let begins =
@@ -157,7 +157,7 @@ fn scalar(text: &str) -> String {
     }
 }
 
-/// A file as seen from a folder. Both are taken from the current folder; without a common root the file stays as it is.
+/// A file relative to a folder, both relative to the current folder; unchanged without a common root.
 fn seen_from(folder: &Path, file: &Path) -> PathBuf {
     let (Ok(from), Ok(to)) = (folder.canonicalize(), file.canonicalize()) else {
         return file.to_path_buf();

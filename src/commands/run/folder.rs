@@ -1,4 +1,4 @@
-//! The folder of a run: held by one run at a time, and known for the run's own as long as it is not finished.
+//! The folder of a run: locked by one run at a time, and identified as its own until the run is finished.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Seek as _, Write as _};
@@ -8,25 +8,24 @@ use gearloss_framework::files::{LONGEST_TEXT, read_text};
 
 use crate::output::Failure;
 
-/// A file that stands in the folder while a run writes into it. It is locked as long, so one that is not locked was left by a
-/// run that was broken off.
+/// Lock file of a folder while a run writes into it. An unlocked one was left by an interrupted run.
 pub const MARK: &str = "unfinished.run";
 
-/// Ending of files that are not whole yet.
+/// Suffix of incomplete files.
 pub const PART: &str = "part";
 
-/// A folder that no other run writes into.
+/// A folder that is locked by this run.
 pub struct Held {
     mark: PathBuf,
-    /// Unlocked when it is closed, however the run ends.
+    /// Unlocked when it is closed, even if the run crashes.
     _file: File,
 }
 
 impl Held {
-    /// Takes a folder, which is made where there is none, and says whether an earlier run was broken off in it.
+    /// Locks a folder, which is created if needed; returns whether an earlier run in it was interrupted.
     ///
     /// # Errors
-    /// That another run writes into it, or that it cannot be written.
+    /// If another run writes into it, or if it is not writable.
     pub fn take(folder: &Path) -> Result<(Self, bool), Failure> {
         let mark = folder.join(MARK);
         fs::create_dir_all(folder).map_err(|e| cannot(folder, &e))?;
@@ -47,13 +46,13 @@ impl Held {
             let marked = file.set_len(0).and_then(|()| file.rewind());
             let marked = marked.and_then(|()| file.write_all(token.as_bytes()));
             marked.map_err(|e| cannot(&mark, &e))?;
-            // The run that held it may have taken the file away since it was opened here. Where a lock keeps others from
-            // reading, it keeps them from taking away, too.
+            // The run that held the lock may have removed the file since it was opened here. A lock that prevents reading also prevents
+            // removal.
             match read_text(&mark, LONGEST_TEXT) {
                 Ok(text) if text != token => {}
                 Err(e) if e.kind() == ErrorKind::NotFound => {}
                 _ => {
-                    // On a file system without locks the other run may still write, into files with names of its own.
+                    // On a file system without locks the other run may still write, but into files with other names.
                     if left && locked.is_ok() {
                         clear(folder);
                     }
@@ -63,18 +62,18 @@ impl Held {
         }
     }
 
-    /// Tells that all is written.
+    /// Marks the run as finished.
     pub fn finish(self) {
         let _ = fs::remove_file(&self.mark);
     }
 }
 
-/// True where an earlier run was broken off, or another one is at work.
+/// True if an earlier run was interrupted or another run is active.
 pub fn is_unfinished(folder: &Path) -> bool {
     fs::symlink_metadata(folder.join(MARK)).is_ok_and(|data| data.is_file())
 }
 
-/// What no other run writes at this time.
+/// A text that is unique to this run.
 fn token() -> String {
     let since = std::time::UNIX_EPOCH.elapsed().unwrap_or_default();
     format!(
@@ -93,37 +92,37 @@ fn busy(folder: &Path, mark: &Path) -> Failure {
             folder.display(),
             process.map_or_else(String::new, |process| format!(": {process}"))
         ),
-        "wait for it, or name another folder with -o",
+        "wait for it, or choose another folder with -o",
     )
 }
 
-/// Why a place of results cannot be written.
+/// The error that results cannot be written.
 pub fn cannot(path: &Path, e: &dyn std::fmt::Display) -> Failure {
     Failure::input(
         format!("cannot write {}: {e}", path.display()),
-        "name another folder with -o",
+        "choose another folder with -o",
     )
 }
 
-/// Whether a file is there that may be written in place: not one that lies elsewhere.
+/// Whether a regular file exists at the path, which may be overwritten.
 ///
 /// # Errors
-/// That there is something else, such as a link.
+/// If something else exists there, such as a link.
 pub fn own(path: &Path) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Ok(data) if data.is_file() => Ok(true),
-        Ok(_) => Err(io::Error::other("a link or a folder has its name")),
+        Ok(_) => Err(io::Error::other("a link or a folder has this name")),
         Err(e) if e.kind() == ErrorKind::NotFound => Ok(false),
         Err(e) => Err(e),
     }
 }
 
-/// A new file beside the place where it belongs once it is whole, with a name that no other run takes.
+/// A new temporary file beside its final path, with a name unique to this run.
 pub fn temporary(path: &Path) -> io::Result<(PathBuf, File)> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     for number in 0_u32.. {
         let part = path.with_file_name(format!("{name}.{}-{number}.{PART}", std::process::id()));
-        // A new file is never one that a link leads to.
+        // `create_new` never follows a link.
         match OpenOptions::new().read(true).write(true).create_new(true).open(&part) {
             Err(e) if e.kind() == ErrorKind::AlreadyExists => {}
             made => return made.map(|file| (part, file)),
@@ -132,7 +131,7 @@ pub fn temporary(path: &Path) -> io::Result<(PathBuf, File)> {
     Err(ErrorKind::AlreadyExists.into())
 }
 
-/// Removes what an interrupted run has not written whole; other files of that ending belong to the user.
+/// Removes incomplete files of an interrupted run; other files with that suffix belong to the user.
 fn clear(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();

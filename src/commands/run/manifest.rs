@@ -1,4 +1,4 @@
-//! What the folder of a shard belongs to: a study with all its files, a version of the program, a part of the work.
+//! Manifest of a shard folder: study with all its files, program version, part of the work.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -19,16 +19,16 @@ use super::shard::Shard;
 use super::write::hash_of;
 use crate::output::Failure;
 
-/// What the folder of a shard belongs to. A part of anything else is not taken for one of this study.
+/// Manifest of a shard folder. Parts with another manifest do not belong to this study.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     format: String,
     gearloss: String,
-    /// Crates that brought models, with their versions.
+    /// Crates with models and their versions.
     packages: Vec<String>,
     inputs: BTreeMap<String, String>,
     shard: Shard,
-    /// How many results the shard holds; absent as long as it is not finished.
+    /// Number of results of the shard; absent until it is finished.
     results: Option<usize>,
 }
 
@@ -36,7 +36,7 @@ pub struct Manifest {
 pub const MANIFEST: &str = "shard.json";
 
 impl Manifest {
-    /// The manifest of a shard of a study as it is now.
+    /// The current manifest of a shard of a study.
     pub fn of(language: &Language, study: &Study, shard: Shard) -> Self {
         let mut all: BTreeMap<String, String> = BTreeMap::new();
         for input in inputs(study) {
@@ -46,7 +46,7 @@ impl Manifest {
                 .to_owned();
             all.insert(name, input.fnv1a_64);
         }
-        // Whatever the study names that is a file: points, cycles, tables of models under trial.
+        // All files named in the study: points, cycles, tables of trial models.
         let mut words = BTreeSet::new();
         texts(&read_yaml(0, &study.text).node.to_json(), &mut words);
         let folders = study.gearboxes.iter().filter_map(|(name, _)| {
@@ -71,15 +71,15 @@ impl Manifest {
         }
     }
 
-    /// Takes a folder for the shard: a new one, or one that it began before.
+    /// Claims a folder for the shard: a new one, or one with earlier results of the same shard.
     pub fn claim(&self, folder: &Path) -> Result<Held, Failure> {
         let begun = folder.join(MANIFEST).is_file();
         if begun {
             self.suits(folder)?;
         } else if !is_unfinished(folder) && fs::read_dir(folder).is_ok_and(|mut files| files.next().is_some()) {
             return Err(Failure::input(
-                format!("{} holds files, and no part of a study", folder.display()),
-                "name another folder with -o",
+                format!("{} contains files that are not part of a study", folder.display()),
+                "choose another folder with -o",
             ));
         }
         let (held, _) = Held::take(folder)?;
@@ -89,7 +89,7 @@ impl Manifest {
         Ok(held)
     }
 
-    /// Whether a folder is of another shard of the same splitting.
+    /// Whether a folder belongs to another shard of the same splitting.
     pub fn is_of_splitting(&self, folder: &Path) -> bool {
         let other = load::<Self>(&folder.join(MANIFEST));
         other.is_some_and(|other| {
@@ -101,35 +101,31 @@ impl Manifest {
         })
     }
 
-    /// Says in a folder that its shard is finished with so many results.
+    /// Records in the folder that its shard is finished, with the number of results.
     pub fn finish(self, folder: &Path, results: usize) -> Result<(), Failure> {
         let results = Some(results);
         store(&folder.join(MANIFEST), &Self { results, ..self })
     }
 
-    /// The shard whose folder it is, if it is one of the same study under the same program, and how many results it holds if it is
-    /// finished.
+    /// The shard of a folder, if it belongs to the same study and program, and its number of results if it is finished.
     pub fn suits(&self, folder: &Path) -> Result<(Shard, Option<usize>), Failure> {
         let file = folder.join(MANIFEST);
         let other: Self = load(&file).ok_or_else(|| {
             Failure::input(
-                format!(
-                    "{} holds no part of a study: no {MANIFEST} that can be read",
-                    folder.display()
-                ),
-                "name the folders that `run --shard` has written",
+                format!("{} is not a part of a study: no readable {MANIFEST}", folder.display()),
+                "give the folders that `run --shard` has written",
             )
         })?;
         let mut changed: Vec<String> = Vec::new();
         if other.format != self.format {
-            changed.push(format!("parts of the form {} are now {}", other.format, self.format));
+            changed.push(format!("format {} of the parts is now {}", other.format, self.format));
         }
         if other.gearloss != self.gearloss {
             changed.push(format!("gearloss {} is now {}", other.gearloss, self.gearloss));
         }
         if other.packages != self.packages {
             let [then, now] = [&other.packages, &self.packages].map(|list| list.join(", "));
-            changed.push(format!("the models of {then} are now those of {now}"));
+            changed.push(format!("models from {then} are now from {now}"));
         }
         let names: BTreeSet<&String> = other.inputs.keys().chain(self.inputs.keys()).collect();
         for name in names {
@@ -137,20 +133,20 @@ impl Manifest {
                 changed.push(format!("`{name}` has changed"));
             }
         }
-        // Only a folder to go on with has to be of the same shard; a merge takes all.
+        // Only a continued folder must belong to the same shard; a merge accepts all.
         if self.shard.number > 0 && other.shard != self.shard {
-            changed.push(format!("it is of shard {}, not of {}", other.shard, self.shard));
+            changed.push(format!("it belongs to shard {}, not to {}", other.shard, self.shard));
         }
         if changed.is_empty() {
             return Ok((other.shard, other.results));
         }
         Err(Failure::input(
             format!(
-                "{} was computed from something else: {}",
+                "{} was computed from other inputs: {}",
                 folder.display(),
                 changed.join("; ")
             ),
-            "delete the folder, or name another one, and run its shard again",
+            "delete the folder, or choose another one, and run its shard again",
         ))
     }
 }

@@ -1,10 +1,11 @@
-//! What the analyses of one run share: the study, where its results go, and the report.
+//! Shared state of the analyses of one run: study, result folder and report.
 
 use std::cell::{Cell, RefCell};
 use std::ops::Deref;
 use std::path::PathBuf;
 
 use gearloss_framework::language::Language;
+use gearloss_report::html::{Report, Section};
 use gearloss_report::page::{Page, Text};
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Context, Stopped};
@@ -19,24 +20,23 @@ use super::table::Tables;
 use super::write;
 use crate::interrupt;
 use crate::output::{Failure, Out};
-use crate::report::Report;
 
-/// What all analyses of one run share.
+/// Shared state of the analyses of one run.
 pub struct Run<'a> {
     pub(super) language: &'a Language,
     pub(super) study: &'a Study,
     bars: Bars,
     pub(super) report: RefCell<Report>,
-    /// Where results go.
+    /// Folder of the results.
     pub(super) files: write::Files,
-    /// Limits that were left at any point, counted over all analyses.
+    /// Quantities outside their stated ranges, counted over all analyses.
     pub(super) left: Cell<usize>,
-    /// The same limits, for the end of the run.
+    /// The same for the end of the run.
     pub(super) stated_ranges: RefCell<StatedRanges>,
     analyses: StudyRun<'a>,
-    /// Results of tasks that shards have computed or are to compute.
+    /// Task results of shards.
     pub(super) tasks: Option<ShardTasks>,
-    /// True for `check`: an analysis ends where it would begin to compute, with all that it refuses before.
+    /// True for `check`: an analysis stops before it computes and reports its errors.
     only_checks: bool,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Deref for Runner<'a> {
     }
 }
 
-/// Bars on standard error, on a terminal only.
+/// Progress bars on standard error, on a terminal only.
 struct Bars {
     shown: bool,
 }
@@ -116,7 +116,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// For `check`, which computes and writes nothing.
+    /// For `check`, which neither computes nor writes.
     pub(super) fn for_check(language: &'a Language, study: &'a Study) -> Self {
         Self {
             bars: Bars { shown: false },
@@ -125,24 +125,27 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// What an analysis is given.
+    /// The context of an analysis.
     pub(super) fn context<'r>(&'r self, name: &'r str) -> Context<'r> {
         let cx = Context::new(self.language, self.study, name, &self.bars);
         let cx = if self.only_checks { cx.checking() } else { cx };
         cx.with_tasks(self.tasks.as_ref().map(|tasks| tasks as &dyn TaskResults))
     }
 
-    /// Runs an analysis, with its section in the report. What another one has read is forgotten: the inputs that its results
-    /// name are its own, whatever ran before.
+    /// Runs an analysis and adds its section to the report. Files read by earlier analyses are cleared, so that its results list only its
+    /// own inputs.
     pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
-        self.report.borrow_mut().begin(name, analysis.kind().meaning);
+        self.report.borrow_mut().sections.push(Section {
+            name: name.to_owned(),
+            about: analysis.kind().meaning.to_owned(),
+            ..Section::default()
+        });
         let tables = Tables::new(&self.files, analysis.formats());
         let runner = Runner {
             cx: self.context(name).with_sink(&tables),
             run: self,
         };
-        out.begin_copy();
-        let done = match self.analyses.run(&runner.cx) {
+        match self.analyses.run(&runner.cx) {
             Ok(outcome) => {
                 let shown = runner.present(analysis, outcome.as_ref(), out);
                 drop(runner);
@@ -151,15 +154,19 @@ impl<'a> Run<'a> {
             }
             Err(Stopped::Checked) => Ok(()),
             Err(stopped) => Err(stopped.into()),
-        };
-        let printed = out.end_copy();
-        self.report.borrow_mut().text(&printed);
-        done
+        }
+    }
+
+    /// Changes the section of the present analysis.
+    pub(super) fn in_section(&self, change: impl FnOnce(&mut Section)) {
+        if let Some(section) = self.report.borrow_mut().sections.last_mut() {
+            change(section);
+        }
     }
 }
 
 impl Runner<'_> {
-    /// Prints an outcome, writes its files and puts it into the report.
+    /// Prints an outcome, writes its files and adds it to the report.
     fn present(&self, analysis: &AnalysisEntry, outcome: &dyn AnyOutcome, out: &mut Out) -> Result<(), Failure> {
         let notes: Vec<_> = outcome.notes().into_iter().filter(|note| note.outside > 0).collect();
         let samples = outcome.left_at_samples();
@@ -173,14 +180,11 @@ impl Runner<'_> {
             self.keep_outside_at_samples(path, name);
         }
         let page = Page::of(outcome);
+        self.run.in_section(|section| section.add_text(&page));
         for text in &page.text {
-            match text {
-                Text::Everywhere(text) => out.text(text)?,
-                Text::InReport(text) => out.only_copy(text),
+            if let Text::Everywhere(text) = text {
+                out.text(text)?;
             }
-        }
-        for verdict in &page.verdicts {
-            self.run.report.borrow_mut().verdict(verdict);
         }
         let formats = analysis.formats();
         for file in outcome.files() {

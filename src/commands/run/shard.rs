@@ -1,4 +1,4 @@
-//! One part of a study, so that several machines share the work: `run --shard K/N`, and `merge`.
+//! A part of a study for distributed computation: `run --shard K/N`, and `merge`.
 
 use std::fmt;
 use std::fs;
@@ -18,7 +18,7 @@ use crate::args::RunArgs;
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
 
-/// Shard `number` of as many as `of`, counted from one.
+/// Shard `number` of `of`, counted from one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
     pub number: usize,
@@ -29,7 +29,7 @@ impl FromStr for Shard {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let how = "write K/N: part K of N, such as 1/3, 2/3 and 3/3";
+        let how = "write K/N: part K of N, such as 1/3";
         let (number, of) = text.split_once('/').ok_or(how)?;
         let number = number.parse().map_err(|_| how)?;
         let of = of.parse().map_err(|_| how)?;
@@ -47,14 +47,14 @@ impl fmt::Display for Shard {
     }
 }
 
-/// Computes the tasks of a shard, and goes on where an earlier run of it was broken off.
+/// Computes the tasks of a shard; continues an interrupted run.
 pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     let beside = study.folder.join("shards");
     let own = || beside.join(format!("{}-of-{}", shard.number, shard.of));
     let folder = args.results.output.clone().unwrap_or_else(own);
     let manifest = Manifest::of(language, study, shard);
     let held = manifest.claim(&folder)?;
-    // What the others have finished so far leads to later stages.
+    // Finished results of other shards allow later stages.
     let mut others = if args.results.output.is_none() {
         folders(&beside)
     } else {
@@ -65,11 +65,11 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
     let tasks = ShardTasks::of_shard(study, shard, &folder, &others)?;
     let run = Run::new(language, study, folder.clone(), Some(tasks));
     let failed = compute(&run);
-    // Broken off or not: the same command goes on.
+    // The same command continues an interrupted run.
     held.finish();
     let (computed, before) = run.tasks.as_ref().map_or((0, 0), ShardTasks::counts);
     let words = format!(
-        "shard {shard}: {} tasks in {}, {before} of them from before",
+        "shard {shard}: {} tasks in {}, {before} of them from an earlier run",
         computed + before,
         folder.display()
     );
@@ -83,7 +83,7 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
             out.line(words)?;
             if failed > 0 {
                 out.line(format!(
-                    "{failed} analyses failed; `gearloss merge` runs them again and tells why"
+                    "{failed} analyses failed; `gearloss merge` runs them again and reports why"
                 ))?;
             }
         }
@@ -91,7 +91,7 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
     Ok(End::Fine)
 }
 
-/// Rows that nobody wants: a shard writes no tables.
+/// Discarded rows: a shard writes no tables.
 struct Unwanted;
 
 impl RowSink for Unwanted {
@@ -100,11 +100,11 @@ impl RowSink for Unwanted {
     }
 }
 
-/// Computes the shard's tasks of all analyses, and counts those that fail.
+/// Computes the shard's tasks of all analyses; returns the number of failed analyses.
 fn compute(run: &Run<'_>) -> Result<usize, Failure> {
     let mut failed = 0;
     for (name, analysis) in run.study.entry.analyses.iter() {
-        // It uses what an analysis finds whose results are not all there yet.
+        // It depends on an analysis whose results are incomplete.
         if run.study.pending(analysis).is_some() {
             continue;
         }
@@ -126,7 +126,7 @@ fn compute(run: &Run<'_>) -> Result<usize, Failure> {
     Ok(failed)
 }
 
-/// What all shards of a study have computed, if none is missing; absent folders are those in `shards` beside the study.
+/// Results of all shards of a study, if none is missing; without `folders` those in `shards` beside the study.
 pub fn gather(language: &Language, study: &Study, named: &[PathBuf], file: &Path) -> Result<ShardTasks, Failure> {
     let folders = if named.is_empty() {
         beside(study)?
@@ -142,12 +142,12 @@ pub fn gather(language: &Language, study: &Study, named: &[PathBuf], file: &Path
         if shard.of != count {
             return Err(Failure::input(
                 format!(
-                    "{} is of {count} shards, {} of {}",
+                    "{} belongs to {count} shards, {} to {}",
                     of_first.display(),
                     folder.display(),
                     shard.of
                 ),
-                "name the folders of one splitting",
+                "give the folders of one splitting",
             ));
         }
         if results.is_some_and(|results| ShardTasks::count(study, folder) >= results) {
@@ -163,9 +163,9 @@ pub fn gather(language: &Language, study: &Study, named: &[PathBuf], file: &Path
         return ShardTasks::of_merge(study, &folders);
     }
     Err(Failure::input(
-        format!("missing or not finished: shard {}", missing.join(", ")),
+        format!("missing or unfinished: shard {}", missing.join(", ")),
         format!(
-            "run `gearloss run {} --shard {}`{} and merge then",
+            "run `gearloss run {} --shard {}`{}, then merge",
             file.display(),
             missing[0],
             if missing.len() > 1 { " and so on" } else { "" }
@@ -179,8 +179,8 @@ fn beside(study: &Study) -> Result<Vec<PathBuf>, Failure> {
     let found = folders(&folder);
     if found.is_empty() {
         return Err(Failure::input(
-            format!("{} holds no shard", folder.display()),
-            "name the folders of the shards, or run them with `gearloss run STUDY --shard K/N` first",
+            format!("{} contains no shard", folder.display()),
+            "give the folders of the shards, or run `gearloss run STUDY --shard K/N` first",
         ));
     }
     Ok(found)

@@ -14,9 +14,9 @@ use super::shard::Shard;
 use super::task_file::TaskFile;
 use crate::output::Failure;
 
-/// What shards have computed, and where one keeps what it computes.
+/// Results of shards, and the folder of the computing shard.
 pub struct ShardTasks {
-    /// The shard that computes; absent for a merge.
+    /// The computing shard; absent for a merge.
     shard: Option<Shard>,
     /// Its folder.
     folder: PathBuf,
@@ -26,10 +26,10 @@ pub struct ShardTasks {
 /// The files of one analysis.
 #[derive(Default)]
 struct Files {
-    /// That of the shard that computes, if it has one already.
+    /// The file of the computing shard, if it exists.
     own: Option<TaskFile>,
     others: Vec<TaskFile>,
-    /// Results that were there before.
+    /// Number of results from earlier runs.
     before: usize,
     computed: usize,
 }
@@ -40,7 +40,7 @@ fn file(folder: &Path, analysis: &str) -> PathBuf {
 }
 
 impl ShardTasks {
-    /// Those of a shard, which goes on in its folder; what others have computed lies in other folders.
+    /// The tasks of a shard, which continues in its folder; other shards have other folders.
     pub fn of_shard(study: &Study, shard: Shard, folder: &Path, others: &[PathBuf]) -> Result<Self, Failure> {
         let tasks = Self {
             shard: Some(shard),
@@ -59,11 +59,11 @@ impl ShardTasks {
         Ok(tasks)
     }
 
-    /// Those of all shards, for a merge.
+    /// The tasks of all shards, for a merge.
     pub fn of_merge(study: &Study, folders: &[PathBuf]) -> Result<Self, Failure> {
         let files = |analysis: &str| -> Result<Mutex<Files>, Failure> {
             let files = folders.iter().map(|folder| file(folder, analysis));
-            // A shard that has no task of an analysis has no file for it.
+            // A shard without tasks of an analysis has no file for it.
             let files = files.filter(|path| path.is_file());
             let read = |path: PathBuf| TaskFile::read_only(&path).map_err(|e| cannot(&path, &e));
             Ok(Mutex::new(Files {
@@ -81,7 +81,7 @@ impl ShardTasks {
         })
     }
 
-    /// How many whole results a folder holds.
+    /// Number of complete results in a folder.
     pub fn count(study: &Study, folder: &Path) -> usize {
         let files = study.entry.analyses.ids().map(|name| file(folder, name));
         files
@@ -90,7 +90,7 @@ impl ShardTasks {
             .sum()
     }
 
-    /// How many results were computed, and how many were there before.
+    /// Number of computed results, and of results from earlier runs.
     pub fn counts(&self) -> (usize, usize) {
         let all = self.analyses.values().map(|files| {
             let files = locked(files);
@@ -113,7 +113,7 @@ fn unwritten(path: &Path, e: &dyn std::fmt::Display) -> Stopped {
 }
 
 impl TaskResults for ShardTasks {
-    /// Tasks are dealt to the shards one after the other, each stage from another one on.
+    /// Tasks are distributed to the shards in turn; each stage starts at another shard.
     fn is_own(&self, task: Task<'_>) -> bool {
         self.shard.is_none_or(|shard| {
             let first = fnv1a_64(task.analysis.as_bytes()).wrapping_add(task.stage as u64);
@@ -145,7 +145,7 @@ impl TaskResults for ShardTasks {
             .unwrap_or_else(|| Err(std::io::ErrorKind::NotFound.into()));
         result.map_err(|e| {
             Stopped::Unwritten(format!(
-                "error: cannot read a result of `{}`: {e}\n  = help: run its shard again, and merge then\n",
+                "error: cannot read a result of `{}`: {e}\n  = help: run its shard again, then merge\n",
                 task.analysis
             ))
         })

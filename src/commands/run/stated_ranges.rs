@@ -1,14 +1,14 @@
-//! Stated ranges that models left, over all analyses of a run: printed once, at its end.
+//! Quantities outside their stated ranges in all analyses of a run, printed at its end.
 
 use gearloss_studies::analysis::Note;
 
 use super::{Run, Runner};
 use crate::output::{Failure, Out, beyond, significant};
 
-/// Beginning of each line about a range that was left.
+/// Start of each line.
 const OUTSIDE: &str = "outside: ";
 
-/// Values of a model's quantity that were outside of its stated range.
+/// Values of a model's quantity outside its stated range.
 #[derive(Debug, Clone, PartialEq)]
 struct Values {
     least: f64,
@@ -16,7 +16,7 @@ struct Values {
     points: u64,
     outside: u64,
     unit: String,
-    /// Both ends in words, because JSON knows no range without end, and where they come from.
+    /// Both ends as text, because JSON has no infinite numbers, and their origin.
     range: (String, String),
 }
 
@@ -41,20 +41,20 @@ impl Values {
     }
 }
 
-/// A quantity of one model that left its range.
+/// A quantity of one model outside its range.
 #[derive(Debug, Clone, PartialEq)]
 struct Left {
     /// Path of the model.
     path: String,
     /// Symbol.
     name: String,
-    /// Absent where samples tell only that it was left.
+    /// Absent if samples record only that it was out of range.
     values: Option<Values>,
     /// Analyses.
     analyses: Vec<String>,
 }
 
-/// All ranges that were left, in the order in which they were first.
+/// All quantities outside their ranges, in order of first occurrence.
 #[derive(Debug, Clone, Default)]
 pub struct StatedRanges(Vec<Left>);
 
@@ -77,7 +77,7 @@ impl StatedRanges {
         }
     }
 
-    /// A line for each quantity and range, with all models that left it.
+    /// A line for each quantity and range, with all its models.
     fn lines(&self) -> Vec<String> {
         let mut groups: Vec<Vec<&Left>> = Vec::new();
         for left in &self.0 {
@@ -92,7 +92,7 @@ impl StatedRanges {
     }
 }
 
-/// One line of models that left the same range.
+/// One line for the models outside the same range.
 fn line(group: &[&Left]) -> String {
     let paths: Vec<&str> = group.iter().map(|left| left.path.as_str()).collect();
     let mut analyses: Vec<&str> = Vec::new();
@@ -104,7 +104,7 @@ fn line(group: &[&Left]) -> String {
     let (paths, analyses, name) = (paths.join(", "), analyses.join(", "), &group[0].name);
     let mut values = group.iter().filter_map(|left| left.values.clone());
     let Some(first) = values.next() else {
-        return format!("{OUTSIDE}{paths}: {name} leaves its stated range at some samples; in {analyses}");
+        return format!("{OUTSIDE}{paths}: {name} is outside its validity range in some samples; in {analyses}");
     };
     let all = values.fold(first, |mut all, values| {
         all.add(&values);
@@ -126,7 +126,7 @@ fn line(group: &[&Left]) -> String {
 }
 
 impl Runner<'_> {
-    /// Keeps a range that was left.
+    /// Records a quantity outside its range.
     pub(super) fn keep_outside(&self, note: &Note) {
         self.run.stated_ranges.borrow_mut().add(Left {
             path: note.path.clone(),
@@ -136,7 +136,7 @@ impl Runner<'_> {
         });
     }
 
-    /// Keeps a range that some samples left.
+    /// Records a quantity outside its range in some samples.
     pub(super) fn keep_outside_at_samples(&self, path: &str, name: &str) {
         self.run.stated_ranges.borrow_mut().add(Left {
             path: path.to_owned(),
@@ -148,7 +148,7 @@ impl Runner<'_> {
 }
 
 impl Run<'_> {
-    /// Prints what was kept.
+    /// Prints the records.
     pub(super) fn print_stated_ranges(&self, out: &mut Out) -> Result<(), Failure> {
         let lines = self.stated_ranges.borrow().lines();
         for line in &lines {

@@ -13,14 +13,14 @@ use gearloss_studies::table::{RowSink, Table};
 use super::write::{Files, Place};
 use crate::output::Failure;
 
-/// A table that is written some rows at a time.
+/// A table that is written in batches of rows.
 pub struct TableFiles {
     csv: Option<(Place, CsvTable<BufWriter<fs::File>>)>,
     parquet: Option<(Place, ParquetTable<BufWriter<fs::File>>)>,
 }
 
 impl TableFiles {
-    /// The files of a table in the formats that are asked for.
+    /// The files of a table in the requested formats.
     pub fn new(files: &Files, formats: &[Write], header: &Table) -> Result<Self, Failure> {
         let mut table = Self {
             csv: None,
@@ -61,7 +61,7 @@ impl TableFiles {
     }
 }
 
-/// Writes the rows of large tables as they come.
+/// Writes the rows of large tables as they are computed.
 pub struct Tables<'r> {
     files: &'r Files,
     formats: &'r [Write],
@@ -77,7 +77,7 @@ impl<'r> Tables<'r> {
         }
     }
 
-    /// Writes the tables of an outcome, and ends those whose rows have come.
+    /// Writes the tables of an outcome and completes those written in batches.
     pub fn finish(self, tables: &[Table]) -> Result<(), Failure> {
         let mut begun = self.begun.into_inner().unwrap_or_else(PoisonError::into_inner);
         for table in tables {

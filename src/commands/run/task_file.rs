@@ -1,5 +1,4 @@
-//! Results of tasks in a file, each behind its length and its hash, so that one that was cut off or changed is told from a whole
-//! one.
+//! Task results in a file, each with its length and hash, so that truncated or changed results are detected.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -11,10 +10,10 @@ use gearloss_studies::analyses::head::fnv1a_64;
 
 use super::folder::own;
 
-/// Length and hash of a result before its stage, its number and its bytes.
+/// Length and hash, followed by stage, number and bytes of a result.
 const HEAD: usize = 16;
 
-/// Stage and number of a task, which stand before its bytes.
+/// Stage and number of a task, before its bytes.
 const TASK: usize = 16;
 
 /// The results of one analysis.
@@ -22,12 +21,12 @@ pub struct TaskFile {
     file: File,
     path: PathBuf,
     end: u64,
-    /// Where the result of a task begins, by its stage and number.
+    /// Offsets of results by stage and number of the task.
     places: BTreeMap<(usize, usize), u64>,
 }
 
 impl TaskFile {
-    /// A file to go on with; what follows its last whole result is overwritten.
+    /// Opens a file for continuation; bytes after its last complete result are overwritten.
     pub fn reopen(path: &Path) -> io::Result<Self> {
         own(path)?;
         let mut options = OpenOptions::new();
@@ -37,7 +36,7 @@ impl TaskFile {
         Ok(file)
     }
 
-    /// A file to read only.
+    /// Opens a file for reading.
     pub fn read_only(path: &Path) -> io::Result<Self> {
         Self::scanned(open_regular(path)?, path)
     }
@@ -57,12 +56,12 @@ impl TaskFile {
         Ok(own)
     }
 
-    /// How many results it holds.
+    /// Number of results.
     pub fn len(&self) -> usize {
         self.places.len()
     }
 
-    /// Whether it holds the result of a task.
+    /// Whether it contains the result of a task.
     pub fn holds(&self, task: (usize, usize)) -> bool {
         self.places.contains_key(&task)
     }
@@ -83,7 +82,7 @@ impl TaskFile {
         Ok(())
     }
 
-    /// The result of a task that it holds.
+    /// The stored result of a task.
     pub fn read(&mut self, task: (usize, usize)) -> io::Result<Vec<u8>> {
         let place = self.places.get(&task).copied();
         let changed = || io::Error::other(format!("{} was changed while it was read", self.path.display()));
@@ -93,7 +92,7 @@ impl TaskFile {
         Ok(bytes.ok_or_else(changed)?.split_off(TASK))
     }
 
-    /// Task and result at a place; absent where no whole one begins there.
+    /// Task and result at an offset; absent if no complete result starts there.
     fn at(&mut self, place: u64) -> io::Result<Option<Vec<u8>>> {
         let whole = self.file.metadata()?.len();
         if place + (HEAD + TASK) as u64 > whole {
@@ -112,7 +111,7 @@ impl TaskFile {
     }
 }
 
-/// A number of eight bytes, the little end first.
+/// A little-endian number of eight bytes.
 fn little(bytes: &[u8]) -> u64 {
     u64::from_le_bytes(bytes.try_into().unwrap_or_default())
 }

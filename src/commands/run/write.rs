@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
+use gearloss_report::html::{Frame, gearbox_page};
 use gearloss_studies::analyses::AnyOutcome;
 use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
 use gearloss_studies::study::Write;
@@ -24,11 +25,22 @@ pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome) -> Result<(), Fail
     place.done(written.map_err(|e| e.to_string()))
 }
 
-/// Name of the page.
+/// Name of the report.
 pub const REPORT: &str = "report.html";
 
-/// Takes away what an earlier run of an analysis left, because it would pass for the results of this one. What this run has
-/// written stays: an analysis may fail in part.
+/// Writes the page beside the results.
+pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
+    let context = run.context("report");
+    let mut report = run.report.borrow_mut();
+    for (name, gearbox) in &run.study.gearboxes {
+        report.gearboxes.push(gearbox_page(&context, name, gearbox)?);
+    }
+    let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
+    keep(run, REPORT, Ok(report.html(&frame, template)?.into_bytes()))
+}
+
+/// Removes files of an earlier run of an analysis, which could be mistaken for current results. Files of this run are kept: an analysis may
+/// fail in part.
 pub fn remove(runner: &Run<'_>, name: &str) {
     for kind in ["csv", "json", "parquet"] {
         let file = format!("{name}.{kind}");
@@ -38,14 +50,14 @@ pub fn remove(runner: &Run<'_>, name: &str) {
     }
 }
 
-/// The folder of results, and the files that were written into it.
+/// The result folder and the files written into it.
 #[derive(Debug, Default)]
 pub struct Files {
     pub folder: PathBuf,
     names: Names,
 }
 
-/// Names of files, shared with those that are being written.
+/// Names of files, shared with files that are being written.
 type Names = Arc<Mutex<BTreeSet<String>>>;
 
 impl Files {
@@ -66,7 +78,7 @@ fn locked(names: &Names) -> std::sync::MutexGuard<'_, BTreeSet<String>> {
     names.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file that is written beside its place and moved there when it is whole; until then its name is held for it.
+/// A file that is written beside its final path and moved there when complete; its name is reserved until then.
 pub struct Place {
     name: String,
     names: Names,
@@ -76,11 +88,11 @@ pub struct Place {
 
 impl Place {
     pub fn new(files: &Files, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
-        // Names of analyses, sets and products are joined with hyphens, which they may hold themselves.
+        // Names of analyses, sets and products are joined with hyphens, which they may contain.
         if !locked(&files.names).insert(name.to_owned()) {
             return Err(Failure::input(
-                format!("two results would be called {name}"),
-                "rename an analysis or a set of models",
+                format!("two results would have the name {name}"),
+                "rename an analysis or a model set",
             ));
         }
         let path = files.folder.join(name);
@@ -103,7 +115,7 @@ impl Place {
         cannot(&self.path, e)
     }
 
-    /// Moves the file to its place, if it was written whole. A link that stands there is replaced, not followed.
+    /// Moves the complete file to its final path. An existing link there is replaced, not followed.
     pub fn done(mut self, written: Result<(), String>) -> Result<(), Failure> {
         let moved = written.and_then(|()| fs::rename(&self.part, &self.path).map_err(|e| e.to_string()));
         moved.map_err(|e| self.cannot(&e))?;
@@ -113,7 +125,7 @@ impl Place {
 }
 
 impl Drop for Place {
-    /// Takes away what was not written whole, and lets its name go.
+    /// Removes an incomplete file and releases its name.
     fn drop(&mut self) {
         if !self.name.is_empty() {
             let _ = fs::remove_file(&self.part);
@@ -122,18 +134,18 @@ impl Drop for Place {
     }
 }
 
-/// Puts a picture into the report, and writes it as a file where that is asked for.
+/// Adds a figure to the report, and writes it as a file if requested.
 pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, formats: &[Write]) -> Result<(), Failure> {
     if formats.contains(&Write::Svg) {
-        // A product stands before its set with a slash.
+        // A product precedes its set with a slash.
         let file = format!("{}.svg", name.replace('/', "-"));
         keep(runner.run, &file, figure.svg().map(String::into_bytes))?;
     }
-    runner.run.report.borrow_mut().figure(figure);
+    runner.run.in_section(|section| section.figures.push(figure));
     Ok(())
 }
 
-/// Writes a file of results whole, or says why it could not.
+/// Writes a result file completely, or reports an error.
 pub fn keep(runner: &Run<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Result<(), Failure> {
     let (place, mut to) = Place::new(&runner.files, file)?;
     let written = bytes.and_then(|bytes| {
@@ -144,7 +156,7 @@ pub fn keep(runner: &Run<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Res
     place.done(written)
 }
 
-/// The hash of a regular file, which is read some bytes at a time.
+/// The hash of a regular file, read in blocks.
 pub fn hash_of(file: &Path) -> std::io::Result<String> {
     let mut file = BufReader::new(open_regular(file)?);
     let mut hash = FNV_BASIS;

@@ -1,4 +1,4 @@
-//! Tables of `LossyGear` of the Modelica Standard Library.
+//! Tables for `LossyGear` of the Modelica Standard Library.
 //!
 //! Source: documentation of `Modelica.Mechanics.Rotational.Components.LossyGear`.
 
@@ -48,7 +48,7 @@ impl ExportFormat for LossyGear {
     }
 
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
-        // Modelica wants the file to be called as what it holds.
+        // Modelica requires that the file has the name of the record.
         let own = map.own_name();
         let letters = own.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
         let name: String = "losses_".chars().chain(letters).collect();
@@ -69,11 +69,11 @@ fn largest(grid: &LossGrid) -> f64 {
         .fold(0.0, |largest: f64, t| largest.max(t.abs()))
 }
 
-/// Loss torques at the ends of the straight lines, which the grid need not have, for each of its speeds.
+/// Loss torques at the ends of the straight lines for each speed of the grid; the grid need not contain these torques.
 struct Ends<'a> {
-    /// The rated torque; without a rating the largest of the grid. [Nm]
+    /// The rated torque; without a rating the largest torque of the grid. [Nm]
     torque: f64,
-    /// Whether it is that of the rating.
+    /// Whether `torque` is the rated torque.
     is_rating: bool,
     /// At zero torque. [Nm]
     no_load: &'a [Option<f64>],
@@ -94,7 +94,7 @@ impl<'a> Ends<'a> {
     }
 }
 
-/// Points of one side at a speed by its number: the magnitude of the torque and the loss torque, neither of them zero. [Nm]
+/// Magnitude of torque and loss torque of the points of one side at speed `i`, zeros excluded. [Nm]
 fn side(grid: &LossGrid, speed: usize, sign: f64) -> Vec<(f64, f64)> {
     let torques = grid.axes.torques.iter().enumerate();
     torques
@@ -107,8 +107,8 @@ fn side(grid: &LossGrid, speed: usize, sign: f64) -> Vec<(f64, f64)> {
 /// A row of the table: speed, mesh efficiency in drive and coast, friction in drive and coast.
 type Row = [f64; 5];
 
-/// Efficiency and friction over speed: straight lines of the loss torque over torque from the no-load loss, drive and coast
-/// apart. The text, and what there is to say of it.
+/// The text of the table and its description. Drive and coast have separate straight lines of loss torque over torque, which start at the
+/// no-load loss.
 fn table(map: &ExportMap<'_>, name: &str) -> Result<(String, String), Refusal> {
     let ends = Ends::new(map);
     let (mut rows, mut missed): (Vec<Row>, _) = (Vec::new(), Missed::default());
@@ -135,11 +135,11 @@ fn table(map: &ExportMap<'_>, name: &str) -> Result<(String, String), Refusal> {
         ));
     };
     missed.stays_below(map.outcome.lossy_gear_limit)?;
-    // The table has to begin at rest.
+    // The table must begin at speed zero.
     rows.insert(0, [0.0, first[1], first[2], first[3], first[4]]);
     let mut about = format!("{} speeds; {}", rows.len() - 1, missed.words(&ends));
     if !coasts {
-        about.push_str("; no coast side in the grid, the drive side is used for it");
+        about.push_str("; the grid has no coast side, so the drive side is used for both");
     }
     if skipped > 0 {
         about.push_str(&format!("; {skipped} speeds without a no-load loss are omitted"));
@@ -159,7 +159,7 @@ fn table(map: &ExportMap<'_>, name: &str) -> Result<(String, String), Refusal> {
     Ok((text, about))
 }
 
-/// Slopes of the straight lines in drive and coast. Without a coast side its losses are taken as those of the drive side.
+/// Slopes of the straight lines in drive and coast. Without a coast side in the grid the losses of the drive side apply to both.
 fn slopes(no_load: f64, drive: &[(f64, f64)], coast: &[(f64, f64)]) -> [f64; 2] {
     let slope = slope_from(no_load, drive);
     let coast = if coast.is_empty() {
@@ -170,34 +170,34 @@ fn slopes(no_load: f64, drive: &[(f64, f64)], coast: &[(f64, f64)]) -> [f64; 2] 
     [slope, coast]
 }
 
-/// The row of a speed by the library's equations: loss = (1 - eta1) T + f1 where a drives, loss = (1 - 1 / eta2) T + f2 where b
-/// does.
+/// The row of a speed by the library's equations: loss = (1 - eta1) T + f1 if flange a drives, loss = (1 - 1 / eta2) T + f2 if flange b
+/// drives.
 fn row(speed: f64, no_load: f64, [drive, coast]: [f64; 2]) -> Result<Row, Refusal> {
     if drive >= 1.0 {
         return Err(Refusal::new(
             format!(
-                "at {:.0} rpm losses grow as fast as the torque, which `LossyGear` cannot represent",
+                "at {:.0} rpm the loss grows as fast as the torque, which `LossyGear` cannot represent",
                 speed * RPM
             ),
-            "omit torques at which no power comes out",
+            "omit torques without output power",
         ));
     }
     Ok([speed, 1.0 - drive, 1.0 / (1.0 + coast), no_load, no_load])
 }
 
-/// How far straight lines are from loss torques.
+/// Deviation of the straight lines from the loss torques.
 #[derive(Default)]
 struct Missed {
-    /// The largest share of the loss torque among the points of the grid, with its torque in Nm and speed in rad/s.
+    /// The largest relative deviation among the grid points, with its torque in Nm and speed in rad/s.
     share: (f64, f64, f64),
     squares: f64,
     points: f64,
-    /// At the rated torque the largest gap in Nm, as a share of the loss torque, and its speed in rad/s.
+    /// The largest deviation at the rated torque in Nm, as a fraction of the loss torque, and its speed in rad/s.
     rated: Option<(f64, f64, f64)>,
 }
 
 impl Missed {
-    /// Adds the points of a speed, by its number, and the ends of its lines.
+    /// Adds the points of speed `i` and the ends of its lines.
     fn add(
         &mut self,
         ends: &Ends<'_>,
@@ -217,7 +217,7 @@ impl Missed {
         }
     }
 
-    /// Refuses a table whose lines miss a point by more than the limit.
+    /// Rejects a table whose lines deviate from a point by more than the limit.
     fn stays_below(&self, limit: f64) -> Result<(), Refusal> {
         let (share, torque, speed) = self.share;
         if share <= limit {
@@ -225,7 +225,7 @@ impl Missed {
         }
         Err(Refusal::new(
             format!(
-                "the straight lines of `LossyGear` miss the loss torque by {:.1} % at {} Nm, {:.0} rpm, above the limit of {} %",
+                "the straight lines of `LossyGear` deviate from the loss torque by {:.1} % at {} Nm, {:.0} rpm; the limit is {} %",
                 100.0 * share,
                 tidy(torque),
                 speed * RPM,
@@ -256,7 +256,8 @@ impl Missed {
     }
 
     fn words(&self, ends: &Ends<'_>) -> String {
-        let mut words = "straight lines from the no-load loss miss the loss torque by 0 Nm at zero torque".to_owned();
+        let mut words =
+            "straight lines from the no-load loss deviate from the loss torque by 0 Nm at zero torque".to_owned();
         if let Some((gap, share, speed)) = self.rated {
             let which = if ends.is_rating { "rated" } else { "the largest" };
             words.push_str(&format!(
@@ -278,8 +279,8 @@ impl Missed {
     }
 }
 
-/// Slope, not below zero, of the straight line from the no-load loss that has the smallest squares of relative deviations from
-/// points of torque and loss torque, so that part load counts as much as full load.
+/// Non-negative slope of the straight line from the no-load loss with the least squares of relative deviations, so that part load has the
+/// same weight as full load.
 fn slope_from(no_load: f64, points: &[(f64, f64)]) -> f64 {
     let (mut above, mut below) = (0.0, 0.0);
     for (torque, loss) in points {

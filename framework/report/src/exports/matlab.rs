@@ -1,4 +1,4 @@
-//! Vectors of Simulink's gearbox blocks as a script.
+//! Vectors for Simulink's gearbox blocks as a script.
 //!
 //! Source: documentation of the Powertrain Blockset's block Gearbox.
 
@@ -16,25 +16,25 @@ impl ExportFormat for Matlab {
     }
 
     fn meaning(&self) -> &'static str {
-        "Efficiency and loss torque over torque, speed and, where several were computed, oil temperature, as a script with the vectors \
+        "Efficiency and loss torque over torque, speed and, if several were computed, oil temperature, as a script with the vectors \
          of Simulink's gearbox blocks."
     }
 
     fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
         if axes.torques.len() < 2 || axes.speeds.len() < 2 {
             return Err(Refusal::new(
-                "a table needs two torques and two speeds at least",
+                "a table needs at least two torques and two speeds",
                 "give the grid more points",
             ));
         }
         Ok(())
     }
 
-    /// The temperatures of one table stand in one file.
+    /// All temperatures of one table are in one file.
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
         if map.grid.has_gaps() {
             return Err(Refusal::new(
-                "an efficiency over a grid with an envelope would be zero beyond it",
+                "outside the envelope of the grid the efficiency would be zero",
                 "give a grid without envelope",
             ));
         }
@@ -50,13 +50,13 @@ impl ExportFormat for Matlab {
     }
 }
 
-/// A map at one temperature of the oil; absent for a balance.
+/// Oil temperature of a map; absent with a heat balance.
 struct Slab<'a> {
     oil: Option<f64>,
     grid: &'a LossGrid,
 }
 
-/// The maps of one table by their temperatures.
+/// The maps of one table, sorted by temperature.
 fn slabs<'a>(maps: &[&'a MapOfSet]) -> Result<Vec<Slab<'a>>, Refusal> {
     let slab = |map: &&'a MapOfSet| {
         Some(Slab {
@@ -67,7 +67,7 @@ fn slabs<'a>(maps: &[&'a MapOfSet]) -> Result<Vec<Slab<'a>>, Refusal> {
     let mut slabs: Vec<Slab<'a>> = maps.iter().filter_map(slab).collect();
     if slabs.len() > 1 && slabs.iter().any(|slab| slab.oil.is_none()) {
         return Err(Refusal::new(
-            "a table over oil temperature needs given temperatures, not a balance",
+            "a table over oil temperature needs given temperatures, not a heat balance",
             "fix the temperature, or bind `thermal.mode: [fixed]` and `thermal.oil: [40 degC, 80 degC]` in the grid",
         ));
     }
@@ -75,13 +75,13 @@ fn slabs<'a>(maps: &[&'a MapOfSet]) -> Result<Vec<Slab<'a>>, Refusal> {
     if slabs.windows(2).any(|w| w[0].oil == w[1].oil) {
         return Err(Refusal::new(
             "two maps of one table have the same oil temperature",
-            "bind nothing but `thermal.oil` in its grid",
+            "bind only `thermal.oil` in its grid",
         ));
     }
     Ok(slabs)
 }
 
-/// Numbers of the speeds of a table. Where nothing turns there is no loss torque: a table cannot have that speed.
+/// Indices of the speeds of a table. Standstill has no loss torque and is omitted.
 fn speeds(slabs: &[Slab<'_>], axes: &Axes) -> Result<Vec<usize>, Refusal> {
     let turns = |w: &usize| {
         let mut grids = slabs.iter().map(|slab| slab.grid);
@@ -90,19 +90,19 @@ fn speeds(slabs: &[Slab<'_>], axes: &Axes) -> Result<Vec<usize>, Refusal> {
     let columns: Vec<usize> = (0..axes.speeds.len()).filter(turns).collect();
     if columns.len() < 2 {
         return Err(Refusal::new(
-            "a table needs two speeds with a loss torque at least",
+            "a table needs at least two speeds with a loss torque",
             "give the grid more speeds above zero",
         ));
     }
     Ok(columns)
 }
 
-/// Numbers as a vector holds them.
+/// Numbers as elements of a vector.
 fn list(values: impl Iterator<Item = f64>) -> String {
     values.map(|x| format!("{x}")).collect::<Vec<_>>().join(" ")
 }
 
-/// A table of one value for each place, with a third index where there are several temperatures; and how many values are missing.
+/// A table with one value for each grid point, with a third index if there are several temperatures, and the number of missing values.
 fn table(
     name: &str,
     empty: &str,
@@ -131,8 +131,7 @@ fn table(
     (text, missing)
 }
 
-/// Efficiency and loss torque over torque, speed and, where several were computed, oil temperature, as vectors of a script; and
-/// what there is to say of it.
+/// The script with the vectors of efficiency and loss torque, and its description.
 fn script(map: &ExportMap<'_>) -> Result<(String, String), Refusal> {
     let slabs = slabs(&map.siblings)?;
     let axes = &map.grid.axes;
@@ -141,8 +140,8 @@ fn script(map: &ExportMap<'_>) -> Result<(String, String), Refusal> {
     let (loss, without_loss) = table("loss_tbl", "", &slabs, &columns, LossGrid::loss_torque);
     if without_loss > 0 {
         return Err(Refusal::new(
-            format!("{without_loss} points of the grid have no loss torque, and a table has no holes"),
-            "omit torques and speeds at which the transmission locks itself or a loss is undefined",
+            format!("{without_loss} points of the grid have no loss torque; a table needs a value at every point"),
+            "omit torques and speeds at which the transmission is self-locking or a loss is undefined",
         ));
     }
     let mut about = format!("{} torques, {} speeds, ", axes.torques.len(), columns.len());
@@ -152,12 +151,12 @@ fn script(map: &ExportMap<'_>) -> Result<(String, String), Refusal> {
     }
     about.push_str(&match slabs[0].oil {
         _ if slabs.len() > 1 => format!("{} oil temperatures", slabs.len()),
-        Some(oil) => format!("no axis of temperature: all at {} degC", tidy(oil)),
-        None => "no axis of temperature: each point at its own, found by balance".to_owned(),
+        Some(oil) => format!("no temperature axis: all points at {} degC", tidy(oil)),
+        None => "no temperature axis: each point at its heat balance temperature".to_owned(),
     });
     if without_output > 0 {
         about.push_str(&format!(
-            "; efficiency zero at {without_output} points at which no power comes out"
+            "; efficiency zero at {without_output} points without output power"
         ));
     }
     let temperatures = if slabs.len() > 1 {

@@ -16,7 +16,7 @@ impl ExportFormat for Vecto {
     }
 
     fn meaning(&self) -> &'static str {
-        "Loss torque over input speed and torque as VECTO reads it, for engineering mode."
+        "Loss torque over input speed and torque in the format of VECTO, for engineering mode."
     }
 
     fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
@@ -27,7 +27,7 @@ impl ExportFormat for Vecto {
         } else {
             Err(Refusal::new(
                 "VECTO needs rows below, at and above zero torque",
-                "let the torques of the grid run from below zero, through zero, to above",
+                "give the grid negative torques, zero and positive torques",
             ))
         }
     }
@@ -38,7 +38,7 @@ impl ExportFormat for Vecto {
         let (mut rows, mut left) = (0, 0);
         for w in 0..speeds.len() {
             for t in 0..torques.len() {
-                // Where nothing turns or a loss has no value there is no loss torque.
+                // At standstill, or if a loss has no value, there is no loss torque.
                 match map.grid.loss_torque(t, w) {
                     Some(loss) => {
                         let speed = tidy(speeds[w] * RPM);
@@ -51,13 +51,13 @@ impl ExportFormat for Vecto {
         }
         if rows < 4 {
             return Err(Refusal::new(
-                format!("VECTO needs four rows at least, and {rows} have a loss"),
+                format!("VECTO needs at least four rows with a loss torque; there are {rows}"),
                 "give the grid more points",
             ));
         }
         let mut about = format!("{rows} rows, for VECTO's engineering mode");
         if left > 0 {
-            about.push_str(&format!("; {left} points without a loss torque are left out"));
+            about.push_str(&format!("; {left} points without a loss torque are omitted"));
         }
         Ok(Some(ExportFile {
             name: format!("{}.vtlm", map.own_name()),

@@ -1,4 +1,4 @@
-//! Values over two coordinates: coloured cells with labelled lines of equal value, and coloured points.
+//! Values over two coordinates: coloured cells with labelled contours, and coloured points.
 
 use super::super::contours::{Piece, levels, pieces};
 use super::super::{Cloud, Map};
@@ -7,7 +7,7 @@ use super::{
     SVGBackend, Shift, TEXT, Text, VPos, WHITE, drawn, fault, shade, short, two_sided,
 };
 
-/// Place and size of the field. \[px\]
+/// Position and size of the field. \[px\]
 const LEFT: i32 = 90;
 const TOP: i32 = 50;
 const WIDTH: i32 = 740;
@@ -19,7 +19,7 @@ fn style(colour: &RGBColor, size: i32, pos: Pos) -> plotters::style::TextStyle<'
     ("sans-serif", size).into_font().color(colour).pos(pos)
 }
 
-/// The range of values; even on both sides of zero for differences.
+/// The range of values; symmetric about zero for differences.
 fn range(values: impl Iterator<Item = f64>, diverging: bool) -> Option<(f64, f64)> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for value in values {
@@ -29,7 +29,7 @@ fn range(values: impl Iterator<Item = f64>, diverging: bool) -> Option<(f64, f64
     if low > high {
         return None;
     }
-    // Zero in the middle, so that both sides have the same weight.
+    // Zero in the middle, so that both signs have the same weight.
     let most = low.abs().max(high.abs());
     Some(if diverging { (-most, most) } else { (low, high) })
 }
@@ -67,8 +67,8 @@ fn names(root: &Area<'_>, x: &str, y: &str) -> Result<(), PlotFault> {
     root.draw(&Text::new(y.to_owned(), (20, TOP - 4), above)).map_err(fault)
 }
 
-/// A map: one cell for each pair of values, coloured. Where the coordinates are numbers, lines of equal value with their
-/// values run over the cells; else cells that are large enough carry their values.
+/// A map: one coloured cell for each pair of values, with labelled contours if the coordinates are numbers; otherwise cells that are large
+/// enough show their values.
 ///
 /// # Errors
 /// If drawing fails.
@@ -84,7 +84,7 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
         let y_at = |j: i32| TOP + HEIGHT - HEIGHT * j / rows;
         let lined = map.numbers().is_some() && columns > 3 && rows > 3;
         let size = (WIDTH / columns / 4).min(HEIGHT / rows / 2).clamp(6, TEXT);
-        // Numbers in cells that are too small for them would be a blur.
+        // Small cells show no numbers.
         let numbered = !lined && WIDTH / columns >= 34 && HEIGHT / rows >= 14;
         let middle = Pos::new(HPos::Center, VPos::Center);
         let all_over = map.is_hatched_all_over();
@@ -158,12 +158,12 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
         }
         let mut words = map.x.0.clone();
         if all_over {
-            words.push_str("; outside of a stated range all over");
+            words.push_str("; all points outside a model's validity range");
         } else if map.hatched.contains(&true) {
-            words.push_str("; hatched: outside of a stated range");
+            words.push_str("; hatched: outside a validity range");
         }
         if let Some(level) = map.unseen.filter(|_| lined) {
-            words.push_str(&format!("; thick: accuracy of the instrument, {}", short(level)));
+            words.push_str(&format!("; thick line: accuracy of the instrument, {}", short(level)));
         }
         if let Some((_, what)) = &map.crossed {
             words.push_str(&format!("; cross: {what}"));
@@ -173,7 +173,7 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
     })
 }
 
-/// A cross that is seen on dark and on light cells.
+/// A cross that is visible on dark and on light cells.
 fn cross(root: &Area<'_>, (x, y): (i32, i32)) -> Result<(), PlotFault> {
     const ARM: i32 = 7;
     for (colour, width) in [(&WHITE, 5), (&BLACK, 2)] {
@@ -203,7 +203,7 @@ fn draw_line(
     Ok(())
 }
 
-/// The middle of the piece that is farthest from the labels and from the border.
+/// The middle of the piece that is farthest from labels and border.
 fn free_place(line: &[Piece], place: &dyn Fn((f64, f64)) -> (i32, i32), taken: &[(i32, i32)]) -> Option<(i32, i32)> {
     let room = |(x, y): (i32, i32)| {
         let border = [x - LEFT, LEFT + WIDTH - x, y - TOP, TOP + HEIGHT - y];
@@ -214,7 +214,7 @@ fn free_place(line: &[Piece], place: &dyn Fn((f64, f64)) -> (i32, i32), taken: &
     middles.max_by_key(|at| room(*at)).filter(|at| room(*at) >= 16)
 }
 
-/// Place of a value among rising or falling ones, as a number of the lattice.
+/// Fractional index of a value in an increasing or decreasing list.
 fn within(values: &[f64], x: f64) -> Option<f64> {
     values.windows(2).enumerate().find_map(|(i, w)| {
         let share = (x - w[0]) / (w[1] - w[0]);
@@ -304,17 +304,17 @@ mod tests {
             hatched: (0..25).map(|k| k < 3).collect(),
             marks: vec![(2.5, 3.0), (99.0, 0.0)],
             unseen: Some(93.5),
-            crossed: Some((7, "the least".to_owned())),
+            crossed: Some((7, "minimum".to_owned())),
             ..Map::default()
         })
         .unwrap();
-        for word in ["96", "hatched", "thick", "cross: the least"] {
+        for word in ["96", "hatched", "thick", "cross: minimum"] {
             assert!(svg.contains(word), "{word}");
         }
         assert_eq!(
             svg.matches("<circle").count(),
             1,
-            "a mark outside of the field is not drawn"
+            "a mark outside the field is not drawn"
         );
     }
 

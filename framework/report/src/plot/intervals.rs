@@ -1,4 +1,4 @@
-//! Intervals under each other, over one coordinate.
+//! Intervals over one coordinate, one below the other.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -8,17 +8,17 @@ use super::{PlotFault, SIZE, TEXT, colour, drawn, fault, range};
 /// One interval with its value.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Interval {
-    /// Beside it.
+    /// Label.
     pub name: String,
     /// The value.
     pub at: f64,
-    /// Lower and upper end; absent where it is not known.
+    /// Lower and upper end; absent if unknown.
     pub ends: Option<[f64; 2]>,
-    /// A value that it is compared with.
+    /// A reference value.
     pub before: Option<f64>,
 }
 
-/// Intervals under each other, with lines at the values that are given.
+/// Intervals, one below the other, with lines at the given values.
 ///
 /// # Errors
 /// If drawing fails.
@@ -82,7 +82,7 @@ pub fn intervals(title: &str, x_name: &str, marks: &[f64], list: &[Interval]) ->
             .into_font()
             .color(&BLACK)
             .pos(Pos::new(HPos::Right, VPos::Top));
-        let words = "dot and bar: found, 95 %; circle: stated".to_owned();
+        let words = "dot and bar: estimate, 95 %; circle: stated value".to_owned();
         root.draw(&Text::new(words, (SIZE.0 as i32 - 20, 20), corner))
             .map_err(fault)
     })

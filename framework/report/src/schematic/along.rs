@@ -1,4 +1,4 @@
-//! Where everything lies along the shafts, in px; what has no stated place gets a free one.
+//! Positions along the shafts in px; things without a stated position get a free one.
 
 mod free;
 mod levels;
@@ -14,19 +14,19 @@ pub(super) const RIGHT: f64 = 1.0;
 
 /// Length of the arrow of a port. \[px\]
 pub(super) const ARROW: f64 = 34.0;
-/// Air between things that look for a free place. \[px\]
+/// Distance between things that get a free position. \[px\]
 const AIR: f64 = 6.0;
 /// Width of the box of a differential. \[px\]
 pub(super) const AXLE: f64 = 44.0;
 
-/// Places along the shafts.
+/// Positions along the shafts.
 #[derive(Debug, Default)]
 pub(super) struct Along {
     /// Faces of every gear.
     pub wheels: Vec<Span>,
     /// Middle of every component.
     pub parts: Vec<f64>,
-    /// Which of the two members of a component lies on its left: zero or one.
+    /// Which of the two members of a component is on its left: zero or one.
     pub left: Vec<usize>,
     /// Middle of every differential.
     pub axles: Vec<f64>,
@@ -36,9 +36,9 @@ pub(super) struct Along {
     pub webs: Vec<Option<f64>>,
     /// End of the shaft at every port, and the side to which it points.
     pub ends: Vec<(f64, f64)>,
-    /// By member: from where to where it is drawn.
+    /// By member: start and end of its drawing.
     pub extents: Vec<Option<Span>>,
-    /// By member: how many coaxial shafts run inside it.
+    /// By member: number of coaxial shafts inside it.
     pub levels: Vec<usize>,
 }
 
@@ -65,11 +65,11 @@ struct Work<'a> {
     things: &'a Things,
     scale: f64,
     along: Along,
-    /// Pieces of each axis that are in use: of every line, then of every member that is a planet body.
+    /// Occupied pieces of each axis: of every line, then of every member that is a planet body.
     taken: Vec<Vec<Span>>,
 }
 
-/// Places everything at a scale in px/m.
+/// Positions everything at a scale in px/m.
 pub(super) fn along(things: &Things, scale: f64) -> Along {
     let count = things.members.len();
     let mut work = Work {
@@ -126,7 +126,7 @@ impl Work<'_> {
         let taken = &self.taken[self.track(member)];
         let half = 0.5 * width + AIR;
         let mut x = start + side * half;
-        // Every piece blocks once at most, because the search goes one way.
+        // Each piece blocks at most once, because the search has one direction.
         for _ in 0..taken.len() {
             let Some(block) = taken.iter().find(|t| t[0] < x + half - 0.1 && t[1] > x - half + 0.1) else {
                 break;
@@ -155,7 +155,7 @@ impl Work<'_> {
         }
     }
 
-    /// Puts a component at a place; the shafts that it needs reach it.
+    /// Places a component at a position and extends its shafts to it.
     fn put(&mut self, i: usize, x: f64) {
         let part = &self.things.parts[i];
         let half = 0.5 * width(part, self.scale);
@@ -163,7 +163,7 @@ impl Work<'_> {
         let Some(first) = part.between[0].or(part.between[1]) else {
             return;
         };
-        // What sits inside a loose gear or a planet takes no place of its own on the axis.
+        // A component inside an idler gear or a planet occupies no piece of the axis.
         let inside = part.symbol == Symbol::Bearing && part.between[1].is_some();
         if !inside {
             self.take(first, [x - half, x + half]);
@@ -182,7 +182,7 @@ impl Work<'_> {
             }
             between => {
                 for member in between.into_iter().flatten() {
-                    // A pin bearing says nothing about where the shaft of its carrier runs.
+                    // A pin bearing does not extend the shaft of its carrier.
                     if self.things.is_planet(first) && member != first {
                         continue;
                     }
@@ -208,7 +208,7 @@ impl Work<'_> {
         }
     }
 
-    /// To which side each port points: outer ports of an axis outwards, a single one by its role.
+    /// The side to which each port points: outer ports of an axis outwards, a single port by its role.
     fn port_sides(&self) -> Vec<f64> {
         let things = self.things;
         let mut sides = vec![RIGHT; things.ports.len()];
@@ -222,7 +222,7 @@ impl Work<'_> {
                     )
                 })
                 .collect();
-            // The reference port stands first among equals.
+            // Among equals the reference port is first.
             ports.sort_by(|a, b| {
                 a.0.total_cmp(&b.0)
                     .then((a.1 != things.reference).cmp(&(b.1 != things.reference)))
@@ -241,7 +241,8 @@ impl Work<'_> {
         sides
     }
 
-    /// A port that is alone on its axis points away from the other shafts there; without any the reference comes from the left.
+    /// A port that is alone on its axis points away from the other shafts of the axis; without other shafts the reference port is on the
+    /// left.
     fn side_of_single(&self, member: usize, x: f64, reference: bool) -> f64 {
         let line = self.things.members[member].line;
         let others: Vec<f64> = (0..self.things.members.len())
@@ -264,7 +265,7 @@ impl Work<'_> {
             work.along.extents[shaft].map_or(0.0, |e| if sides[port] > 0.0 { e[1] } else { -e[0] })
         };
         let mut order: Vec<usize> = (0..things.ports.len()).collect();
-        // The shaft that ends first is the outer one.
+        // The shorter shaft is the outer one.
         order.sort_by(|a, b| reach(self, *a).total_cmp(&reach(self, *b)));
         for port in order {
             let (member, side) = (things.ports[port].1, sides[port]);
@@ -287,7 +288,7 @@ impl Work<'_> {
         }
     }
 
-    /// Shafts on which nothing sits still show.
+    /// Shafts without components get a minimum length.
     fn bare(&mut self) {
         for member in 0..self.things.members.len() {
             let empty = self.along.extents[member].is_none();

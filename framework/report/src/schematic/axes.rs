@@ -1,4 +1,4 @@
-//! The axes unfolded into one plane: each at the sum of the tip radii from the one that it meshes with.
+//! The axes unfolded into one plane: each at the sum of the tip radii from the axis that it meshes with.
 
 mod orbits;
 
@@ -9,7 +9,7 @@ use orbits::{fit_rings, orbits};
 
 /// Thickness of the body of a ring. \[px\]
 pub(super) const RIM: f64 = 11.0;
-/// Air between axes that no gears join, and around things that must not cover each other. \[px\]
+/// Distance between axes without a common mesh, and around things that must not overlap. \[px\]
 const APART: f64 = 40.0;
 
 /// Radii and heights; y points downwards. \[px\]
@@ -17,11 +17,11 @@ const APART: f64 = 40.0;
 pub(super) struct Axes {
     /// Height of every axis.
     pub lines: Vec<f64>,
-    /// By member: height of its axis below that of its line; negative above. Zero but for planets.
+    /// By member: height of its axis below that of its line; negative above. Zero except for planets.
     pub orbits: Vec<f64>,
     /// By gear: tip radius; inner radius of a ring.
     pub radii: Vec<f64>,
-    /// By ring: minus one where its half above the axis is drawn, plus one for that below.
+    /// By ring: minus one if its half above the axis is drawn, plus one for the half below.
     pub halves: Vec<f64>,
 }
 
@@ -31,7 +31,7 @@ impl Axes {
         self.lines[things.members[member].line] + self.orbits[member]
     }
 
-    /// Tip rectangle of a gear, or the body of a ring, against its line.
+    /// Tip rectangle of a gear, or the body of a ring, relative to its line.
     fn outline(&self, things: &Things, along: &Along, gear: usize) -> Rect {
         let wheel = &things.wheels[gear];
         let (x, r) = (along.wheels[gear], self.radii[gear]);
@@ -79,7 +79,7 @@ pub(super) fn axes(things: &Things, along: &Along, scale: f64) -> Axes {
     axes
 }
 
-/// What lies on one axis, against its height: what must not be covered, and thin shafts.
+/// The things on one axis, relative to its height: those that must not be covered, and thin shafts.
 struct Row {
     hard: Vec<Rect>,
     soft: Vec<Rect>,
@@ -123,7 +123,7 @@ fn rows(things: &Things, along: &Along, scale: f64, axes: &Axes) -> Vec<Row> {
     rows
 }
 
-/// How far apart two axes lie by their meshes, from the first to the second; negative for a ring below its pinion.
+/// Distance of two axes by their meshes, from the first to the second; negative for a ring below its pinion.
 enum Reach {
     /// External gears: on either side.
     Either(f64),
@@ -140,7 +140,7 @@ fn reach(things: &Things, axes: &Axes, from: usize, to: usize) -> Option<Reach> 
             continue;
         }
         if things.wheels[b].ring {
-            // The half of the ring that is drawn lies above, so the pinion touches it from below.
+            // The upper half of the ring is drawn, so the pinion touches it from below.
             let apart = (axes.radii[b] - axes.radii[a]).max(0.0);
             return Some(Reach::Down(if line(b) == to { apart } else { -apart }));
         }
@@ -150,7 +150,7 @@ fn reach(things: &Things, axes: &Axes, from: usize, to: usize) -> Option<Reach> 
     most.map(Reach::Either)
 }
 
-/// Puts one axis after the other beside one that it meshes with, beginning with that of the reference port.
+/// Places each axis beside one that it meshes with, beginning with the axis of the reference port.
 fn unfold(things: &Things, along: &Along, scale: f64, axes: &mut Axes) {
     let rows = rows(things, along, scale, axes);
     let first = things
@@ -161,7 +161,7 @@ fn unfold(things: &Things, along: &Along, scale: f64, axes: &mut Axes) {
     let mut next = 0;
     while placed.len() < things.lines {
         let Some(&(from, way)) = placed.get(next) else {
-            // No mesh leads on: the next axis stands below everything.
+            // No mesh leads to the next axis: it is placed below everything.
             let Some(line) = (0..things.lines).find(|l| placed.iter().all(|p| p.0 != *l)) else {
                 return;
             };
@@ -186,7 +186,7 @@ fn unfold(things: &Things, along: &Along, scale: f64, axes: &mut Axes) {
     }
 }
 
-/// Areas that a row would cover at a height: of gears, and of shafts and what sits on them.
+/// Areas that a row would cover at a height: of gears, and of shafts and their components.
 fn covered(rows: &[Row], placed: &[(usize, f64)], axes: &Axes, line: usize, at: f64) -> (f64, f64) {
     let (mut hard, mut soft) = (0.0, 0.0);
     for (other, _) in placed {
@@ -198,19 +198,19 @@ fn covered(rows: &[Row], placed: &[(usize, f64)], axes: &Axes, line: usize, at: 
         let (own, theirs) = (&rows[line], &rows[*other]);
         hard += sum(&own.hard, &theirs.hard);
         soft += sum(&own.soft, &theirs.hard) + sum(&own.hard, &theirs.soft) + sum(&own.soft, &theirs.soft);
-        // Two axes on one height read as one.
+        // Two axes at one height would look like one.
         hard += if apart.abs() < 12.0 { 1e4 } else { 0.0 };
     }
     (hard, soft)
 }
 
-/// Height beside an axis, onwards or back, where the fewest things are covered; farther away where gears still are.
+/// Height beside an axis, below or above it, that covers the fewest things; farther away if gears would be covered.
 fn beside(rows: &[Row], placed: &[(usize, f64)], axes: &Axes, line: usize, at: f64, sum: f64, way: f64) -> (f64, f64) {
     let cost = |side: f64| {
         let (hard, soft) = covered(rows, placed, axes, line, at + side * sum);
         hard + 0.2 * soft
     };
-    // Onwards unless the other side is clearly better.
+    // Below unless the other side is clearly better.
     let side = if cost(-way) + 50.0 < cost(way) { -way } else { way };
     let mut height = at + side * sum;
     for _ in 0..400 {

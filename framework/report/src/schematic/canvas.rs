@@ -1,4 +1,4 @@
-//! SVG text: shapes, and words that look for a free place.
+//! SVG text: shapes, and labels at free positions.
 
 mod words;
 
@@ -10,9 +10,9 @@ use words::Word;
 pub(super) const LETTERS: f64 = 13.0;
 /// Mean width of a letter over its height.
 const LETTER_WIDTH: f64 = 0.58;
-/// What a word pays for a px2 of a thing that it covers; a place further from its owner costs five.
+/// Cost of a label per px2 of a thing that it covers; a position further from its owner costs five.
 const COVERED: f64 = 4.0;
-/// Air around the drawing. \[px\]
+/// Margin of the drawing. \[px\]
 const MARGIN: f64 = 14.0;
 
 /// A rectangle; y points downwards. \[px\]
@@ -44,7 +44,7 @@ impl Rect {
     pub(super) fn middle(&self) -> [f64; 2] {
         [0.5 * (self.x[0] + self.x[1]), 0.5 * (self.y[0] + self.y[1])]
     }
-    /// Moved downwards.
+    /// The rectangle moved downwards.
     pub(super) fn down(&self, by: f64) -> Self {
         Self {
             x: self.x,
@@ -65,7 +65,7 @@ impl Rect {
     }
 }
 
-/// How words look.
+/// Style of labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Voice {
     /// Ids of components.
@@ -76,17 +76,17 @@ pub(super) enum Voice {
     Quiet,
 }
 
-/// A drawing in the making.
+/// An unfinished drawing.
 #[derive(Default)]
 pub(super) struct Canvas {
     body: String,
     extent: Option<Rect>,
-    /// With what a word of a shaft pays for covering them.
+    /// Things with the cost for a label of a shaft that covers them.
     obstacles: Vec<(Rect, f64)>,
     words: Vec<Word>,
 }
 
-/// A text that is safe between tags and in attributes.
+/// A text with the special characters of XML escaped.
 pub(super) fn escaped(text: &str) -> String {
     let mut safe = String::new();
     for c in text.chars() {
@@ -103,7 +103,7 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 impl Canvas {
-    /// Begins the group of a component; what a pointer rests on shows the tip.
+    /// Begins the group of a component with a tooltip.
     pub(super) fn open(&mut self, path: &str, tip: &str) {
         let (path, tip) = (escaped(path), escaped(tip));
         let _ = writeln!(self.body, "<g data-part=\"{path}\"><title>{tip}</title>");
@@ -154,22 +154,22 @@ impl Canvas {
         let _ = writeln!(self.body, "<{tag} points=\"{}\" {style}/>", list.trim_end());
     }
 
-    /// True where something was drawn in a style.
+    /// True if something was drawn in a style.
     pub(super) fn holds(&self, style: &str) -> bool {
         self.body.contains(style)
     }
 
-    /// Words keep away from here.
+    /// Labels avoid this rectangle.
     pub(super) fn avoid(&mut self, r: Rect) {
         self.obstacles.push((r, COVERED));
     }
 
-    /// Words of components keep away from here; those of shafts may stand here rather than far away.
+    /// Labels of components avoid this rectangle; labels of shafts may cover it if the alternative is far away.
     pub(super) fn shade(&mut self, r: Rect) {
         self.obstacles.push((r, 0.3));
     }
 
-    /// Writes a word near its owner, or within a gear, once everything is drawn.
+    /// Adds a label near its owner, or within a gear; it is placed when everything is drawn.
     pub(super) fn word(&mut self, text: impl Into<String>, owner: Rect, within: Option<Rect>, voice: Voice) {
         self.words.push(Word {
             text: text.into(),
@@ -183,12 +183,12 @@ impl Canvas {
         self.extent = Some(self.extent.map_or(*r, |e| e.join(r)));
     }
 
-    /// What is drawn up to now. \[px\]
+    /// Extent of the drawing so far. \[px\]
     pub(super) fn extent(&self) -> Rect {
         self.extent.unwrap_or(Rect::new([0.0, 100.0], [0.0, 100.0]))
     }
 
-    /// A word at its left end, below the drawing.
+    /// A text below the drawing, given by its left end.
     pub(super) fn foot(&mut self, x: f64, y: f64, text: &str) {
         self.reach(&Rect::new([x, x + width_of(text)], [y - LETTERS, y + 0.3 * LETTERS]));
         let _ = writeln!(
@@ -198,7 +198,7 @@ impl Canvas {
         );
     }
 
-    /// The whole picture.
+    /// The complete SVG.
     pub(super) fn finish(self, title: &str) -> String {
         let e = self.extent();
         let (x, y) = (e.x[0] - MARGIN, e.y[0] - MARGIN);

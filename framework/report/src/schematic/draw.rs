@@ -1,4 +1,4 @@
-//! The symbols of a schematic: shafts, differentials and ports here, gears and components apart.
+//! The symbols of a schematic: shafts, differentials and ports; gears and components have their own modules.
 
 mod gears;
 mod parts;
@@ -8,7 +8,7 @@ use super::axes::{Axes, thickness};
 use super::canvas::{Canvas, Rect, Voice};
 use super::things::{Kind, Things};
 
-// Colours of Okabe and Ito, light inside and dark at the edge; every symbol also has a shape of its own.
+// Colours of Okabe and Ito, light inside and dark at the edge; every symbol also has its own shape.
 const FIXED: &str = "fill=\"#cfe6f5\" stroke=\"#0072b2\" stroke-width=\"1.3\"";
 const LOOSE: &str = "fill=\"#fbe6bd\" stroke=\"#a06a00\" stroke-width=\"1.3\"";
 const SHAFT: &str = "fill=\"#d5d5d5\" stroke=\"#444\" stroke-width=\"0.9\"";
@@ -97,7 +97,7 @@ impl Draw<'_> {
         }
     }
 
-    /// Half the thickness of what a member turns on.
+    /// Half the thickness of the shaft or pin that a member turns on.
     fn inner(&self, member: usize) -> f64 {
         match self.things.members[member].kind {
             Kind::Planet(_) => PIN,
@@ -179,7 +179,7 @@ impl Draw<'_> {
         self.canvas.word(name.clone(), room, None, Voice::Loud);
     }
 
-    /// Names of shafts that no port of the same name tells.
+    /// Names of shafts without a port of the same name.
     fn shaft_names(&mut self) {
         for (number, member) in self.things.members.iter().enumerate() {
             let told = |p: &(String, usize)| p.1 == number && p.0 == member.name;
@@ -194,7 +194,7 @@ impl Draw<'_> {
         }
     }
 
-    /// The bar of the scale, and what dashes and dots mean where there are any.
+    /// The scale bar, and the meaning of dashes and dots if there are any.
     fn foot(&mut self) {
         let extent = self.canvas.extent();
         let (x, y) = (extent.x[0], extent.y[1] + 26.0);
@@ -211,13 +211,13 @@ impl Draw<'_> {
             || !self.things.axles.is_empty();
         let mut notes = Vec::new();
         if !self.things.wheels.is_empty() {
-            notes.push("Blue gears turn with their shaft, amber ones on it.");
+            notes.push("Blue gears are fixed to their shaft, amber gears turn freely on it.");
         }
         if unstated {
-            notes.push("Dashed: the description states no place.");
+            notes.push("Dashed: the description states no position.");
         }
         if self.canvas.holds(MESH) {
-            notes.push("Dotted: in mesh, though apart in this plane.");
+            notes.push("Dotted: gears in mesh that are apart in this plane.");
         }
         for (i, note) in notes.into_iter().enumerate() {
             self.canvas.foot(x, y + 22.0 + 17.0 * i as f64, note);

@@ -1,4 +1,4 @@
-//! What there is to draw, in m, as the transmission and its resolved description state it.
+//! The things to draw, in m, from the transmission and its resolved description.
 
 mod read;
 
@@ -7,12 +7,12 @@ use serde_json::Value;
 use gearloss_framework::transmission::Transmission;
 use read::{axles, members, parts, spread, wheels};
 
-/// What carries a member.
+/// The support of a member.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A shaft, a carrier or a ring: turns about an axis that rests.
+    /// A shaft, a carrier or a ring: turns about a fixed axis.
     Shaft,
-    /// A loose gear on a shaft.
+    /// An idler gear on a shaft.
     Loose(usize),
     /// A planet body on a carrier.
     Planet(usize),
@@ -23,7 +23,7 @@ pub(super) enum Kind {
 pub(super) struct Member {
     pub name: String,
     pub kind: Kind,
-    /// Number of the axis; that of the carrier for a planet body.
+    /// Index of the axis; for a planet body the axis of its carrier.
     pub line: usize,
     /// Number of equal copies.
     pub count: f64,
@@ -36,14 +36,14 @@ pub(super) struct Wheel {
     pub member: usize,
     /// Middle of the face. \[m\]
     pub at: f64,
-    /// How far the drawing moved it along its axis, because it is not stated where it lies. \[m\]
+    /// Displacement along the axis in the drawing of a gear without a stated position. \[m\]
     pub moved: f64,
     pub width: f64,
     /// Tip radius. \[m\]
     pub radius: f64,
     pub ring: bool,
     pub z: u32,
-    /// False where place or diameter are not stated.
+    /// False if position or diameter are not stated.
     pub stated: bool,
 }
 
@@ -51,11 +51,11 @@ pub(super) struct Wheel {
 #[derive(Debug)]
 pub(super) struct Contact {
     pub gears: [usize; 2],
-    /// True where a planet is part of it.
+    /// True if one of them is a planet.
     pub carried: bool,
 }
 
-/// How a component is drawn.
+/// Symbol of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Symbol {
     /// Crossed squares.
@@ -66,7 +66,7 @@ pub(super) enum Symbol {
     Sleeve,
     /// Plates between two members.
     Clutch,
-    /// A circle: pumps and what mechanisms of other crates hold.
+    /// A circle: pumps and components of mechanisms of other crates.
     Other,
 }
 
@@ -79,9 +79,9 @@ pub(super) struct Part {
     pub symbol: Symbol,
     /// Inner and outer member; absent for the housing.
     pub between: [Option<usize>; 2],
-    /// Place along the shafts, where it is stated. \[m\]
+    /// Position along the shafts if it is stated. \[m\]
     pub at: Option<f64>,
-    /// Width and radial height, where they are known. \[m\]
+    /// Width and radial height if they are known. \[m\]
     pub size: [Option<f64>; 2],
     /// Number of equal copies.
     pub count: f64,
@@ -109,7 +109,7 @@ pub(super) struct Things {
     pub reference: usize,
 }
 
-/// Name and member of every port as it is on its shaft: those of `wheels` one by one.
+/// Name and member of every port on its shaft; ports of `wheels` are separate.
 fn ports(transmission: &Transmission) -> Vec<(String, usize)> {
     let own = transmission.ports().iter();
     let own = own.filter(|p| p.member < transmission.members().len());
@@ -140,7 +140,7 @@ impl Things {
         }
     }
 
-    /// The shaft that a member turns on: itself, or what carries a loose gear.
+    /// The shaft that a member turns on: itself, or the shaft of an idler gear.
     pub(super) fn shaft_of(&self, member: usize) -> usize {
         match self.members[member].kind {
             Kind::Loose(shaft) => shaft,
@@ -148,12 +148,12 @@ impl Things {
         }
     }
 
-    /// Number of the first gear of a member.
+    /// Index of the first gear of a member.
     pub(super) fn wheel_of(&self, member: usize) -> Option<usize> {
         self.wheels.iter().position(|w| w.member == member)
     }
 
-    /// True for a body that holds rings and nothing else but brakes: it needs no shaft.
+    /// True for a body with only rings and brakes: it needs no shaft.
     pub(super) fn floats(&self, member: usize) -> bool {
         let own = || self.wheels.iter().filter(|w| w.member == member);
         let on_shaft =

@@ -1,4 +1,4 @@
-//! A balance: its result in words; losses and heat over temperature; temperature and residual over the steps.
+//! A heat balance: its result; losses and heat over temperature; temperature and residual over the steps.
 
 use gearloss_framework::thermal::Outcome;
 use gearloss_studies::analyses::balance::{BalanceOfPoint, BalanceOutcome, BalanceStep};
@@ -22,7 +22,7 @@ fn show(outcome: &BalanceOutcome, page: &mut Page) {
     }
 }
 
-/// A balance in words; `above` where the losses of its point are printed above.
+/// A heat balance as text; `above` if the losses of its point are printed above.
 pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
     let mut text = format!("balance: {}", balance.outcome.name());
     if let (Some(oil), Some(surface)) = (balance.oil_temperature_degc, balance.surface_temperature_degc) {
@@ -32,16 +32,16 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
         ));
     }
     text.push_str(&format!(
-        ", {} evaluations, looked for every {} K\n",
+        ", {} evaluations, scanned in steps of {} K\n",
         balance.evaluations,
         significant(balance.scan_spacing_k)
     ));
     for path in &balance.ways {
-        text.push_str(&format!("  {} takes {:.3} W\n", path.path, path.heat_w));
+        text.push_str(&format!("  {} transfers {:.3} W\n", path.path, path.heat_w));
     }
     if balance.sources_w.oil + balance.sources_w.surface > 0.0 {
         text.push_str(&format!(
-            "  sources bring {} W into the oil and {} W into the surface\n",
+            "  heat sources add {} W to the oil and {} W to the surface\n",
             significant(balance.sources_w.oil),
             significant(balance.sources_w.surface)
         ));
@@ -49,7 +49,7 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
     for root in &balance.stable {
         if let Some(beyond) = root.residual_beyond_jump_w {
             text.push_str(&format!(
-                "  at {:.4} degC a law jumps: {:.4} W are left over below it and {:.4} W above\n",
+                "  discontinuity at {:.4} degC: residual {:.4} W below and {:.4} W above\n",
                 root.oil_temperature_degc, root.residual_w, beyond
             ));
         }
@@ -62,24 +62,24 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
                 .map(|r| format!("{:.2}", r.oil_temperature_degc))
                 .collect();
             text.push_str(&format!(
-                "  these keep themselves: {} degC; the lowest is taken\n",
+                "  several stable temperatures: {} degC; the lowest is used\n",
                 all.join(", ")
             ));
         }
         Outcome::NoneBelowMaximum => {
             text.push_str(&format!(
-                "  losses are greater than the heat up to {} degC",
+                "  losses exceed the transferred heat up to {} degC",
                 significant(balance.maximum_degc)
             ));
             text.push_str(if above {
-                ", at which the losses above are shown\n"
+                "; the losses above are at this temperature\n"
             } else {
                 "\n"
             });
         }
         Outcome::Undefined if above => {
             text.push_str(&format!(
-                "  the losses above are those at {} degC\n",
+                "  the losses above are at {} degC\n",
                 significant(balance.maximum_degc)
             ));
         }
@@ -93,7 +93,7 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
     }
     text
 }
-/// Losses and heat over temperature; temperature and residual over the steps behind the scan.
+/// Losses and heat over temperature; temperature and residual over the steps after the scan.
 fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
     let history = &balance.history;
     let figure = |title: String, x: &str, y: &str, lines: Vec<Line>| Figure::Lines {
@@ -110,7 +110,7 @@ fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
         stroke: Stroke::Marked,
     };
     let curves = [line("loss", |s| s.loss_w), line("heat", |s| s.heat_w)];
-    let title = format!("{name}: losses and the heat that leaves");
+    let title = format!("{name}: losses and transferred heat");
     page.figure(name, figure(title, "oil temperature in degC", "W", curves.to_vec()));
     let steps = &history[balance.scan..];
     let line = |name: &str, y: &dyn Fn(&BalanceStep) -> Option<f64>| Line {
@@ -123,17 +123,17 @@ fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
         stroke: Stroke::Marked,
     };
     let temperature = [line("oil temperature", &|s| Some(s.oil_temperature_degc))];
-    let title = format!("{name}: temperature over the steps behind the scan");
+    let title = format!("{name}: temperature over the steps after the scan");
     page.figure(
         format!("{name}-steps"),
         figure(title, "step", "degC", temperature.to_vec()),
     );
-    // A residual of zero has no logarithm; it ends the line.
+    // A residual of zero has no logarithm and ends the line.
     let residual = [line("residual", &|s| {
         let share = (s.residual_w / s.loss_w).abs();
         (share > 0.0 && share.is_finite()).then(|| share.log10())
     })];
-    let title = format!("{name}: residual over the steps behind the scan");
-    let figure = figure(title, "step", "log10 of the residual over the loss", residual.to_vec());
+    let title = format!("{name}: residual over the steps after the scan");
+    let figure = figure(title, "step", "log10 of residual / loss", residual.to_vec());
     page.figure(format!("{name}-residual"), figure);
 }

@@ -1,4 +1,4 @@
-//! Where losses arise: a table and a picture of stacked bars for each row.
+//! A breakdown of losses: a table and a figure of stacked bars for each row.
 
 use gearloss_studies::analyses::breakdown::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, PointOfBreakdown};
 
@@ -37,7 +37,7 @@ fn show(outcome: &BreakdownOutcome, page: &mut Page) {
     }
 }
 
-/// A row of bars with its words.
+/// A row of bars with its texts.
 struct Row<'a> {
     name: &'a str,
     of_set: &'a BreakdownOfSet,
@@ -51,7 +51,7 @@ struct Row<'a> {
 impl Row<'_> {
     fn figure(&self, page: &mut Page) {
         let (name, of_set) = (self.name, self.of_set);
-        // What loses nothing at any bar needs no colour.
+        // Shares that are zero in all bars are omitted.
         let is_lost = |k: &usize| {
             self.points
                 .iter()
@@ -117,21 +117,21 @@ impl Row<'_> {
     }
 }
 
-/// What all bars of a row have in common, in words.
+/// The common conditions of all bars of a row as text.
 fn title(common: &Common) -> String {
     match common {
         Common::Torque(torque) => format!("{torque} Nm"),
         Common::Power(power) => format!("{power} W"),
         Common::Speed(speed) => format!("{} rpm", fixed(*speed, 0)),
         Common::Point(torque, speed) => format!("{torque} Nm, {} rpm", fixed(*speed, 0)),
-        Common::NoLoad { turned, stationary } if stationary.is_empty() => format!("no load, `{turned}` turned"),
+        Common::NoLoad { turned, stationary } if stationary.is_empty() => format!("no load, `{turned}` driven"),
         Common::NoLoad { turned, stationary } => {
-            format!("no load, `{turned}` turned, {} at rest", stationary.join(", "))
+            format!("no load, `{turned}` driven, {} stationary", stationary.join(", "))
         }
     }
 }
 
-/// What changes from bar to bar, with its unit.
+/// Name and unit of the quantity along the bars.
 fn over(along: Along) -> &'static str {
     match along {
         Along::Speed => "speed in rpm",
@@ -141,7 +141,7 @@ fn over(along: Along) -> &'static str {
     }
 }
 
-/// What is written below a bar.
+/// Label below a bar.
 fn label(along: Along, value: f64) -> String {
     match along {
         Along::Speed => fixed(value, 0),

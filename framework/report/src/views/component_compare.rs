@@ -1,4 +1,4 @@
-//! Models of one component: tables of losses over speed by torque and term; losses over speed with measured points beside them.
+//! Models of one component: tables of losses over speed by torque and term; figures of losses over speed with measured points.
 
 use gearloss_studies::analyses::component_compare::{
     ComponentCompareOutcome, ComponentComparison, LossOfComponent, MeasuredLoss, ModelOfComponent,
@@ -25,7 +25,7 @@ fn show(outcome: &ComponentCompareOutcome, page: &mut Page) {
     }
     for deviation in &comparison.deviations {
         page.line(format!(
-            "{}: model minus measurement {} % in the mean, {} % rms, {} points",
+            "{}: model minus measurement: mean {} %, rms {} %, {} points",
             deviation.model,
             number(Some(deviation.mean_percent), 1),
             number(Some(deviation.rms_percent), 1),
@@ -38,7 +38,7 @@ fn show(outcome: &ComponentCompareOutcome, page: &mut Page) {
     page.line("");
 }
 
-/// Losses at one torque over speed, by model and term.
+/// Losses at one torque over speed by model and term.
 fn losses(comparison: &ComponentComparison, torque: usize) -> String {
     let speeds = &comparison.speeds;
     let shown = spread(speeds.len());
@@ -60,7 +60,7 @@ fn losses(comparison: &ComponentComparison, torque: usize) -> String {
     table.render()
 }
 
-/// Loss over speed at one torque; measured points beside the models.
+/// Loss over speed at one torque with measured points.
 fn figure(name: &str, comparison: &ComponentComparison, (i, torque): (usize, f64)) -> Figure {
     let speeds = &comparison.speeds;
     let line = |model: &ModelOfComponent| {

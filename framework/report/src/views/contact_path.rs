@@ -1,4 +1,4 @@
-//! Paths of contact: a table of places; each quantity over the distance from the pitch point.
+//! Paths of contact: a table along the path; each quantity over the distance from the pitch point.
 
 use gearloss_studies::analyses::contact_path::{ContactPath, ContactPathOutcome, PlaceOnPath};
 
@@ -21,7 +21,7 @@ fn show(outcome: &ContactPathOutcome, page: &mut Page) {
 fn text(name: &str, path: &ContactPath, page: &mut Page) {
     let sharing = serde_json::to_value(path.load_sharing).unwrap_or_default();
     page.line(format!(
-        "{name}: path of contact of {}, {:.3} Nm on its first gear, load sharing {}, models {}",
+        "{name}: path of contact of {}, {:.3} Nm at its first gear, load sharing {}, models {}",
         path.mesh,
         path.mesh_torque_nm,
         sharing.as_str().unwrap_or_default(),
@@ -31,7 +31,7 @@ fn text(name: &str, path: &ContactPath, page: &mut Page) {
         "mm from pitch",
         "share",
         "sliding m/s",
-        "sum m/s",
+        "entrainment m/s",
         "p_H GPa",
         "film um",
         "mu",
@@ -57,13 +57,13 @@ fn text(name: &str, path: &ContactPath, page: &mut Page) {
     page.line("");
 }
 
-/// One picture for each quantity along the path.
+/// One figure for each quantity along the path.
 fn figures(name: &str, path: &ContactPath, page: &mut Page) {
     type Along = (&'static str, &'static str, fn(&PlaceOnPath) -> Option<f64>);
     let quantities: [Along; 5] = [
         ("share", "share of the load", |p| Some(p.load_share)),
-        ("pressure", "Hertz pressure in GPa", |p| Some(p.hertz_pressure_gpa)),
-        ("sliding", "sliding speed in m/s", |p| Some(p.sliding_speed_m_s)),
+        ("pressure", "Hertzian pressure in GPa", |p| Some(p.hertz_pressure_gpa)),
+        ("sliding", "sliding velocity in m/s", |p| Some(p.sliding_speed_m_s)),
         ("friction", "coefficient of friction", |p| p.mu),
         ("loss", "sliding loss in W", |p| p.sliding_loss_w),
     ];

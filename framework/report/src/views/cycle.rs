@@ -1,4 +1,4 @@
-//! Driven duties: losses, energies and temperatures in tables; losses stacked over time, temperatures, torque and speed.
+//! Cycles: tables of losses, energy and temperatures; figures of stacked losses, temperatures, torque and speed over time.
 
 use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::cycle::{BandOfDuty, CycleOutcome, DutyOfSet, HeatOfDuty, IntervalOfDuty};
@@ -40,7 +40,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
         let source = reference.source.as_deref().unwrap_or("reference");
         let ratio = 100.0 * (duty.mean_loss_w / reference.mean_loss_w - 1.0);
         page.line(format!(
-            "  {source}: {} W; the calculation is {ratio:+.1} % from it",
+            "  {source}: {} W; calculated {ratio:+.1} %",
             significant(reference.mean_loss_w)
         ));
     }
@@ -58,19 +58,22 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
         band_text(duty, band, page);
     }
     page.line(format!(
-        "  energy in {} kJ, out {} kJ, left {:.1e} of the input",
+        "  energy in {} kJ, out {} kJ, energy balance error {:.1e} of the input",
         significant(1e-3 * energy.input_j),
         significant(1e-3 * energy.output_j),
         energy.residual_share
     ));
     if energy.brakes_j > 0.0 {
-        page.line(format!("  brakes take {} kJ", significant(1e-3 * energy.brakes_j)));
+        page.line(format!(
+            "  dissipated in brakes: {} kJ",
+            significant(1e-3 * energy.brakes_j)
+        ));
     }
     if let Some(heat) = &duty.heat {
         heat_text(duty, heat, page);
     }
     if duty.motors_beyond_map {
-        page.line("  note: a motor was beyond its map; the loss at its edge counts");
+        page.line("  note: a motor was outside its map; the loss at the edge of the map is used");
     }
     page.line(format!(
         "  {} intervals, {} steps, {} evaluations",
@@ -80,7 +83,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
     page.line("");
 }
 
-/// The band of the loss, of its shares, and which inputs make it.
+/// The uncertainty band of the loss and of its shares, and the correlation with the inputs.
 fn band_text(duty: &DutyOfSet, band: &BandOfDuty, page: &mut Page) {
     let [low, middle, high] = band.mean_loss_w;
     let mut line = format!(
@@ -90,9 +93,9 @@ fn band_text(duty: &DutyOfSet, band: &BandOfDuty, page: &mut Page) {
     );
     if let (Some(reference), Some(inside)) = (&duty.reference, band.reference_inside) {
         line.push_str(&format!(
-            "; {} W lies {} it",
+            "; {} W is {} the band",
             reference.mean_loss_w,
-            if inside { "in" } else { "outside of" }
+            if inside { "inside" } else { "outside" }
         ));
     }
     page.line(line);
@@ -133,18 +136,18 @@ fn heat_text(duty: &DutyOfSet, heat: &HeatOfDuty, page: &mut Page) {
         paths.push(format!("{id} {}", kj(exchanger.heat_j)));
     }
     if heat.carried_away_j.abs() > 1e-9 * heat.came_j.abs() {
-        paths.push(format!("carried away {}", kj(heat.carried_away_j)));
+        paths.push(format!("transferred by flows {}", kj(heat.carried_away_j)));
     }
     page.line(format!(
-        "  heat: {} = {}, left {:.1e}",
+        "  heat: {} = {}, balance error {:.1e}",
         parts.join(" + "),
         paths.join(" + "),
         heat.residual_share
     ));
     let measured = duty.nodes.iter().any(|node| node.rms_k.is_some());
-    let mut head = vec!["node", "start degC", "end", "least", "greatest", "mean"];
+    let mut head = vec!["node", "start degC", "end", "min", "max", "mean"];
     if measured {
-        head.push("rms to measured K");
+        head.push("rms deviation K");
     }
     let mut table = TextTable::new(&head);
     for node in &duty.nodes {
@@ -165,10 +168,10 @@ fn heat_text(duty: &DutyOfSet, heat: &HeatOfDuty, page: &mut Page) {
     page.lines(table.render());
 }
 
-/// How a quantity of an interval is read.
+/// Reads a quantity of an interval.
 type Read = fn(&IntervalOfDuty) -> f64;
 
-/// The most points of one line: more cannot be distinguished, and a page holds all of them.
+/// Maximum number of points of one line: more cannot be distinguished and enlarge the page.
 const MOST: usize = 2400;
 
 fn figures(name: &str, duty: &DutyOfSet, page: &mut Page) {
@@ -221,7 +224,7 @@ fn line(series: &[IntervalOfDuty], every: usize, name: &str, read: &dyn Fn(&Inte
     }
 }
 
-/// Losses by share, the mean over intervals that one place stands for: it keeps the energy.
+/// Losses by share, averaged over the intervals of one plotted point, which conserves energy.
 fn mean_losses(chunk: &[IntervalOfDuty], shares: usize) -> Vec<f64> {
     let time: f64 = chunk.iter().map(|i| i.duration_s).sum();
     let mut sum = vec![0.0; shares];

@@ -1,4 +1,4 @@
-//! Mean losses over one property of an oil: in a table, and over the property, whole and relative to the least of each duty.
+//! Mean losses over one property of an oil: a table; figures, absolute and relative to the minimum of each cycle.
 
 use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LossOfFluid};
@@ -19,7 +19,7 @@ fn show(outcome: &FluidSweepOutcome, page: &mut Page) {
     }
     for (file, y, relative) in [
         ("loss", "mean loss in W", false),
-        ("relative", "mean loss in % of the least", true),
+        ("relative", "mean loss in % of the minimum", true),
     ] {
         let figure = Figure::Lines {
             title: format!("{name}: {y}"),
@@ -53,7 +53,9 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
     }
     page.lines(table.render());
     if all.iter().any(|fluid| fluid.beyond_definition) {
-        page.line("  * below 2 mm2/s the viscosity index is not defined; its law from 2 mm2/s on is continued");
+        page.line(
+            "  * below 2 mm2/s the viscosity index is not defined; its law for 2 mm2/s and above is extrapolated",
+        );
     }
     for FluidsOfDuty { cycle, least, .. } in &set.cycles {
         let end = if least.at_end_of_range {
@@ -62,9 +64,9 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
             ""
         };
         page.line(format!(
-            "  {cycle}: least at {} with {:.2} W{end}; within 1 % from {} to {}",
-            significant(least.value),
+            "  {cycle}: minimum {:.2} W at {}{end}; within 1 % from {} to {}",
             least.mean_loss_w,
+            significant(least.value),
             significant(least.flat_range[0]),
             significant(least.flat_range[1])
         ));
@@ -72,12 +74,12 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
     page.line("");
 }
 
-/// The oils that the study lists.
+/// The listed oils of the study.
 fn listed(duty: &FluidsOfDuty) -> impl Iterator<Item = &LossOfFluid> {
     duty.fluids.iter().filter(|fluid| !fluid.refined)
 }
 
-/// Mean loss of every duty over the property, in W or in % of the least.
+/// Mean loss of every cycle over the property, in W or in % of the minimum.
 fn lines(sets: &[FluidsOfSet], relative: bool) -> Vec<Line> {
     let duties = sets
         .iter()

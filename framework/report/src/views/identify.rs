@@ -1,4 +1,4 @@
-//! An identification: what the points say of each parameter, in sentences, tables and pictures.
+//! An identification: verdicts, tables and figures of the parameters.
 
 mod compare;
 mod hold_out;
@@ -19,9 +19,9 @@ use crate::text::figures;
 
 register_view!(IdentifyOutcome, show);
 
-/// Condition of unit columns from which on it is reported, and from which on it is a warning.
+/// Condition number of the unit columns above which it is reported, and above which it is a warning.
 const CONDITION: [f64; 2] = [30.0, 1000.0];
-/// Residual below which nothing but rounding is left.
+/// Residual that consists of rounding errors only.
 const ROUNDING: f64 = 1e-6;
 
 fn show(outcome: &IdentifyOutcome, page: &mut Page) {
@@ -36,7 +36,7 @@ fn show(outcome: &IdentifyOutcome, page: &mut Page) {
         ));
         if held.undecided > 0 {
             page.line(format!(
-                "{name}: {} rows lack what the condition asks for, and are fitted",
+                "{name}: {} rows lack a value that the condition of `hold_out` uses; they are fitted",
                 held.undecided
             ));
         }
@@ -57,11 +57,11 @@ fn show(outcome: &IdentifyOutcome, page: &mut Page) {
     }
 }
 
-/// Parameters that move several quantities, where no set before has said the same, and notes on the points.
+/// Parameters that change several quantities, unless an earlier set reported the same, and notes on the points.
 fn moves(name: &str, o: &IdentificationOfSet, moved: &mut Vec<String>, page: &mut Page) {
     for parameter in &o.found.parameters {
         let line = format!(
-            "{name}: `{}` moves {}",
+            "{name}: `{}` changes {}",
             parameter.base_name(),
             parameter.paths().join(", ")
         );
@@ -75,7 +75,7 @@ fn moves(name: &str, o: &IdentificationOfSet, moved: &mut Vec<String>, page: &mu
     }
 }
 
-/// What was found for one set.
+/// The results of one set.
 fn show_set(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mut Page) {
     let name = &outcome.head.analysis;
     search::show(name, o, page);
@@ -94,34 +94,32 @@ fn show_set(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mut Page)
     folds(name, &outcome.requested.groups, o, page);
     hold_out::show(name, o, page);
     if let Err(reason) = &o.found.shares {
-        page.line(format!("no bands on the losses: {reason}"));
+        page.line(format!("no uncertainty bands of the losses: {reason}"));
     }
     next::show(name, o, page);
     page.outside(&o.outside);
     page.line("");
 }
 
-/// How many combinations of parameters the points tell.
+/// The number of identifiable combinations of parameters.
 fn resolved(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     let count = o.found.fitted.inference.sized_singular_values().len();
     if count == 0 {
-        return page.verdict(format!(
-            "{name}: no parameter is free: each is held or stands on a bound"
-        ));
+        return page.verdict(format!("{name}: no parameter is free: each is fixed or at a bound"));
     }
     let condition = match o.condition {
         None => "columns are parallel".to_owned(),
-        Some(c) if c > CONDITION[1] => format!("condition {c:.0}: columns are nearly parallel"),
-        Some(c) if c > CONDITION[0] => format!("condition {c:.0}: watch combinations"),
-        Some(c) => format!("condition {c:.0}"),
+        Some(c) if c > CONDITION[1] => format!("condition number {c:.0}: columns are nearly parallel"),
+        Some(c) if c > CONDITION[0] => format!("condition number {c:.0}: check combinations of parameters"),
+        Some(c) => format!("condition number {c:.0}"),
     };
     page.verdict(format!(
-        "{name}: the points resolve {} of {count} combinations of free parameters ({condition})",
+        "{name}: the points identify {} of {count} combinations of free parameters ({condition})",
         o.resolved_combinations
     ));
 }
 
-/// How well groups of rows are predicted from the others.
+/// The prediction errors of groups of rows from fits to the others.
 fn folds(name: &str, groups: &str, o: &IdentificationOfSet, page: &mut Page) {
     let inference = &o.found.fitted.inference;
     if let Some(Err(reason)) = &o.found.folds {
@@ -137,9 +135,9 @@ fn folds(name: &str, groups: &str, o: &IdentificationOfSet, page: &mut Page) {
         "groups"
     };
     page.line(format!(
-        "predicted without its own {groups} a residual is {:.3} rms over {} {kind}, fitted {inside:.3}",
-        record.rms,
-        folds.len()
+        "cross-validation over {} {kind} ({groups}): predicted residual {:.3} rms, fitted {inside:.3}",
+        folds.len(),
+        record.rms
     ));
     let strange = validation.strange(inside).into_iter();
     for place in strange.filter(|_| record.rms > ROUNDING) {
@@ -151,17 +149,17 @@ fn folds(name: &str, groups: &str, o: &IdentificationOfSet, page: &mut Page) {
     }
 }
 
-/// A number in four digits.
+/// A number with four digits.
 fn short(x: f64) -> String {
     figures(x, 4)
 }
 
-/// An interval in four digits.
+/// An interval with four digits.
 fn span(ends: [f64; 2]) -> String {
     format!("{} to {}", short(ends[0]), short(ends[1]))
 }
 
-/// A quantity in names of files.
+/// A quantity in file names.
 fn slug(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Efficiency => "efficiency",

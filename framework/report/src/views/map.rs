@@ -1,4 +1,4 @@
-//! Maps: efficiency over torque and speed as a table, tables for other programs, pictures.
+//! Maps: a table of the efficiency over torque and speed, tables for other programs, figures.
 
 mod over_bound;
 mod pictures;
@@ -69,16 +69,11 @@ fn show_map(name: &str, map: &MapOfSet, page: &mut Page) {
     page.line("");
 }
 
-/// Says where the table shows fewer points than there are.
+/// Notes that the table shows only some of the points.
 fn thinned(map: &MapOfSet) -> Option<String> {
     let (torques, speeds) = map.shown.size();
     let shown = spread(torques).len() * spread(speeds).len();
-    (shown < torques * speeds).then(|| {
-        format!(
-            "shown: {shown} of {} points, both ends among them; the files hold all",
-            torques * speeds
-        )
-    })
+    (shown < torques * speeds).then(|| format!("shown: {shown} of {} points; the files contain all", torques * speeds))
 }
 
 fn table(map: &MapOfSet, grid: &ShownGrid, quantity: &dyn Fn(&ShownPoint) -> Option<f64>) -> String {

@@ -1,4 +1,4 @@
-//! Operating points: a table of losses with what was measured; losses as stacked bars.
+//! Operating points: a table of losses with measured values; losses as stacked bars.
 
 use gearloss_studies::analyses::measurable::{is_measurable, note};
 use gearloss_studies::analyses::numbers::RPM;
@@ -35,7 +35,7 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
     }
 }
 
-/// Losses by share, with what was measured.
+/// Losses by share with measured values.
 fn losses(bound: &[String], of_set: &PointsOfSet) -> String {
     let (shares, points) = (&of_set.shares, &of_set.points);
     let mut head: Vec<&str> = vec!["point"];
@@ -71,7 +71,7 @@ fn losses(bound: &[String], of_set: &PointsOfSet) -> String {
     table.render()
 }
 
-/// Mean and greatest differences from what was measured.
+/// Mean and maximum differences from measured values.
 fn differences(points: &[OperatingPoint], page: &mut Page) {
     type Difference = (&'static str, fn(&OperatingPoint) -> Option<f64>);
     let all: [Difference; 3] = [
@@ -94,10 +94,7 @@ fn differences(points: &[OperatingPoint], page: &mut Page) {
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
         let farther = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
         let worst = gaps.iter().fold(0.0, farther);
-        page.line(format!(
-            "{what}: mean {mean:.2}, worst {worst:.2}, {} points",
-            gaps.len()
-        ));
+        page.line(format!("{what}: mean {mean:.2}, max {worst:.2}, {} points", gaps.len()));
     }
     let is_omitted = |p: &&OperatingPoint| {
         let both = p.loss_w.zip(p.measured.loss_w);

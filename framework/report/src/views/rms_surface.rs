@@ -1,4 +1,4 @@
-//! Surfaces of the difference from a measurement: a table, a map, and where the least value is.
+//! Surfaces of the difference from a measurement: a table, a map and the minimum.
 
 use gearloss_numerics::inference::Side;
 use gearloss_studies::analyses::Outcome;
@@ -11,7 +11,7 @@ use crate::{Figure, Map};
 
 register_view!(RmsSurfaceOutcome, show);
 
-/// Points that are named one by one.
+/// Maximum number of points that are listed.
 const NAMED: usize = 5;
 
 fn show(outcome: &RmsSurfaceOutcome, page: &mut Page) {
@@ -37,14 +37,14 @@ fn show(outcome: &RmsSurfaceOutcome, page: &mut Page) {
     }
 }
 
-/// Says which points count nowhere.
+/// Lists the omitted points.
 fn left_out(name: &str, measured_points: usize, surface: &SurfaceOfSet, page: &mut Page) {
     let all = &surface.left_out;
     if all.is_empty() {
         return;
     }
     page.line(format!(
-        "{name}: {} of {measured_points} points lack a value somewhere and are left out of all pairs:",
+        "{name}: {} of {measured_points} points have no value at some pair and are omitted at all pairs:",
         all.len()
     ));
     for point in all.iter().take(NAMED) {
@@ -55,7 +55,7 @@ fn left_out(name: &str, measured_points: usize, surface: &SurfaceOfSet, page: &m
     }
 }
 
-/// The surface, and the pairs without a value.
+/// The surface and the pairs without a value.
 fn table(title: &str, surface: &SurfaceOfSet, page: &mut Page) {
     let SurfaceOfSet { x, y, pairs, .. } = surface;
     page.line(format!("{title} over {} points, over {}", surface.points, x.path));
@@ -88,7 +88,7 @@ fn table(title: &str, surface: &SurfaceOfSet, page: &mut Page) {
     }
 }
 
-/// Where the least value is and how well that is known.
+/// The position of the minimum and its uncertainty.
 fn verdict(surface: &SurfaceOfSet, unit: &str) -> String {
     let (least, axes) = (&surface.least_place, [&surface.x, &surface.y]);
     let mut places = Vec::new();
@@ -101,30 +101,30 @@ fn verdict(surface: &SurfaceOfSet, unit: &str) -> String {
         }
         places.push(format!("{path} = {value}"));
         match least.ends[k] {
-            Some(Side::Upper) => on.push(format!("the upper end of {path}: the fit would go on beyond {value}")),
-            Some(Side::Lower) => on.push(format!("the lower end of {path}: the fit would go on below {value}")),
+            Some(Side::Upper) => on.push(format!("the upper end of {path}: the minimum may be above {value}")),
+            Some(Side::Lower) => on.push(format!("the lower end of {path}: the minimum may be below {value}")),
             None => {}
         }
     }
-    let mut said = format!("least rms {:.3} {unit}", least.value);
+    let mut said = format!("minimum rms {:.3} {unit}", least.value);
     if places.is_empty() {
-        return format!("{said} all over: {} change nothing", nothing.join(" and "));
+        return format!("{said} everywhere: {} have no effect", nothing.join(" and "));
     }
     said.push_str(&format!(" at {}", places.join(", ")));
     if on.is_empty() {
-        said.push_str(", inside of the surface");
+        said.push_str(", inside the surface");
     } else {
         said.push_str(&format!(", on {}", on.join(", and on ")));
     }
     for path in &nothing {
-        said.push_str(&format!("; {path} changes nothing"));
+        said.push_str(&format!("; {path} has no effect"));
     }
     let ranges = |flat: &Flat| {
         let own = (0..2).filter(|k| least.depends[*k]);
         let own: Vec<String> = own.map(|k| range(axes[k], flat[k])).collect();
         own.join(", ")
     };
-    said.push_str(&format!("; within 5 % of it: {}", ranges(&least.close)));
+    said.push_str(&format!("; within 5 % of the minimum: {}", ranges(&least.close)));
     if let (Some(unseen), Some(accuracy)) = (&least.unseen, surface.accuracy) {
         said.push_str(&format!(
             "; within the accuracy of one measurement, {accuracy:.3}: {}",
@@ -134,7 +134,7 @@ fn verdict(surface: &SurfaceOfSet, unit: &str) -> String {
     said
 }
 
-/// A range of values along an axis, in words.
+/// A range of values along an axis as text.
 fn range(axis: &AxisOfSurface, [low, high]: [usize; 2]) -> String {
     let whole = low == 0 && high + 1 == axis.values.len();
     let path = &axis.path;
@@ -155,7 +155,7 @@ fn map(title: String, surface: &SurfaceOfSet) -> Figure {
         values: pairs.iter().map(|pair| pair.rms).collect(),
         crossed: Some((
             least.place[1] * x.values.len() + least.place[0],
-            format!("least, {:.3}", least.value),
+            format!("minimum, {:.3}", least.value),
         )),
         ..Map::default()
     })

@@ -1,5 +1,4 @@
-//! What the losses depend on: a table for each method, of the mean loss and of the relative change of the loss at the points, what it
-//! says, and its pictures.
+//! Sensitivity: for each method a table of the mean loss and of the relative change of the loss at the points, verdicts and figures.
 
 mod pictures;
 
@@ -14,7 +13,7 @@ use crate::page::Page;
 use crate::register_view;
 use crate::text::{TextTable, number, significant};
 
-/// Share of the variance, with others, below which a parameter counts as not influential: that of the screening.
+/// Total share of the variance below which a parameter counts as not influential, as in the screening.
 const SMALL: f64 = 0.05;
 
 register_view!(SensitivityOutcome, show);
@@ -51,7 +50,7 @@ fn relative(set: &SensitivityOfSet) -> Option<&OutputSensitivity> {
 fn slopes(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &mut Page) {
     let Some(slopes) = &loss.local else { return };
     page.line(format!(
-        "{name}: slopes of the mean loss at the values of the gearbox, models {}; scaled: over the whole range, in % of the loss",
+        "{name}: slopes of the mean loss at the values of the gearbox, models {}; scaled: slope times range in % of the loss",
         set.model_set
     ));
     let mut table = TextTable::new(&[
@@ -89,7 +88,7 @@ fn effects(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &
         set.model_set
     ));
     let at_points = relative(set).and_then(|output| output.morris.as_deref());
-    let mut table = TextTable::new(&["parameter", "mu", "mu*", "sigma", "at points %", "says"]);
+    let mut table = TextTable::new(&["parameter", "mu", "mu*", "sigma", "at points %", "influence"]);
     for (k, effect) in effects.iter().enumerate() {
         table.row(vec![
             set.parameters[k].path.clone(),
@@ -108,7 +107,7 @@ fn effects(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &
     page.line("");
 }
 
-/// On which parameters the mean loss depends, and on which the losses at single points do.
+/// The influential parameters of the mean loss and of the losses at single points.
 fn effects_in_words(
     name: &str,
     set: &SensitivityOfSet,
@@ -137,7 +136,7 @@ fn effects_in_words(
     if magnitudes[first] > 0.0 && !none.is_empty() {
         sentence.push_str(&format!("; not influential on the mean loss: {none}"));
     }
-    // What moves loss from one region to another.
+    // Parameters that change single points but not the mean.
     let moved = |k: &usize| {
         let there = at_points.map(|effects| effects[*k])?;
         let moves = effects[*k].influence == Influence::None && there.influence != Influence::None;
@@ -171,11 +170,11 @@ fn shares(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &m
         "alone",
         "95 % from",
         "to",
-        "with others",
+        "total",
         "95 % from",
         "to",
-        "at points alone",
-        "with others",
+        "at points, first order",
+        "total",
     ]);
     for (k, parameter) in set.parameters.iter().enumerate() {
         let mut row = vec![parameter.path.clone()];
@@ -197,7 +196,7 @@ fn shares(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &m
         let moving: Vec<String> = (0..set.parameters.len()).filter(moves).map(word).collect();
         if !moving.is_empty() {
             sentence.push_str(&format!(
-                "; influential on the loss at single points only: {}",
+                "; influential only on the loss at single points: {}",
                 moving.join("; ")
             ));
         }
@@ -206,18 +205,19 @@ fn shares(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &m
     page.line("");
 }
 
-/// Whether parameters act together on the loss, and on which of its parts they do.
+/// Whether parameters interact, and in which shares of the loss.
 fn together(set: &SensitivityOfSet, shares: &SharesOfVariance) -> String {
     if shares.variance == 0.0 {
-        return "nothing that is varied changes the mean loss".to_owned();
+        return "no varied parameter changes the mean loss".to_owned();
     }
     let alone: f64 = 100.0 * shares.first.iter().map(|s| s.value).sum::<f64>();
     let how = if shares.interactions {
-        "parameters act together"
+        "parameters interact"
     } else {
-        "each parameter acts for itself"
+        "parameters do not interact"
     };
-    let sentence = format!("{how} on the mean loss: alone they explain an estimated {alone:.0} % of its variance");
+    let sentence =
+        format!("{how} in the mean loss: first-order effects explain an estimated {alone:.0} % of its variance");
     let interacts = |output: &&OutputSensitivity| {
         output.kind == OutputKind::Mechanism && output.sobol.as_ref().is_some_and(|shares| shares.interactions)
     };
@@ -230,7 +230,7 @@ fn together(set: &SensitivityOfSet, shares: &SharesOfVariance) -> String {
     }
 }
 
-/// Numbers of values, the greatest first.
+/// Indices of values, the largest first.
 fn descending(values: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));

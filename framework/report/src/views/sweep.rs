@@ -1,4 +1,4 @@
-//! A sweep: tables of the loss; loss and efficiency over the values, as lines or as maps.
+//! A sweep: tables of the loss; figures of loss and efficiency over the values as lines or maps.
 
 use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
@@ -26,18 +26,18 @@ fn show(outcome: &SweepOutcome, page: &mut Page) {
     sweep.figures(page);
 }
 
-/// A sweep with its values in words.
+/// A sweep with its values as text.
 struct Sweep<'a> {
     outcome: &'a SweepOutcome,
     name: &'a str,
     path: &'a str,
     words: Vec<String>,
-    /// The second path, where there is one.
+    /// The second path if there is one.
     second_path: Option<&'a str>,
     second_words: Vec<String>,
 }
 
-/// A quantity in short, in words, and how to read it.
+/// Short name, text and reader of a quantity.
 type Quantity = (&'static str, &'static str, fn(&PointOfSweep) -> Option<f64>);
 
 const QUANTITIES: [Quantity; 2] = [
@@ -70,7 +70,7 @@ impl<'a> Sweep<'a> {
         self.outcome.notes.iter().map(|of_set| of_set.model_set.as_str())
     }
 
-    /// What belongs to one set and one second value, in the order of the first values.
+    /// The points of one set and one second value, in the order of the first values.
     fn row(&self, set: &'a str, second: usize) -> Vec<&'a SweepOfValue> {
         let own = self.outcome.values_of_set(set);
         own.filter(|value| value.places[1] == second).collect()
@@ -121,7 +121,7 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Where the values are on the axis, and its title. Values that are no numbers are at their number in the list.
+    /// Positions of the values on the axis, and its title. Values that are not numbers are at their index.
     fn axis(&self) -> (Vec<f64>, String) {
         let (words, path) = (&self.words, self.path);
         let parsed: Option<Vec<f64>> = words.iter().map(|w| w.split(' ').next()?.parse().ok()).collect();

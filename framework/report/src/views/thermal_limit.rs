@@ -1,4 +1,4 @@
-//! Thermal limits: a table for each model set; the limit, and the power out there, over speed or torque.
+//! Thermal limits: a table for each model set; figures of the limit and the output power over speed or torque.
 
 use gearloss_framework::thermal::Limit;
 use gearloss_studies::analyses::thermal_limit::{Find, ThermalLimit, ThermalLimitOutcome, ThermalLimitsOfSet};
@@ -21,9 +21,9 @@ fn show(outcome: &ThermalLimitOutcome, page: &mut Page) {
     figures(outcome, page);
 }
 
-/// The limits of one set, and what there is to say about them.
+/// The limits of one set with notes.
 fn table(of_set: &ThermalLimitsOfSet, page: &mut Page) {
-    let mut table = TextTable::new(&["oil degC", "speed rpm", "torque Nm", "outcome", "loss W", "out W"]);
+    let mut table = TextTable::new(&["oil degC", "speed rpm", "torque Nm", "outcome", "loss W", "output W"]);
     for limit in &of_set.limits {
         table.row(vec![
             number(Some(limit.limit_degc), 1),
@@ -35,24 +35,24 @@ fn table(of_set: &ThermalLimitsOfSet, page: &mut Page) {
         ]);
     }
     page.lines(table.render());
-    // Where losses rise with temperature the point may also keep itself at a lower one.
+    // If losses increase with temperature, a lower steady temperature may exist.
     let is_lower = |limit: &&ThermalLimit| limit.lowest_balance_degc.is_some_and(|t| t < limit.limit_degc - 0.01);
     let lower = of_set.limits.iter().filter(is_lower).count();
     if lower > 0 {
         page.line(format!(
-            "{lower} of these points also keep themselves at a lower temperature"
+            "{lower} of these points also have a steady state at a lower temperature"
         ));
     }
     let is_exceeded = |limit: &ThermalLimit| limit.outcome == Limit::ExceededFromTheStart.name();
     if of_set.find == Find::Torque && of_set.limits.iter().any(is_exceeded) {
         page.line(
-            "where it is exceeded from the start, the losses of the first torque of the range are too much already",
+            "if the limit is exceeded from the start, the losses at the first torque of the range are already too high",
         );
     }
     page.line("");
 }
 
-/// What was looked for, and the power out there, over what was given: a line for each set and temperature.
+/// The limit and the output power over the given quantity: a line for each set and temperature.
 fn figures(outcome: &ThermalLimitOutcome, page: &mut Page) {
     let (mut limits, mut powers) = (Vec::new(), Vec::new());
     for of_set in &outcome.thermal_limits {
@@ -100,11 +100,11 @@ fn figures(outcome: &ThermalLimitOutcome, page: &mut Page) {
         lines,
     };
     page.figure(name, figure(title, y, limits));
-    let title = "power out at which the oil reaches a temperature";
+    let title = "output power at which the oil reaches a temperature";
     page.figure(format!("{name}-power"), figure(title, "power in W".to_owned(), powers));
 }
 
-/// The temperatures of the limits, each once.
+/// The distinct temperatures of the limits.
 fn temperatures(of_set: &ThermalLimitsOfSet) -> Vec<f64> {
     let mut all: Vec<f64> = Vec::new();
     for limit in &of_set.limits {

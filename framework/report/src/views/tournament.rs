@@ -1,4 +1,4 @@
-//! A tournament: the models that take part; the ranking and what follows from it, or the spread.
+//! A tournament: the candidates; the ranking and its verdict, or the spread.
 
 mod pictures;
 mod ranking;
@@ -22,7 +22,7 @@ fn show(outcome: &TournamentOutcome, page: &mut Page) {
             }
             if found.points_of_other_gears > 0 {
                 page.line(format!(
-                    "{} points of other gear states are left out",
+                    "{} points of other gear states are omitted",
                     found.points_of_other_gears
                 ));
             }
@@ -37,7 +37,7 @@ fn show(outcome: &TournamentOutcome, page: &mut Page) {
     }
 }
 
-/// The models that take part, with their mean loss and their time, and why others do not.
+/// The candidates with mean loss and time, and the reasons why others are omitted.
 fn candidates(name: &str, mechanisms: &[MechanismOfTournament], left_out: &[String], page: &mut Page) {
     let counts = mechanisms
         .iter()
@@ -48,9 +48,9 @@ fn candidates(name: &str, mechanisms: &[MechanismOfTournament], left_out: &[Stri
         counts.collect::<Vec<_>>().join(" x ")
     ));
     for line in left_out {
-        page.line(format!("left out: {line}"));
+        page.line(format!("omitted: {line}"));
     }
-    let mut table = TextTable::new(&["mechanism", "model", "mean loss W", "time over that of the set"]);
+    let mut table = TextTable::new(&["mechanism", "model", "mean loss W", "relative time"]);
     for mechanism in mechanisms {
         for candidate in &mechanism.candidates {
             let losses = &candidate.losses_w;

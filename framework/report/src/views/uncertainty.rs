@@ -1,4 +1,4 @@
-//! Bands of uncertain inputs: which inputs make them, their width over the grid, and the bands over speed.
+//! Uncertainty bands: correlations with the inputs, width of the bands over the grid, and the bands over speed.
 
 use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::numbers::tidy;
@@ -12,7 +12,7 @@ use crate::{Figure, Map};
 
 register_view!(UncertaintyOutcome, show);
 
-/// A quantity: name in files, in words, how to read it.
+/// A quantity: name in files, text, reader.
 type Quantity = (&'static str, &'static str, fn(&PointOfBand) -> &QuantityBand);
 
 const QUANTITIES: [Quantity; 4] = [
@@ -52,9 +52,9 @@ fn inputs(name: &str, set: &BandsOfSet, page: &mut Page) {
     page.line("");
 }
 
-/// Half of the width of the band of the efficiency over the grid.
+/// Half the width of the band of the efficiency over the grid.
 fn widths(set: &BandsOfSet, page: &mut Page) {
-    page.line("efficiency in %: half of the width of the 95 % band");
+    page.line("half the width of the 95 % band of the efficiency in percentage points");
     let columns = set.speeds_rpm.len();
     let shown = spread(columns);
     let mut titles = vec!["torque Nm".to_owned()];
@@ -82,7 +82,7 @@ fn figures(name: &str, set: &BandsOfSet, (short, long, read): &Quantity, page: &
     if columns > 1 && set.torques_nm.len() > 1 {
         let words = |values: &[f64]| values.iter().map(|x| format!("{}", tidy(*x))).collect();
         let figure = Figure::Map(Map {
-            title: format!("{name}: half of the 95 % band of the {long}, models {models}"),
+            title: format!("{name}: half width of the 95 % band of the {long}, models {models}"),
             x: ("speed rpm".to_owned(), words(&set.speeds_rpm)),
             y: ("torque Nm".to_owned(), words(&set.torques_nm)),
             values: widths,

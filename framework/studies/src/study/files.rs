@@ -57,7 +57,7 @@ impl Study {
     pub fn read_from(language: &Language, files: &SharedSource, file: &Path) -> Result<Self, Findings> {
         let text = files.read_text(file, LONGEST_TEXT).map_err(|e| {
             Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
-                .help("check the name of the file")
+                .help("check the file name")
                 .code(Code::Unreadable)
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));
@@ -157,6 +157,26 @@ impl Study {
             promised,
             taken_over,
         })
+    }
+
+    /// Names of the model sets that the analyses use for a gearbox, without repetition.
+    pub fn sets_used_for(&self, gearbox: &str) -> Vec<String> {
+        let is_first = self.gearboxes.first().is_some_and(|(name, _)| name == gearbox);
+        let mut sets: Vec<String> = Vec::new();
+        for (_, analysis) in self.entry.analyses.iter() {
+            let uses = analysis.uses();
+            let of_analysis = uses.gearbox.map_or(is_first, |own| own == gearbox);
+            for set in uses.sets {
+                let own = match set.split_once('/') {
+                    Some((product, _)) => product == gearbox,
+                    None => of_analysis,
+                };
+                if own && !sets.contains(set) {
+                    sets.push(set.clone());
+                }
+            }
+        }
+        sets
     }
 
     /// Findings about the study itself, with their places.

@@ -4,11 +4,17 @@
 //! Source: LaFountain, Johnston, Spikes, Tribol. Trans. 44 (2001) 648-656, in three steps. First, at one pressure and temperature stress
 //! rises with the logarithm of the shear rate, and the slope is the Eyring stress ([`Isotherm::slope`]); it lies low where stress is
 //! not well above it. Then the exponent over pressure with that stress, and both together, by least squares of
-//! [`residual`]: a solver's work, for which the residuals and their scale stand here. Points belong in only before the stress has its
+//! [`residual`] ([`TractionFit`]). Points belong in only before the stress has its
 //! maximum over the shear rate, where heat begins to rule, and above 1 % of sliding. Boundary friction stands in its law linearly, so
 //! its least squares are closed ([`boundary_friction`]).
 
+mod curves;
+
 use gearloss_framework::lubricant::roelands::Roelands;
+use gearloss_numerics::fit::Squares;
+use gearloss_numerics::least_squares::{Parameter, Problem};
+
+pub use curves::{Curve, curves, limiting};
 
 use super::mixed::{boundary_share, friction};
 
@@ -96,6 +102,47 @@ impl Isotherm {
     }
 }
 
+/// Bounds of the Eyring stress as in `lubricants`. \[MPa\]
+const TAU0: [f64; 2] = [0.1, 50.0];
+/// Bounds of the pressure exponent.
+const Z: [f64; 2] = [0.2, 1.2];
+/// Start value of the pressure exponent.
+pub const START: f64 = 0.5;
+const MPA: f64 = 1e6;
+
+/// The second and the third step of a fit to traction curves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TractionFit {
+    /// Eyring stress of the second step: the mean slope within the bounds. \[MPa\]
+    pub tau0: f64,
+    /// The exponent with that stress; residuals in MPa.
+    pub exponent: Squares,
+    /// Eyring stress in MPa and exponent together; residuals in MPa.
+    pub both: Squares,
+}
+
+impl TractionFit {
+    /// Fits points, from the mean slope of their curves on (Pa).
+    ///
+    /// # Errors
+    /// Why a fit did not converge, or its accuracy cannot be stated.
+    pub fn new(law: &Roelands, points: &[TractionPoint], mean_slope: f64) -> Result<Self, String> {
+        let residuals = |tau0: f64, z: f64| points.iter().map(|p| residual(law, tau0 * MPA, z, p) / MPA).collect();
+        let bounded =
+            |name: &str, start: f64, [lower, upper]: [f64; 2]| Parameter::new(name, start).within(lower, upper);
+        let tau0 = (mean_slope / MPA).clamp(TAU0[0], TAU0[1]);
+        let second = |theta: &[f64]| Ok(residuals(tau0, theta[0]));
+        let exponent = Squares::solve(&Problem::new(second, vec![bounded("z", START, Z)]))?;
+        let third = |theta: &[f64]| Ok(residuals(theta[0], theta[1]));
+        let start = vec![
+            bounded("tau0", tau0, TAU0),
+            bounded("z", exponent.estimates[0].value, Z),
+        ];
+        let both = Squares::solve(&Problem::new(third, start))?;
+        Ok(Self { tau0, exponent, both })
+    }
+}
+
 /// One point of a Stribeck curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StribeckPoint {
@@ -119,6 +166,20 @@ pub fn boundary_friction(points: &[StribeckPoint], exponent: f64) -> Option<f64>
         (above + share * (p.mu - (1.0 - share) * p.film), below + share * share)
     });
     (below > 0.0).then(|| above / below)
+}
+
+/// Bounds of the coefficient of boundary friction as in `lubricants`.
+const MU_B: [f64; 2] = [0.01, 0.5];
+
+/// The coefficient of boundary friction within its bounds, with its accuracy.
+///
+/// # Errors
+/// Why the fit did not converge, or its accuracy cannot be stated.
+pub fn fit_boundary_friction(points: &[StribeckPoint], exponent: f64) -> Result<Squares, String> {
+    let start = boundary_friction(points, exponent).unwrap_or(MU_B[0]);
+    let mu_b = Parameter::new("mu_b", start.clamp(MU_B[0], MU_B[1])).within(MU_B[0], MU_B[1]);
+    let all = |theta: &[f64]| Ok(points.iter().map(|p| mixed_residual(theta[0], exponent, p)).collect());
+    Squares::solve(&Problem::new(all, vec![mu_b]))
 }
 
 #[cfg(test)]

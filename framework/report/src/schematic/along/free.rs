@@ -1,4 +1,4 @@
-//! Free places for what states none.
+//! Free positions for components without a stated position.
 
 use super::super::things::{Kind, Part, Symbol};
 use super::{AIR, LEFT, RIGHT, Work, middle, width};
@@ -15,7 +15,7 @@ impl Work<'_> {
         self.put(i, x);
     }
 
-    /// A free place on a member that is joined to the housing.
+    /// A free position on a member that is connected to the housing.
     fn on(&self, member: usize, part: &Part, wide: f64, sides: &[f64]) -> f64 {
         if let (Some(g), true) = (self.things.wheel_of(member), self.things.floats(member)) {
             return middle(self.along.wheels[g]);
@@ -24,7 +24,7 @@ impl Work<'_> {
             return self.beside(member, wide);
         }
         let port = self.things.ports.iter().position(|p| p.1 == member).map(|p| sides[p]);
-        // Seals stand where the shaft leaves the housing, a second one at the other end.
+        // Seals are at the end where the shaft leaves the housing, a second one at the other end.
         let same = |p: &&Part| p.symbol == part.symbol && p.between == part.between;
         let before = self
             .things
@@ -40,7 +40,7 @@ impl Work<'_> {
         if part.symbol == Symbol::Seal {
             return place(turn * port.unwrap_or(RIGHT));
         }
-        // Rather where no port is, and where no other shaft runs around this one.
+        // Prefer an end without a port and without another shaft around this one.
         let first = -turn * port.unwrap_or(LEFT);
         let (near, far) = (place(first), place(-first));
         if self.around(member, far) < self.around(member, near) {
@@ -50,7 +50,7 @@ impl Work<'_> {
         }
     }
 
-    /// How many other shafts of its axis a place on a member lies on, with those that leave the gearbox there.
+    /// Number of other shafts of the axis that cover a position on a member, with those that leave the gearbox there.
     fn around(&self, member: usize, x: f64) -> usize {
         let things = self.things;
         let over = |m: usize| {
@@ -62,7 +62,7 @@ impl Work<'_> {
         (0..things.members.len()).filter(|m| over(*m)).count()
     }
 
-    /// A free place between two members.
+    /// A free position between two members.
     fn between(&self, a: usize, b: usize, wide: f64, sides: &[f64]) -> f64 {
         let things = self.things;
         for member in [b, a] {
@@ -81,7 +81,7 @@ impl Work<'_> {
                 return x;
             }
         }
-        // At the end without a port of either.
+        // At the end without a port of either member.
         let port = |side: f64| (0..sides.len()).any(|p| sides[p] == side && [a, b].contains(&things.ports[p].1));
         let side = if port(RIGHT) && !port(LEFT) { LEFT } else { RIGHT };
         let end = if side > 0.0 {
@@ -92,7 +92,7 @@ impl Work<'_> {
         self.free(a, end, side, wide)
     }
 
-    /// The nearest free place beside a loose gear or a planet, rather towards another loose gear.
+    /// The nearest free position beside an idler gear or a planet, preferably towards another idler gear.
     fn beside(&self, member: usize, wide: f64) -> f64 {
         let face = self
             .things

@@ -1,10 +1,10 @@
-//! Which coaxial shafts run around which.
+//! Nesting of coaxial shafts.
 
 use super::super::things::{Kind, Symbol};
 use super::{Span, Work, middle};
 
 impl Work<'_> {
-    /// Shafts that run around others for certain: what carries a bearing, and rings whose web passes the leg of a carrier.
+    /// Shafts that certainly enclose others: those that hold a bearing, and rings whose web passes the leg of a carrier.
     fn nested(&self) -> Vec<[usize; 2]> {
         let things = self.things;
         let mut pairs = Vec::new();
@@ -32,13 +32,13 @@ impl Work<'_> {
         pairs
     }
 
-    /// How many shafts run inside each: long ones inside short ones, but for what is nested for certain.
+    /// Number of shafts inside each: long ones inside short ones unless the nesting is certain.
     pub(super) fn levels(&self) -> Vec<usize> {
         let (things, extents) = (self.things, &self.along.extents);
         let count = things.members.len();
         let mut depth = vec![0; count];
         let nested = self.nested();
-        // Nested in a circle makes no sense; the bound keeps it from going on for ever.
+        // Circular nesting is meaningless; the bound ends the loop.
         for _ in 0..count.min(8) {
             for [inner, outer] in &nested {
                 depth[*outer] = depth[*outer].max(depth[*inner] + 1);

@@ -1,15 +1,15 @@
-//! Carriers and rings of planetary sets: where their legs and webs stand.
+//! Carriers and rings of planetary sets: positions of their legs and webs.
 
 use super::super::things::{Kind, Part, Symbol};
 use super::{RIGHT, Span, Work, middle};
 
 /// From the faces of planets to the leg of their carrier, and on to the web of a ring. \[px\]
 const STEP: f64 = 11.0;
-/// Room between a planet and the leg of its carrier for a coupling that joins the carrier to the sun. \[px\]
+/// Space between a planet and the leg of its carrier for a coupling from the carrier to the sun. \[px\]
 const LOCK: f64 = 30.0;
 
 impl Work<'_> {
-    /// Side on which a body goes on from a place; absent where nothing else hangs on it.
+    /// Side on which a body continues from a position; absent if nothing else is attached to it.
     fn way(&self, member: usize, x: f64, sides: &[f64]) -> Option<f64> {
         let port = self.things.ports.iter().position(|p| p.1 == member);
         match self.along.extents[member].map(middle) {
@@ -26,7 +26,7 @@ impl Work<'_> {
         part.between[0].is_some_and(|m| self.things.is_planet(m))
     }
 
-    /// True where a coupling without a stated place joins a carrier to another shaft: it stands beside the sun.
+    /// True if a coupling without a stated position connects a carrier to another shaft: it is drawn beside the sun.
     fn locks(&self, carrier: usize) -> bool {
         let joins = |p: &Part| {
             matches!(p.symbol, Symbol::Sleeve | Symbol::Clutch)
@@ -87,7 +87,7 @@ impl Work<'_> {
         self.along.webs = webs;
     }
 
-    /// True where another ring of the same planets lies on that side.
+    /// True if another ring of the same planets is on that side.
     fn barred(&self, ring: usize, side: f64) -> bool {
         let bodies = self.bodies(ring);
         let x = middle(self.along.wheels[ring]);
@@ -115,7 +115,7 @@ impl Work<'_> {
         for body in self.bodies(ring) {
             let faces = self.along.extents[body].map_or(x, outer);
             let leg = self.along.legs[body].filter(|leg| side * (leg - faces) > 0.0);
-            // The pin of the planet stands out a little.
+            // The pin of the planet protrudes a little.
             let far = leg.unwrap_or(faces + side * 5.0) + side * STEP;
             x = if side > 0.0 { x.max(far) } else { x.min(far) };
         }

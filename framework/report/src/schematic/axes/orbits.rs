@@ -1,9 +1,9 @@
-//! Where planets and their rings stand above or below the axis of the carrier.
+//! Positions of planets and their rings above or below the axis of the carrier.
 
 use super::super::things::{Contact, Kind, Things};
 use super::Axes;
 
-/// Heights of the planets' axes against that of their carrier: planets touch the sun, or the planet next to it.
+/// Heights of the planets' axes relative to their carrier: planets touch the sun, or the planet next to it.
 pub(super) fn orbits(things: &Things, radii: &[f64], scale: f64) -> Vec<f64> {
     let member = |g: usize| things.wheels[g].member;
     let mut found: Vec<Option<f64>> = things

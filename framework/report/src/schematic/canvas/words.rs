@@ -1,10 +1,10 @@
-//! Words that look for a free place near their owner.
+//! Labels at free positions near their owner.
 
 use std::fmt::Write as _;
 
 use super::{COVERED, Canvas, LETTERS, Rect, Voice, escaped, width_of};
 
-/// A place for a word.
+/// A position for a label.
 struct Spot {
     room: Rect,
     inside: bool,
@@ -12,7 +12,7 @@ struct Spot {
     far: bool,
 }
 
-/// Places for a word with their ranks, the best first.
+/// Positions for a label with their ranks, the best first.
 fn spots(word: &Word) -> Vec<(f64, Spot)> {
     let o = &word.owner;
     let (w, h) = (width_of(&word.text), LETTERS + 2.0);
@@ -91,13 +91,13 @@ fn spots(word: &Word) -> Vec<(f64, Spot)> {
 pub(super) struct Word {
     pub text: String,
     pub owner: Rect,
-    /// The gear in which the word may stand.
+    /// The gear in which the label may be.
     pub within: Option<Rect>,
     pub voice: Voice,
 }
 
 impl Canvas {
-    /// Gives every word the best of its places.
+    /// Gives every label its best position.
     pub(in crate::schematic) fn write_words(&mut self) {
         let words = std::mem::take(&mut self.words);
         let mut taken: Vec<Rect> = Vec::new();
@@ -143,7 +143,7 @@ impl Canvas {
         } else {
             String::new()
         };
-        // The white rim keeps letters readable over lines.
+        // The white outline makes letters readable on lines.
         let _ = writeln!(
             self.body,
             "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"middle\" dominant-baseline=\"central\" {look} stroke=\"#fff\" \

@@ -6,11 +6,11 @@ use super::super::things::{Kind, Part, Symbol, Wheel};
 use super::{Draw, FIXED, LOOSE, MESH, PIN, SHAFT, SIDES, label, style};
 
 const BORE: &str = "fill=\"#fff\" stroke=\"none\"";
-/// Least gap between gears in mesh that is shown as one. \[px\]
+/// Minimum gap between gears in mesh that gets a dotted line. \[px\]
 const GAP: f64 = 7.0;
 
 impl Draw<'_> {
-    /// Radius of the bore of a gear that turns freely: room for its bearing.
+    /// Radius of the bore of a gear that turns freely: space for its bearing.
     pub(super) fn bore(&self, wheel: &Wheel, radius: f64) -> Option<f64> {
         let side = match self.things.members[wheel.member].kind {
             Kind::Shaft => return None,
@@ -91,7 +91,7 @@ impl Draw<'_> {
         }
     }
 
-    /// What joins several rings of one body that needs no shaft.
+    /// The drum that joins several rings of one body without a shaft.
     pub(super) fn drums(&mut self) {
         for member in 0..self.things.members.len() {
             let own = (0..self.things.wheels.len()).filter(|g| self.things.wheels[*g].member == member);
@@ -109,7 +109,7 @@ impl Draw<'_> {
         }
     }
 
-    /// The pin of a planet, the leg that joins it to its carrier, and the sleeve of a planet with several gears.
+    /// The pin of a planet, its leg to the carrier, and the sleeve of a planet with several gears.
     pub(super) fn planet(&mut self, body: usize) {
         let (Kind::Planet(carrier), Some(x)) = (self.things.members[body].kind, self.along.extents[body]) else {
             return;

@@ -1,4 +1,4 @@
-//! The symbols of bearings, seals, couplings and what else sits on shafts.
+//! The symbols of bearings, seals, couplings and other components on shafts.
 
 use super::super::along::width;
 use super::super::axes::{height, thickness};
@@ -37,7 +37,7 @@ impl Draw<'_> {
             .word(label(&part.id, part.count), room, within, Voice::Plain);
     }
 
-    /// The loose gear or planet that a bearing sits in.
+    /// The idler gear or planet that contains a bearing.
     fn gear_around(&self, part: &Part) -> Option<Rect> {
         let turning = |m: &usize| self.things.members[*m].kind != Kind::Shaft;
         let member = part.between.into_iter().flatten().find(turning)?;
@@ -48,7 +48,7 @@ impl Draw<'_> {
         Some(self.axes.rectangle(self.things, self.along, gear))
     }
 
-    /// Crossed squares above and below the shaft; hatched outside where the housing holds them.
+    /// Crossed squares above and below the shaft; hatched outside if the housing holds them.
     fn bearing(&mut self, part: &Part, x: f64, y: f64) -> Rect {
         let inner = part.between[0].map_or(3.0, |m| self.inner(m));
         let room = self.room_in(part, inner);
@@ -75,7 +75,7 @@ impl Draw<'_> {
         Rect::about(x, y, wide, 2.0 * (inner + high + hatch))
     }
 
-    /// Radial room for a bearing between two members.
+    /// Radial space for a bearing between two members.
     fn room_in(&self, part: &Part, inner: f64) -> Option<f64> {
         let [first, outer] = [part.between[0]?, part.between[1]?];
         let around = |member: usize| {
@@ -127,7 +127,7 @@ impl Draw<'_> {
         room
     }
 
-    /// A sleeve or plates, with what joins them to both members.
+    /// A sleeve or plates, with their connections to both members.
     fn coupling(&mut self, number: usize, x: f64, y: f64) -> Rect {
         let part = &self.things.parts[number];
         let ring = part.between.iter().flatten().find_map(|m| self.held_ring(part, *m));
@@ -171,7 +171,7 @@ impl Draw<'_> {
         )
     }
 
-    /// What opens and closes: a sleeve, or plates.
+    /// A sleeve or plates, which open and close.
     fn joint(&mut self, part: &Part, x: f64, y: f64) {
         let stated = part.at.is_some();
         let room = if part.symbol == Symbol::Clutch {
@@ -191,7 +191,7 @@ impl Draw<'_> {
         self.canvas.avoid(room);
     }
 
-    /// The face of a loose gear or a planet that looks at a place, with the gear's tip radius.
+    /// The face of an idler gear or a planet towards a position, with the gear's tip radius.
     fn face(&self, member: usize, x: f64) -> Option<(f64, f64)> {
         if self.things.members[member].kind == Kind::Shaft {
             return None;

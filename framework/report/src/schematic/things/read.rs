@@ -1,14 +1,14 @@
-//! From the transmission and its resolved description to what is drawn.
+//! Reads the things to draw from the transmission and its resolved description.
 
 use serde_json::{Map, Value};
 
 use super::{Axle, Contact, Kind, Member, Part, Symbol, Wheel};
 use gearloss_framework::transmission::Transmission;
 
-/// Axes that lie closer are one. \[m\]
+/// Axes that are closer are the same. \[m\]
 const COAXIAL: f64 = 1e-6;
 
-/// Entries of a section; none where there is no such section.
+/// Entries of a section; empty if there is no such section.
 fn section<'a>(
     resolved: &'a Value,
     name: &str,
@@ -63,7 +63,7 @@ pub(super) fn members(transmission: &Transmission, resolved: &Value) -> (Vec<Mem
     (members, lines)
 }
 
-/// Gives every member the number of its axis; returns how many axes there are.
+/// Assigns the index of its axis to every member; returns the number of axes.
 fn lines(members: &mut [Member], resolved: &Value) -> usize {
     let mut axes: Vec<Option<[f64; 2]>> = Vec::new();
     let place = |name: &str| {
@@ -84,10 +84,10 @@ fn lines(members: &mut [Member], resolved: &Value) -> usize {
     axes.len().max(1)
 }
 
-/// The member whose axis rests and that carries another in the end.
+/// The member with a fixed axis that finally carries another member.
 fn carrying(members: &[Member], member: usize) -> usize {
     let mut at = member;
-    // Carriers can be planets of others, but not without end.
+    // Carriers can be planets of other carriers, but not in a circle.
     for _ in 0..members.len() {
         match members[at].kind {
             Kind::Shaft => break,
@@ -120,7 +120,7 @@ pub(super) fn wheels(transmission: &Transmission) -> Vec<Wheel> {
         .collect()
 }
 
-/// Spreads trains of gears that lie in each other at the place zero: nobody stated where they are.
+/// Separates gear trains that overlap at the position zero because no position is stated.
 pub(super) fn spread(wheels: &mut [Wheel], contacts: &[Contact], members: &[Member]) {
     let trains = trains(wheels.len(), contacts);
     let edge = |w: &Wheel, side: f64| w.at + side * 0.5 * w.width;
@@ -155,7 +155,7 @@ pub(super) fn spread(wheels: &mut [Wheel], contacts: &[Contact], members: &[Memb
     }
 }
 
-/// Gears that hang together by meshes.
+/// Gears that are connected by meshes.
 fn trains(count: usize, contacts: &[Contact]) -> Vec<Vec<usize>> {
     let mut train: Vec<usize> = (0..count).collect();
     for contact in contacts {
@@ -186,7 +186,7 @@ pub(super) fn parts(members: &[Member], wheels: &[Wheel], resolved: &Value) -> V
     parts
 }
 
-/// A component; absent where the entry is none, as those of `housing`.
+/// A component; absent if the entry is not a component, as in `housing`.
 fn part(members: &[Member], wheels: &[Wheel], section: &str, id: &str, entry: &Map<String, Value>) -> Option<Part> {
     // The outer absence: no such member. The inner absence: the housing.
     let side = |name: &str| match name {
@@ -206,7 +206,7 @@ fn part(members: &[Member], wheels: &[Wheel], section: &str, id: &str, entry: &M
         _ if section == "bearings" || entry.contains_key("outer") || entry.contains_key("axial") => Symbol::Bearing,
         _ => Symbol::Other,
     };
-    // Only supports must state their place; for others an absent place was resolved to zero.
+    // Only bearings must state their position; for others an absent position was resolved to zero.
     let at = number(entry, "at").filter(|at| symbol == Symbol::Bearing || *at != 0.0);
     let carried = |w: &&Wheel| {
         let on_it = between.contains(&Some(w.member)) && members[w.member].kind != Kind::Shaft;

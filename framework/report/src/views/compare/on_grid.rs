@@ -1,4 +1,4 @@
-//! Differences over a grid: a table, a verdict and a map for each set; histogram and parity of all.
+//! Differences over a grid: a table, a verdict and a map for each set; one histogram and parity plot for all.
 
 use gearloss_studies::analyses::compare::{CompareOutcome, DifferenceAt, GridComparison};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
@@ -41,7 +41,7 @@ pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
     page.figure(format!("{name}-parity"), figure);
 }
 
-/// Some differences as a table of torque and speed.
+/// A selection of differences as a table of torque and speed.
 fn differences(c: &GridComparison) -> String {
     let shown = spread(c.speeds.len());
     let mut titles = vec!["torque Nm".to_owned()];
@@ -56,7 +56,7 @@ fn differences(c: &GridComparison) -> String {
     table.render()
 }
 
-/// Extremes, mean and root mean square in words.
+/// Extremes, mean and root mean square as text.
 fn figures(c: &GridComparison) -> String {
     let place = |found: &Option<DifferenceAt>| {
         found.map_or_else(
@@ -69,7 +69,7 @@ fn figures(c: &GridComparison) -> String {
     };
     let of_loss = c.loss_difference_percent_of_loss;
     format!(
-        "least {}; greatest {}; mean {}, rms {}; in the loss {} % in the mean, {} % rms",
+        "min {}; max {}; mean {}, rms {}; loss difference: mean {} %, rms {} %",
         place(&c.least),
         place(&c.greatest),
         number(c.mean, 3),

@@ -1,5 +1,5 @@
-//! Models against a measurement: statistics over all points and in bands for each set, which set matches best; parity, differences
-//! and their histogram.
+//! Comparison with a measurement: statistics over all points and in bands for each set, the best set, parity plot, differences and their
+//! histogram.
 
 use gearloss_studies::analyses::compare::{Band, CompareOutcome, DataComparison, ranking};
 use gearloss_studies::analyses::measurable::note;
@@ -37,7 +37,7 @@ pub fn show(outcome: &CompareOutcome, all: &[DataComparison], page: &mut Page) {
 
 /// Statistics over all points and in bands as a table.
 fn statistics(c: &DataComparison) -> String {
-    let mut table = TextTable::new(&["over", "points", "least", "greatest", "mean", "rms"]);
+    let mut table = TextTable::new(&["over", "points", "min", "max", "mean", "rms"]);
     let mut line = |over: String, statistics: Option<Statistics>| {
         let mut row = vec![over, statistics.map_or(0, |s| s.count).to_string()];
         match statistics {
@@ -47,17 +47,14 @@ fn statistics(c: &DataComparison) -> String {
         table.row(row);
     };
     line("all points".to_owned(), c.difference);
-    line(
-        "all points, loss in % of loss".to_owned(),
-        c.loss_difference_percent_of_loss,
-    );
+    line("all points, loss in %".to_owned(), c.loss_difference_percent_of_loss);
     for band in &c.bands {
         line(range(band), band.difference);
     }
     table.render()
 }
 
-/// A band in words; neighbouring ends as one value.
+/// A band as text; equal ends as one value.
 fn range(band: &Band) -> String {
     let Band { over, from, to, .. } = band;
     let unit = if *over == "torque" { "Nm" } else { "rpm" };
@@ -68,7 +65,7 @@ fn range(band: &Band) -> String {
     }
 }
 
-/// Which set matches the measurement best, and whether the measurement can tell.
+/// The set that matches the measurement best, and whether the accuracy of the measurement distinguishes the sets.
 fn best(outcome: &CompareOutcome, all: &[DataComparison]) -> Option<String> {
     let name = &outcome.head.analysis;
     let ranking = ranking(all);
@@ -77,18 +74,18 @@ fn best(outcome: &CompareOutcome, all: &[DataComparison]) -> Option<String> {
     };
     let (_, unit) = outcome.quantity.words(outcome.difference);
     let mut words = format!(
-        "{name}: `{}` meets the measurement best, {:.3} {unit} rms; next `{}`, {:.3}",
+        "{name}: `{}` matches the measurement best, {:.3} {unit} rms; next `{}`, {:.3}",
         first.0, first.1, second.0, second.1
     );
     if ranking.omitted > 0 {
         words.push_str(&format!(
-            ", over the {} points at which all have a value; {} are left out",
+            ", over the {} points at which all sets have a value; {} are omitted",
             ranking.points, ranking.omitted
         ));
     }
     if let Some(accuracy) = all[0].accuracy.filter(|accuracy| second.1 - first.1 < *accuracy) {
         words.push_str(&format!(
-            "; indistinguishable: the measurement is accurate to {accuracy:.3} {unit}"
+            "; indistinguishable at a measurement accuracy of {accuracy:.3} {unit}"
         ));
     }
     Some(words)

@@ -1,15 +1,15 @@
-//! Model sets side by side, as text.
+//! Comparison of model sets as text.
 
 use gearloss_studies::analyses::identify::compare::ComparisonOfSets;
 
 use crate::page::Page;
 use crate::text::{TextTable, figures, number};
 
-/// A table of the sets, and a sentence.
+/// A table of the sets and a verdict.
 pub(super) fn show(name: &str, compared: &ComparisonOfSets, page: &mut Page) {
     if let Some(first) = compared.sets.first() {
         page.line(format!(
-            "{name}: the sets side by side; wins and ratio are those of `{}` against the set of the line",
+            "{name}: comparison of the model sets; wins and ratio are those of `{}` against the set of the row",
             first.model_set
         ));
         page.lines(table(compared).render());
@@ -22,7 +22,7 @@ fn table(compared: &ComparisonOfSets) -> TextTable {
     let mut table = TextTable::new(&[
         "set",
         "parameters",
-        "AICc more",
+        "delta AICc",
         "rms of the bands",
         "wins",
         "ratio (95 %)",

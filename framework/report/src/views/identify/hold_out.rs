@@ -1,4 +1,4 @@
-//! Rows that were held out of a fit, as text and pictures: their errors beside those of fitted rows.
+//! Held-out rows as text and figures: their errors compared with those of fitted rows.
 
 use gearloss_numerics::inference::{ErrorSummary, PlacedError};
 use gearloss_studies::analyses::identify::IdentificationOfSet;
@@ -20,7 +20,7 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     for own in &held.quantities {
         let (what, unit) = words(own.errors.quantity);
         page.line(format!(
-            "errors of the {what} in rows that were fitted and in rows that were held out, in {unit}:"
+            "errors of the {what} in fitted and in held-out rows, in {unit}:"
         ));
         page.lines(summaries(&own.errors));
         if own.regions.iter().any(|r| r.held_out.is_some()) {
@@ -34,17 +34,16 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     let is_widened = o.found.intervals_widened().is_some();
     if is_widened && held.no_bands.is_none() {
         page.line(format!(
-            "the bands are widened, because the model misses the fitted points: what the parameters are uncertain counts {:.2} times, \
-             the scatter of a measurement {:.2} times",
+            "the bands are widened because the model does not fit the points: the uncertainty of the parameters is multiplied by {:.2}, the scatter of a measurement by {:.2}",
             widening.parameters, widening.scatter
         ));
     }
     if let Some(reason) = &held.no_bands {
-        page.line(format!("no bands of what was held out: {reason}"));
+        page.line(format!("no bands of the held-out rows: {reason}"));
     }
     if let Some(first) = held.not_predicted.first() {
         let count = held.not_predicted.len();
-        page.line(format!("{count} numbers held out are not predicted: {first}"));
+        page.line(format!("{count} held-out values are not predicted: {first}"));
     }
 }
 
@@ -54,11 +53,11 @@ fn summaries(own: &ErrorsOfQuantity) -> String {
     let in_percent = own.is_relative() && all(&|s| s.in_percent.is_some());
     let in_accuracies = all(&|s| s.in_accuracies.is_some());
     let mut head = vec!["rows".to_owned(), "points".to_owned()];
-    head.extend(["rms", "bias", "greatest"].map(str::to_owned));
-    head.extend(["line", "torque Nm", "speed rpm"].map(|what| format!("its {what}")));
+    head.extend(["rms", "bias", "max"].map(str::to_owned));
+    head.extend(["line", "torque Nm", "speed rpm"].map(|what| format!("{what} of max")));
     let units = [(in_percent, "%"), (in_accuracies, "/ accuracy")];
     for (_, unit) in units.iter().filter(|(shown, _)| *shown) {
-        head.extend(["rms", "bias", "greatest"].map(|figure| format!("{figure} {unit}")));
+        head.extend(["rms", "bias", "max"].map(|figure| format!("{figure} {unit}")));
     }
     let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
     for (kind, summary) in both {
@@ -100,7 +99,7 @@ fn by_region(own: &ErrorsOfQuantity) -> String {
     table.render()
 }
 
-/// Errors over torque and over speed: of fitted rows, of rows held out, and the ends of the bands of the latter.
+/// Errors of fitted and held-out rows over torque and over speed, with the bands of held-out rows.
 pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
     let Some(held) = &o.hold_out else {
         return Vec::new();
@@ -120,7 +119,7 @@ pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figu
             let of_quantity = held.points.iter().filter(|point| point.quantity == record.quantity);
             let placed = own.all.iter().filter(|e| e.is_held_out);
             let ends = of_quantity.zip(placed).flat_map(|(point, placed)| {
-                // A measurement inside of its band has an error between these ends.
+                // A measurement inside its band has an error between these ends.
                 let from_model = |end: f64| factor * (point.predicted - end);
                 let ends = point.band.map_or_else(Vec::new, |band| band.map(from_model).to_vec());
                 ends.into_iter()
@@ -134,11 +133,11 @@ pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figu
             };
             let figure = Figure::Lines {
                 title: format!(
-                    "{name}: errors of {} over {axis}, {what}, fitted and held out",
+                    "{name}: errors of {} over {axis}, {what}, fitted and held-out rows",
                     o.model_set
                 ),
                 x: format!("{axis} {axis_unit}"),
-                y: format!("calculated less measured, {unit}"),
+                y: format!("calculated minus measured, {unit}"),
                 lines: vec![
                     dotted("fitted", dots(false)),
                     dotted("held out", dots(true)),

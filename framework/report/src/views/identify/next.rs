@@ -1,4 +1,4 @@
-//! What to measure next, as text.
+//! Proposed measurements as text.
 
 use gearloss_numerics::design::Choice;
 use gearloss_studies::analyses::identify::next::Next;
@@ -13,7 +13,7 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     let next = match &o.found.next {
         None => return,
         Some(Err(reason)) => {
-            return page.line(format!("nothing can be said of what to measure next: {reason}"));
+            return page.line(format!("no measurements can be proposed: {reason}"));
         }
         Some(Ok(next)) => next,
     };
@@ -24,12 +24,12 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         Some((parameter.name.clone(), deviations[place]))
     };
     let rule = match next.rule {
-        RuleEntry::Worst => "the widest interval over its range",
-        RuleEntry::Trace => "the sum of the variances over the squared ranges",
+        RuleEntry::Worst => "the widest interval relative to its range",
+        RuleEntry::Trace => "the sum of the variances relative to the squared ranges",
         RuleEntry::Determinant => "the volume of the joint region",
     };
     page.line(format!(
-        "what to measure next, in gear `{}`, so that {rule} shrinks:",
+        "proposed measurements in gear `{}`, chosen to reduce {rule}:",
         next.gear
     ));
     page.lines(table(next).render());
@@ -46,7 +46,7 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     }
 }
 
-/// The points in their order; a point that is measured several times is one line.
+/// The points in order; a repeated point is one row.
 fn table(next: &Next) -> TextTable {
     let mut table = TextTable::new(&[
         "measure",
@@ -54,7 +54,7 @@ fn table(next: &Next) -> TextTable {
         "speed rpm",
         "oil degC",
         "gain",
-        "hangs on the parameters",
+        "depends on the parameters",
     ]);
     let mut place = 0;
     let same = |a: &Choice, b: &Choice| a.candidate == b.candidate;
@@ -77,7 +77,7 @@ fn table(next: &Next) -> TextTable {
             short(choice.gain),
             lacking.map_or_else(
                 || "no".to_owned(),
-                |(_, count)| format!("in {count} of {} plans not", next.plan.others),
+                |(_, count)| format!("absent from {count} of {} plans", next.plan.others),
             ),
         ]);
     }

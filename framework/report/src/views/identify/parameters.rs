@@ -8,7 +8,7 @@ use super::{short, span, words};
 use crate::page::Page;
 use crate::text::TextTable;
 
-/// How far the models are from the points, before and after.
+/// Deviation of the models from the points before and after the fit.
 pub(super) fn misfit(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     for quantity in o.found.quantities() {
         let (what, unit) = words(quantity);
@@ -16,12 +16,12 @@ pub(super) fn misfit(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         let weighted = match o.accuracy {
             AccuracyOfPoints::Given => {
                 let [before, after] = o.found.weighted_rms(quantity).map(short);
-                format!("; over the accuracy of the points {before} and {after}")
+                format!("; divided by the accuracy of the points {before} and {after}")
             }
             AccuracyOfPoints::Estimated => String::new(),
         };
         page.verdict(format!(
-            "{name}: {}: {what} {} {unit} rms off the points before, {} after{weighted}",
+            "{name}: {}: {what} deviation {} {unit} rms before the fit, {} after{weighted}",
             o.model_set,
             short(before),
             short(after)
@@ -29,7 +29,7 @@ pub(super) fn misfit(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     }
     match (o.accuracy, &o.found.checks.lack) {
         (AccuracyOfPoints::Given, Some(lack)) => page.line(format!(
-            "sum of squares over the stated accuracies {:.1} at {:.0} degrees of freedom, {}",
+            "chi-square with the stated accuracies {:.1} at {:.0} degrees of freedom, {}",
             lack.objective,
             lack.freedom,
             if lack.probability < 0.001 {
@@ -42,7 +42,7 @@ pub(super) fn misfit(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         (AccuracyOfPoints::Estimated, _) => {
             let first = o.found.quantities().first().copied();
             page.line(format!(
-                "no accuracy is stated: intervals follow from the scatter of the points, {}{}",
+                "no accuracy is stated: intervals are based on the scatter of the points, {}{}",
                 short(o.misfit.standard_deviation_of_residuals),
                 first.map_or_else(String::new, |quantity| format!(" {}", words(quantity).1))
             ));
@@ -50,7 +50,7 @@ pub(super) fn misfit(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     }
 }
 
-/// A table of the parameters, and what is to be said of some.
+/// A table of the parameters with notes.
 pub(super) fn show(o: &IdentificationOfSet, page: &mut Page) {
     page.lines(table(o).render());
     for (parameter, theta) in o.found.parameters.iter().zip(o.found.fitted.theta()) {
@@ -67,12 +67,12 @@ pub(super) fn show(o: &IdentificationOfSet, page: &mut Page) {
     let kinked: Vec<&str> = kinked.map(|parameter| parameter.name.as_str()).collect();
     if !kinked.is_empty() {
         page.line(format!(
-            "kink: derivatives differ on both sides of the minimum, so that the linearised intervals of {} are a guess; trust those by profile",
+            "kink: derivatives differ on both sides of the minimum, so the linearised intervals of {} are only approximate; use the profile intervals",
             kinked.join(", ")
         ));
     }
     if o.found.fitted.inference.is_robust() {
-        page.line("a robust loss has no intervals by profile");
+        page.line("a robust loss has no profile intervals");
     }
 }
 
@@ -83,7 +83,7 @@ fn table(o: &IdentificationOfSet) -> TextTable {
     if widening.is_some() {
         head.push("widened");
     }
-    head.extend(["95 % by profile", "verdict"]);
+    head.extend(["95 % profile", "verdict"]);
     let mut table = TextTable::new(&head);
     for (k, parameter) in o.parameters.iter().enumerate() {
         let interval = |widening: f64| {
@@ -111,7 +111,7 @@ fn table(o: &IdentificationOfSet) -> TextTable {
     table
 }
 
-/// An interval by profile, with what is to be known of it.
+/// A profile interval with its notes.
 fn profile(profile: &ProfileOfParameter) -> String {
     let (Some(ends), Some(reach)) = (profile.ends, profile.reach) else {
         return "failed".to_owned();

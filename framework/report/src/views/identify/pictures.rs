@@ -1,5 +1,5 @@
-//! Pictures of identifications: parameters between their bounds, deviations before and after, losses beside the measured
-//! total, residuals, correlations, what to measure next.
+//! Figures of identifications: parameters between their bounds, deviations before and after, losses and measured total, residuals,
+//! correlations, proposed measurements.
 
 use gearloss_numerics::inference::{Accuracy, BandMean, Parameter};
 use gearloss_studies::analyses::identify::lines::Sheet;
@@ -14,9 +14,9 @@ use crate::page::Page;
 use crate::plot::{Interval, Line, Stroke};
 use crate::{Figure, Map};
 
-/// Correlation from which on the joint region of two parameters is drawn, and for how many pairs.
+/// Minimum correlation for a figure of the joint region of two parameters, and the maximum number of pairs.
 const JOINT: (f64, usize) = (0.8, 4);
-/// Points of a drawn border.
+/// Number of points of a drawn border.
 const BORDER: u32 = 72;
 
 pub(super) fn draw(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mut Page) {
@@ -51,7 +51,7 @@ pub(super) fn draw(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mu
     }
 }
 
-/// Where the parameters lie between their bounds, in the coordinates in which they are counted.
+/// Positions of the parameters between their bounds, in the coordinates of the fit.
 fn parameters(name: &str, o: &IdentificationOfSet) -> Figure {
     let inference = &o.found.fitted.inference;
     let all = inference.parameters().iter().zip(&o.found.parameters).enumerate();
@@ -72,13 +72,13 @@ fn parameters(name: &str, o: &IdentificationOfSet) -> Figure {
     };
     Figure::Intervals {
         title: format!("{name}: parameters of {} between their bounds", o.model_set),
-        x: "0: least, 1: greatest value allowed (logarithmic ones by their logarithm)".to_owned(),
+        x: "0: lower bound, 1: upper bound (logarithmic parameters by their logarithm)".to_owned(),
         marks: vec![0.0, 1.0],
         list: all.map(interval).filter(|i| i.at.is_finite()).collect(),
     }
 }
 
-/// Deviations over speed and torque before and after, a pair of maps with the same colours for each sheet.
+/// Deviations over speed and torque before and after the fit: two maps with the same colours for each sheet.
 fn maps(name: &str, o: &IdentificationOfSet, quantity: Quantity) -> Vec<(String, Figure)> {
     let (what, unit) = words(quantity);
     let measured = &o.found.measured;
@@ -134,7 +134,7 @@ pub(super) fn numbered(what: &str, o: &IdentificationOfSet, number: usize) -> St
     }
 }
 
-/// Accuracy of the measurement over a sheet, root of the mean square, in the unit of deviations.
+/// Root mean square accuracy of the measurement over a sheet, in the unit of the deviations.
 fn accuracy(o: &IdentificationOfSet, quantity: Quantity, sheet: &Sheet) -> Option<f64> {
     if o.found.fitted.inference.accuracy() == Accuracy::Estimated {
         return None;
@@ -202,7 +202,7 @@ fn correlations(name: &str, o: &IdentificationOfSet) -> Figure {
     })
 }
 
-/// Joint 95 % regions of the pairs that are known together only.
+/// Joint 95 % regions of strongly correlated pairs.
 fn joint(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
     let inference = &o.found.fitted.inference;
     let count = inference.parameters().len();
@@ -221,7 +221,7 @@ fn joint(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
     let figure = |(j, k, correlation): &(usize, usize, f64)| {
         let (one, other) = (&inference.parameters()[*j], &inference.parameters()[*k]);
         let (a, b) = (inference.deviation(*j)?, inference.deviation(*k)?);
-        // Two parameters together: chi-square of two degrees of freedom.
+        // Chi-square of two degrees of freedom.
         let radius = (-2.0 * 0.05_f64.ln()).sqrt();
         let border = |i: u32| {
             let angle = std::f64::consts::TAU * f64::from(i) / f64::from(BORDER);
@@ -248,7 +248,7 @@ fn joint(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
         };
         Some(Figure::Lines {
             title: format!(
-                "{name}: {} and {} of {} together, correlation {correlation:.2}",
+                "{name}: joint region of {} and {} of {}, correlation {correlation:.2}",
                 one.name, other.name, o.model_set
             ),
             x: named(&one.name, units[0]),
@@ -263,7 +263,7 @@ fn joint(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
     shown.map(|(i, figure)| (format!("joint-{}", i + 1), figure)).collect()
 }
 
-/// What one more point would tell, over speed and torque, with the points of the plan.
+/// The information of one more point over speed and torque, with the points of the plan.
 fn next(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
     let Some(Ok(next)) = &o.found.next else {
         return Vec::new();
@@ -279,7 +279,7 @@ fn next(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
         });
         let label = |x: f64| format!("{}", tidy(x));
         let map = Map {
-            title: format!("{name}: what one more point tells about {}{at}", o.model_set),
+            title: format!("{name}: information of one more point on {}{at}", o.model_set),
             x: ("speed rpm".to_owned(), speeds.iter().map(|w| label(w * RPM)).collect()),
             y: ("torque Nm".to_owned(), torques.iter().map(|t| label(*t)).collect()),
             values: next.plan.gains[i * size..(i + 1) * size]
@@ -287,7 +287,7 @@ fn next(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
                 .map(|g| Some(*g))
                 .collect(),
             marks: marks.collect(),
-            marked: "to be measured".to_owned(),
+            marked: "proposed".to_owned(),
             ..Map::default()
         };
         let what = if next.oils.len() == 1 {

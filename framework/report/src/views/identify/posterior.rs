@@ -1,4 +1,4 @@
-//! The posterior beside the intervals of the fit and by profile, as text.
+//! Intervals of the posterior, the fit and the profiles as text.
 
 use gearloss_studies::analyses::identify::IdentificationOfSet;
 
@@ -15,9 +15,9 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         "parameter",
         "unit",
         "median",
-        "95 % of the posterior",
+        "95 % posterior",
         "95 % linearised",
-        "95 % by profile",
+        "95 % profile",
         "independent draws",
     ]);
     let or_dash = |ends: Option<[f64; 2]>| ends.map_or_else(|| "-".to_owned(), span);
@@ -44,8 +44,8 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         let least = all.clone().map(|p| p.independent_draws).fold(f64::INFINITY, f64::min);
         let slowest = all.map(|p| p.autocorrelation_steps).fold(1.0, f64::max);
         page.verdict(format!(
-            "{name}: the posterior is not settled: {least:.0} independent draws, and a walker remembers {slowest:.0} of its {} steps; \
-             400 draws and twenty times as many steps are due: write more `steps`",
+            "{name}: the posterior has not converged: {least:.0} independent draws, autocorrelation time {slowest:.0} of {} steps; \
+             at least 400 draws and 20 autocorrelation times are required: increase `steps`",
             posterior.steps
         ));
     }

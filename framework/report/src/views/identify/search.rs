@@ -1,4 +1,4 @@
-//! How a search went, as text.
+//! The course of a search as text.
 
 use gearloss_numerics::least_squares::{Minimum, Status};
 use gearloss_studies::analyses::identify::IdentificationOfSet;
@@ -7,10 +7,10 @@ use gearloss_studies::identify::Identified;
 use super::{short, words};
 use crate::page::Page;
 
-/// Other minima that are printed, and the distance in standard errors from which on a parameter differs there.
+/// Maximum number of printed other minima, and the distance in standard errors above which a parameter counts as different.
 const MINIMA: usize = 5;
 const DIFFERS: f64 = 0.5;
-/// Relative difference from which on a parameter without a standard error differs.
+/// Relative difference above which a parameter without a standard error counts as different.
 const APART: f64 = 0.01;
 
 pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
@@ -33,7 +33,7 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     }
     if !fit.kinks.is_empty() && o.search.kinks.is_empty() {
         page.line(format!(
-            "{name}: minimum at a kink of the residuals, at which no part's loss jumps"
+            "{name}: minimum at a kink of the residuals at which no component's loss is discontinuous"
         ));
     }
     for other in minima.iter().skip(1).take(MINIMA) {
@@ -41,7 +41,7 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     }
     if minima.len() > MINIMA + 1 {
         page.line(format!(
-            "{name}: {} more minima are in the JSON",
+            "{name}: {} more minima are listed in the JSON file",
             minima.len() - MINIMA - 1
         ));
     }
@@ -49,17 +49,17 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         page.line(format!("note: {note}"));
     }
     if let Some(kinship) = o.search.kinship {
-        page.line(format!("minima of the same misfit: {kinship}"));
+        page.line(format!("minima with the same misfit: {kinship}"));
     }
     for (quantity, factor) in &o.found.fitted.factors {
         page.line(format!(
-            "the stated accuracy of the {} is to be multiplied by {factor:.2}",
+            "the stated accuracy of the {} should be multiplied by {factor:.2}",
             words(*quantity).0
         ));
     }
 }
 
-/// How the search ended.
+/// The status of the search.
 fn ended(o: &IdentificationOfSet) -> String {
     let search = &o.search;
     match search.worth {
@@ -67,19 +67,19 @@ fn ended(o: &IdentificationOfSet) -> String {
             format!("converged at a kink ({})", search.reason)
         }
         Status::Converged => format!("converged ({})", search.reason),
-        Status::Singular => "converged, but a combination of parameters changes nothing (singular)".to_owned(),
+        Status::Singular => "converged, but a combination of parameters has no effect (singular)".to_owned(),
         Status::Failed | Status::Interrupted => format!("{} ({}): no minimum", search.status, search.reason),
     }
 }
 
-/// Where the starts lead.
+/// The minima that the starts lead to.
 fn starts(minima: &[Minimum]) -> String {
     let starts: usize = minima.iter().map(|m| m.starts.len()).sum();
     match (starts, minima.len()) {
         (1, _) => String::new(),
-        (starts, 1) => format!("; all {starts} starts lead there"),
+        (starts, 1) => format!("; all {starts} starts converge to it"),
         (starts, several) => format!(
-            "; {} of {starts} starts lead there, the others to {}",
+            "; {} of {starts} starts converge to it, the others to {}",
             minima[0].starts.len(),
             if several == 2 {
                 "another minimum".to_owned()
@@ -119,7 +119,7 @@ fn another(o: &IdentificationOfSet, other: &Minimum) -> String {
         "more".to_owned()
     };
     format!(
-        "another minimum, from {} of the starts, has a sum of squares of {} ({more}): {list}",
+        "another minimum, found from {} of the starts, has the sum of squares {} ({more}): {list}",
         other.starts.len(),
         short(other.fit.chi2())
     )

@@ -1,4 +1,4 @@
-//! Losses by mechanism beside the measured total, as pictures.
+//! Losses by mechanism compared with the measured total, as figures.
 
 use gearloss_studies::analyses::identify::IdentificationOfSet;
 use gearloss_studies::analyses::numbers::RPM;
@@ -8,7 +8,7 @@ use crate::Figure;
 use crate::plot::Bar;
 use crate::text::fixed;
 
-/// Losses by mechanism over speed at one torque, beside the measured total, before and after.
+/// Losses by mechanism and measured total over speed at one torque, before and after the fit.
 pub(super) fn pictures(name: &str, stack_at: Option<f64>, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
     let Ok(shares) = &o.found.shares else {
         return Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn pictures(name: &str, stack_at: Option<f64>, o: &IdentificationOfSe
             };
             let title = titled(
                 format!(
-                    "{name}: losses of {} at {torque:.1} Nm beside the measured total, {when}",
+                    "{name}: losses of {} at {torque:.1} Nm and measured total, {when}",
                     o.model_set
                 ),
                 sheet,

@@ -1,4 +1,4 @@
-//! One table for maps over speed and the values of one bound path.
+//! A table for maps over speed and the values of one bound path.
 
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, NotesOfSet, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, word};
@@ -7,10 +7,10 @@ use gearloss_studies::analysis::OilTemperature;
 use crate::page::Page;
 use crate::text::{TextTable, fixed, number, spread};
 
-/// A quantity in words, and how to read it.
+/// A quantity as text, and its reader.
 type Quantity = (&'static str, fn(&ShownPoint) -> Option<f64>);
 
-/// The loss, and with a balance the temperature, over speed and the values of the one bound path.
+/// The loss, and with a heat balance the temperature, over speed and the values of one bound path.
 pub fn show(outcome: &MapOutcome, sets: &[NotesOfSet], page: &mut Page) {
     let name = &outcome.head.analysis;
     for NotesOfSet { model_set, notes } in sets {

@@ -1,4 +1,4 @@
-//! Pictures of maps.
+//! Figures of maps.
 
 use gearloss_studies::analyses::map::{Axes, MapOfSet, MapOutcome, Mark, ShownGrid, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, tidy, word};
@@ -7,16 +7,16 @@ use gearloss_studies::analysis::OilTemperature;
 use crate::page::Page;
 use crate::{Cloud, Figure, Map};
 
-/// A quantity of the pictures.
+/// A quantity of the figures.
 struct Quantity {
-    /// In short, for the name of a file.
+    /// Short name for file names.
     short: &'static str,
     /// In words.
     long: &'static str,
     value: fn(&ShownPoint) -> Option<f64>,
 }
 
-/// Efficiency, loss, loss torque, and with a balance the temperature.
+/// Efficiency, loss, loss torque, and with a heat balance the temperature.
 fn quantities(outcome: &MapOutcome) -> Vec<Quantity> {
     let quantity = |short, long, value| Quantity { short, long, value };
     let mut all = vec![
@@ -30,19 +30,19 @@ fn quantities(outcome: &MapOutcome) -> Vec<Quantity> {
     all
 }
 
-/// Pictures over speed and torque; over speed and the bound values where there is one torque and one path is bound.
+/// Figures over speed and torque; over speed and the bound values if there is one torque and one bound path.
 pub fn draw(outcome: &MapOutcome, page: &mut Page) {
     let name = &outcome.head.analysis;
     let axes = AxisNames::new(outcome);
     for set in outcome.set_names() {
         let own: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == set).collect();
         for quantity in quantities(outcome) {
-            // Without load there is no efficiency to show.
+            // Without load there is no efficiency.
             let is_known = |m: &&MapOfSet| m.shown.points.iter().any(|p| (quantity.value)(p).is_some());
             if !own.iter().any(is_known) {
                 continue;
             }
-            // One scale for each quantity, so that maps can be compared by eye.
+            // All maps of a quantity share one colour scale.
             let values = outcome
                 .maps
                 .iter()
@@ -79,7 +79,7 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
     }
 }
 
-/// A quantity over speed and the values of the one bound path.
+/// A quantity over speed and the values of one bound path.
 fn over_bound(
     name: &str,
     quantity: &Quantity,
@@ -106,7 +106,7 @@ fn over_bound(
     })
 }
 
-/// Names of the axes, with the ports at which torque and speed are given.
+/// Names of the axes with the ports of torque and speed.
 struct AxisNames {
     speed: String,
     torque: String,
@@ -122,8 +122,7 @@ impl AxisNames {
     }
 }
 
-/// The pictures of one quantity of one map. Efficiency falls to zero at no torque from both sides, so each side has a picture
-/// of its own.
+/// The figures of one quantity of one map. The efficiency is zero at zero torque, so positive and negative torques have separate figures.
 fn over_torque(
     map: &MapOfSet,
     title: &str,
@@ -146,8 +145,8 @@ fn over_torque(
     let both = axes.torques.iter().any(|t| *t > 0.0) && axes.torques.iter().any(|t| *t < 0.0);
     let sides: &[(&str, &str, fn(f64) -> bool)] = if quantity.short == "efficiency" && both {
         &[
-            ("-above", ", torque above zero", |t| t > 0.0),
-            ("-below", ", torque below zero", |t| t < 0.0),
+            ("-above", ", positive torque", |t| t > 0.0),
+            ("-below", ", negative torque", |t| t < 0.0),
         ]
     } else {
         &[("", "", |_| true)]
@@ -179,12 +178,12 @@ fn over_torque(
     sides.iter().map(picture).collect()
 }
 
-/// A speed as the axis counts it.
+/// A speed in the unit of the axis.
 fn speed(axes: &Axes, speed: f64) -> f64 {
     tidy(axes.shares[0].map_or(speed * RPM, |rating| speed / rating))
 }
 
-/// A torque as the axis counts it.
+/// A torque in the unit of the axis.
 fn torque(axes: &Axes, torque: f64) -> f64 {
     tidy(axes.shares[1].map_or(torque, |rating| torque / rating))
 }
@@ -192,7 +191,7 @@ fn torque(axes: &Axes, torque: f64) -> f64 {
 /// Name and values of the axis of speeds.
 fn over_speed(axes: &Axes, names: &AxisNames) -> (String, Vec<String>) {
     let name = if axes.shares[0].is_some() {
-        "speed over rating"
+        "speed / rated speed"
     } else {
         &names.speed
     };
@@ -203,7 +202,7 @@ fn over_speed(axes: &Axes, names: &AxisNames) -> (String, Vec<String>) {
 /// Name and values of the axis of torques.
 fn torque_axis(axes: &Axes, names: &AxisNames) -> (String, Vec<String>) {
     let name = if axes.shares[1].is_some() {
-        "torque over rating"
+        "torque / rated torque"
     } else {
         &names.torque
     };

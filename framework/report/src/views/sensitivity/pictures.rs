@@ -1,4 +1,4 @@
-//! Bars of effects, effects over their scatter, stacks of shares.
+//! Figures of sensitivity: bars of effects, sigma over mu*, stacked shares.
 
 use gearloss_studies::analyses::sensitivity::{OutputKind, OutputSensitivity, SensitivityOfSet};
 
@@ -7,7 +7,7 @@ use crate::Figure;
 use crate::page::Page;
 use crate::plot::{Bar, Line, Stroke};
 
-/// Letters of a name in a legend, and of a line below a bar.
+/// Maximum number of letters of a name in a legend, and of a line below a bar.
 const NAME: usize = 21;
 const LINE: usize = 14;
 
@@ -24,7 +24,7 @@ pub fn draw(name: &str, set: &SensitivityOfSet, page: &mut Page) {
     }
 }
 
-/// A bar for each parameter, the greatest first: change of the mean loss, else its share of the variance, else the slope.
+/// A bar for each parameter, the largest first: effect on the mean loss, otherwise share of the variance, otherwise slope.
 fn effects(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
     let loss = set.outputs.first()?;
     let (values, height): (Vec<f64>, &str) = match (&loss.morris, &loss.sobol, &loss.local) {
@@ -34,7 +34,7 @@ fn effects(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
         ),
         (None, Some(shares), _) => (
             shares.total.iter().map(|share| share.value.max(0.0)).collect(),
-            "share of the variance, with others",
+            "total share of the variance",
         ),
         (None, None, Some(slopes)) => (
             slopes
@@ -52,7 +52,7 @@ fn effects(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
         ..Bar::default()
     };
     Some(Figure::Bars {
-        title: format!("{name}: what the mean loss depends on, models {}", set.model_set),
+        title: format!("{name}: sensitivity of the mean loss, models {}", set.model_set),
         over: String::new(),
         height: height.to_owned(),
         names: vec!["mean loss".to_owned()],
@@ -60,7 +60,7 @@ fn effects(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
     })
 }
 
-/// The size of the effect of each parameter and how it varies; above the line it varies by more than its size.
+/// Mean and standard deviation of the effect of each parameter; above the line sigma exceeds mu*.
 fn morris(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
     let effects = set.outputs.first()?.morris.as_ref()?;
     let effect = set.parameters.iter().zip(effects).map(|(parameter, effect)| Line {
@@ -79,7 +79,7 @@ fn morris(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
     });
     Some(Figure::Lines {
         title: format!(
-            "{name}: effects on the mean loss and how they vary, models {}",
+            "{name}: effects on the mean loss, mean and standard deviation, models {}",
             set.model_set
         ),
         x: "mu* in W".to_owned(),
@@ -88,8 +88,7 @@ fn morris(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
     })
 }
 
-/// What the parameters explain alone of the variance of the loss, of each mechanism and of the efficiency; the rest is due to
-/// their interactions.
+/// First-order shares of the variance of the loss, of each mechanism and of the efficiency; the remainder is due to interactions.
 fn shares(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
     let bar = |output: &OutputSensitivity| {
         let shares = output.sobol.as_ref().filter(|shares| shares.variance > 0.0)?;

@@ -1,4 +1,4 @@
-//! Pictures of a ranking: where each model is at best, errors of the best, spread of the shortlist.
+//! Figures of a ranking: best error with each model, errors of the best combinations, spread of the shortlist.
 
 use gearloss_studies::analyses::tournament::{RankedCombination, RankedPoint, Ranking};
 use gearloss_studies::analysis::bands;
@@ -28,15 +28,15 @@ fn models(name: &str, ranking: &Ranking) -> Figure {
         }
     }
     Figure::Bars {
-        title: format!("{name}: error of the best combination with each model, over the accuracy of the points"),
+        title: format!("{name}: error of the best combination with each model, relative to the accuracy of the points"),
         over: String::new(),
-        height: "predicted rms over the accuracy".to_owned(),
+        height: "predicted rms / accuracy".to_owned(),
         names: vec!["predicted rms".to_owned()],
         bars,
     }
 }
 
-/// Errors of the best three over the speed.
+/// Errors of the best three combinations over speed.
 fn errors(name: &str, ranking: &Ranking) -> Figure {
     let line = |c: &RankedCombination| {
         let error = |(point, loss): (&RankedPoint, f64)| {
@@ -51,14 +51,14 @@ fn errors(name: &str, ranking: &Ranking) -> Figure {
     };
     let unit = ranking.unit_in_words;
     Figure::Lines {
-        title: format!("{name}: model minus measurement of the best three, in {unit}"),
+        title: format!("{name}: model minus measurement of the best three combinations, in {unit}"),
         x: "speed in rpm".to_owned(),
         y: format!("error in {unit}"),
         lines: ranking.ranking.iter().take(3).map(line).collect(),
     }
 }
 
-/// How far the combinations spread that are not distinguishable from the winner, over the speed.
+/// Spread of the combinations that are not distinguishable from the winner, over speed.
 fn shortlist(name: &str, ranking: &Ranking) -> Figure {
     let points = &ranking.points;
     let spread = |i: &usize| {

@@ -1,4 +1,4 @@
-//! A ranking as text: the first combinations, and what follows.
+//! A ranking as text: the first combinations and the verdict.
 
 use gearloss_numerics::inference::VISIBLE;
 use gearloss_studies::analyses::tournament::{RankedCombination, RankedPoint, Ranking};
@@ -14,7 +14,7 @@ pub fn show(name: &str, ranking: &Ranking, page: &mut Page) {
     }
     if ranking.unranked > 0 {
         page.line(format!(
-            "{} combinations could not be fitted, or have no point that counts",
+            "{} combinations could not be fitted or have no valid point",
             ranking.unranked
         ));
     }
@@ -22,22 +22,22 @@ pub fn show(name: &str, ranking: &Ranking, page: &mut Page) {
     summary(name, ranking, page);
     shortlist(name, ranking, page);
     page.line(format!(
-        "losses are added, each mechanism at the torques of the set: for the best combination that is {:.3} % of the loss off at most",
+        "losses of mechanisms are computed at the torques of the set and added; for the best combination the error is at most {:.3} % of the loss",
         ranking.gap_of_sum
     ));
     page.line("");
 }
 
-/// The combinations with the smallest errors, and the winner wherever it is.
+/// The combinations with the smallest errors, and the winner.
 fn table(name: &str, ranking: &Ranking, page: &mut Page) {
     page.line(format!(
-        "{name}: the combinations with the smallest errors; * the winner, = not distinguishable from it; errors in {}",
+        "{name}: the combinations with the smallest errors; *: winner, =: not distinguishable from it; errors in {}",
         ranking.unit_in_words
     ));
     let mut head = vec!["rank"];
     head.extend(ranking.mechanisms.iter().map(|m| m.mechanism.as_str()));
     head.extend([
-        "over accuracy",
+        "rms / accuracy",
         "predicted rms",
         "worst group",
         "fitted rms",
@@ -89,7 +89,7 @@ fn row(ranking: &Ranking, i: usize) -> Vec<String> {
     row
 }
 
-/// Relative time of a combination: that of the set, with what each candidate adds to it.
+/// Relative time of a combination: the time of the set with the addition of each candidate.
 fn time(ranking: &Ranking, c: &RankedCombination) -> f64 {
     let chosen = ranking.mechanisms.iter().zip(&c.places);
     let more: f64 = chosen
@@ -98,23 +98,22 @@ fn time(ranking: &Ranking, c: &RankedCombination) -> f64 {
     (1.0 + more).max(0.0)
 }
 
-/// What follows from the ranking.
+/// The verdict of the ranking.
 fn summary(name: &str, ranking: &Ranking, page: &mut Page) {
     page.line(format!(
-        "{name}: {} points in {} groups of neighbouring torques; errors over the accuracy of the loss, and in {}: the ranking is the \
+        "{name}: {} points in {} groups of neighbouring torques; errors relative to the accuracy of the loss, and in {}: the ranking is the \
          same in every unit",
         ranking.points.len(),
         ranking.groups,
         ranking.unit_in_words
     ));
     let how = if ranking.correlation_estimated {
-        "estimated from the residuals of the best"
+        "estimated from the residuals of the best combination"
     } else {
         "stated"
     };
     page.line(format!(
-        "{name}: correlation of the errors of any two points {:.2} ({how}), variance {:.2} times the stated one; the set of points sees \
-         predictions that are {:.1} standard deviations of the set apart",
+        "{name}: correlation of the errors of any two points {:.2} ({how}), variance {:.2} times the stated one; the set of points distinguishes predictions that differ by {:.1} standard deviations of the set",
         ranking.correlation,
         ranking.variance_over_stated,
         VISIBLE.sqrt()
@@ -122,7 +121,7 @@ fn summary(name: &str, ranking: &Ranking, page: &mut Page) {
     page.verdict(format!("{name}: {}", verdict(ranking)));
 }
 
-/// How far the combinations spread that are not distinguishable from the winner.
+/// Spread of the combinations that are not distinguishable from the winner.
 fn shortlist(name: &str, ranking: &Ranking, page: &mut Page) {
     let members = ranking.ranking.iter().filter_map(|c| Some((c.weight?, c)));
     let mut members: Vec<(f64, &RankedCombination)> = members.collect();
@@ -139,8 +138,7 @@ fn shortlist(name: &str, ranking: &Ranking, page: &mut Page) {
         Statistics::of(all).map(|s| s.rms)
     };
     page.verdict(format!(
-        "{name}: the shortlist of {} spreads by {} % of the loss (weighted standard deviation, root mean square over the points; half of \
-         the distance between its extremes {} %); largest weights: {}",
+        "{name}: the shortlist of {} spreads by {} % of the loss (weighted standard deviation, root mean square over the points; half the distance between its extremes {} %); largest weights: {}",
         members.len(),
         number(rms(|p| 100.0 * p.deviation_w / p.mean_loss_w), 2),
         number(rms(|p| 50.0 * (p.greatest_loss_w - p.least_loss_w) / p.mean_loss_w), 2),

@@ -22,7 +22,7 @@ pub fn show(name: &str, spread: &Spread, page: &mut Page) {
         .iter()
         .map(|p| 0.5 * (p.greatest_loss_w - p.least_loss_w) * p.scale);
     page.verdict(format!(
-        "half of the distance between the extremes: {:.3} to {:.3} {}; standard deviation {:.3} in the root mean square",
+        "half the distance between the extremes: {:.3} to {:.3} {}; standard deviation {:.3} rms",
         halves.clone().fold(f64::INFINITY, f64::min),
         halves.fold(0.0, f64::max),
         spread.unit_in_words,

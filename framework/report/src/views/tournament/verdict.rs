@@ -1,8 +1,8 @@
-//! The winner in a sentence.
+//! The winner as a sentence.
 
 use gearloss_studies::analyses::tournament::{Comparison, RankedCombination, Ranking};
 
-/// The winner, whether it is marked, and how many are not distinguishable from it.
+/// The winner, its marks, and the number of combinations that are not distinguishable from it.
 pub fn verdict(ranking: &Ranking) -> String {
     let names = |place: usize| ranking.ranking[place].models.join(", ");
     let error = |place: usize| {
@@ -16,21 +16,21 @@ pub fn verdict(ranking: &Ranking) -> String {
     let how = if ranking.fits_factors {
         "predicted with factors from the other groups"
     } else {
-        "nothing fitted"
+        "without fitted factors"
     };
     let winner = ranking.winner;
     let mut sentence = format!("best: {}, {how}, errors {}", names(winner), error(winner));
     match (ranking.best_unmarked, ranking.best_against_unmarked) {
         (None, _) => sentence.push_str(&format!("; it is marked ({}), as every combination is", marks(winner))),
         (Some(unmarked), Some(against)) if winner == 0 => sentence.push_str(&format!(
-            "; it is marked ({}), but decidedly better than the best without a mark, {}, errors {}: {}",
+            "; it is marked ({}), but significantly better than the best combination without a mark, {}, errors {}: {}",
             marks(0),
             names(unmarked),
             error(unmarked),
             comparison(&against)
         )),
         (Some(_), Some(against)) => sentence.push_str(&format!(
-            "; the smallest errors of all, {}, are those of {}, which is marked ({}) and not decidedly better: {}",
+            "; the smallest errors of all, {}, are those of {}, which is marked ({}) and not significantly better: {}",
             error(0),
             names(0),
             marks(0),
@@ -41,12 +41,12 @@ pub fn verdict(ranking: &Ranking) -> String {
     let all = ranking.ranking.len() - 1;
     let members = ranking.ranking.iter().filter(|c| c.weight.is_some()).count();
     match members - 1 {
-        0 => format!("{sentence}; it is decidedly better than all {all} others"),
+        0 => format!("{sentence}; it is significantly better than all {all} others"),
         others => format!("{sentence}; {others} of the {all} other combinations are not distinguishable from it"),
     }
 }
 
-/// A comparison in words.
+/// A comparison as text.
 fn comparison(against: &Comparison) -> String {
     let groups = against.folds.map_or_else(
         || "too few groups to compare".to_owned(),
@@ -59,12 +59,12 @@ fn comparison(against: &Comparison) -> String {
         },
     );
     format!(
-        "{groups}, predictions {:.1} standard deviations of the set apart",
+        "{groups}, predictions differ by {:.1} standard deviations of the set",
         against.separation
     )
 }
 
-/// What speaks against a combination, for a column of a table.
+/// The marks of a combination for a column of a table.
 pub fn short_marks(ranking: &Ranking, c: &RankedCombination) -> String {
     let mut list: Vec<String> = Vec::new();
     for (mechanism, place) in ranking.mechanisms.iter().zip(&c.places) {

@@ -1,4 +1,4 @@
-//! One operating point of a gearbox in the report: loads, balance of powers, and what its losses rest on.
+//! One operating point of a gearbox in the report: loads, power balance, and the evidence of its losses.
 
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::evaluate::{Point, Reading, Solution};
@@ -6,17 +6,17 @@ use gearloss_framework::flow::Tolerance;
 use gearloss_framework::mechanism::bearing::BearingPart;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analyses::axes::{speeds, torques};
+use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::{Built, Context, gear_of};
 use gearloss_studies::analysis::{Given, OilTemperature, evidence};
 
-use super::super::super::solve::RPM;
-use super::super::{Built, gear_of, speeds, torques};
-use super::table;
-use crate::output::{fixed, number};
-use crate::report::PageTable;
-use gearloss_studies::analyses::Context;
+use super::PageTable;
+use super::gearbox::table;
+use crate::text::{fixed, number};
 
-/// Where the report looks: as the study says, or the greatest torque and speed of its first grid.
-pub fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
+/// The point of the report: from the study, or the largest torque and speed of its first grid.
+fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
     let entry = &runner.study.entry;
     let given = |torque, speed| Given {
         torque,
@@ -36,15 +36,15 @@ pub fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> 
     Some((gear, given(torque, speed)))
 }
 
-/// What the report shows of one point.
+/// The report of one point.
 pub struct Page {
-    /// The point in words.
+    /// The point as text.
     pub words: String,
-    /// Loads and balance under the first set, what losses rest on under every set.
+    /// Loads and balance with the first set, evidence of the losses with every set.
     pub tables: Vec<PageTable>,
 }
 
-/// Solves the point under every set.
+/// Solves the point with every set.
 pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -> Option<Page> {
     let first = sets.first()?;
     let (gear, given) = place(runner, &first.transmission)?;
@@ -72,7 +72,11 @@ pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) 
                 given.speed * RPM,
                 conditions.speed_at,
                 number(Some(warm.oil), 1),
-                if warm.outcome().is_some() { " by balance" } else { "" },
+                if warm.outcome().is_some() {
+                    " by heat balance"
+                } else {
+                    ""
+                },
                 b.name
             );
             if solution.has_flow() {
@@ -89,15 +93,15 @@ pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) 
         }
     }
     tables.push(table(
-        "Share of the loss in % that rests on assumed inputs, recalled formulas, and models outside of their stated range",
+        "Share of the loss in % that depends on assumed inputs, unchecked formulas, and models outside their validity range",
         &[
             "models",
             "loss W",
             "assumed input of the component",
-            "recalled or assumed formula or default",
-            "outside of a stated range",
-            "any of them",
-            "assumed, and of bearing on all of it",
+            "formula or default quoted from memory (not checked) or assumed",
+            "outside a validity range",
+            "any",
+            "assumed, affects all components",
         ],
         rests,
     ));
@@ -109,7 +113,7 @@ fn read(readings: &[Reading], name: &str) -> Option<f64> {
     readings.iter().find(|r| r.name == name).map(|r| r.value)
 }
 
-/// Loads of bearings, with static safety, speed factor and oil height.
+/// Loads of bearings, with static safety, speed factor and oil level.
 fn bearings(b: &Built<'_>, solution: &Solution<'_>) -> PageTable {
     let t = &b.transmission;
     let mut rows = Vec::new();
@@ -158,7 +162,7 @@ fn bearings(b: &Built<'_>, solution: &Solution<'_>) -> PageTable {
     )
 }
 
-/// How deep gears dip, where a model asks for it.
+/// Immersion depths of gears if a model uses them.
 fn dips(t: &Transmission, solution: &Solution<'_>) -> PageTable {
     let drags = t.parts().iter().enumerate().filter(|(_, p)| p.mechanism == "gear_drag");
     let rows = drags.map(|(i, part)| {
@@ -174,7 +178,7 @@ fn dips(t: &Transmission, solution: &Solution<'_>) -> PageTable {
         ]
     });
     table(
-        "Dip of gears below the oil: at the tip and at the reference circle, first and second gear",
+        "Immersion depth of gears at the tip and at the reference circle, first and second gear",
         &["drag", "tip mm", "reference mm", "tip 2 mm", "reference 2 mm", "loss W"],
         rows.collect(),
     )
@@ -206,7 +210,7 @@ fn ports(t: &Transmission, solution: &Solution<'_>) -> PageTable {
     table("Power at the ports", &["port", "n rpm", "T Nm", "P W"], rows)
 }
 
-/// Powers that each member takes and gives.
+/// Powers of each member.
 fn members(t: &Transmission, solution: &Solution<'_>) -> PageTable {
     let torques = solution.member_torques();
     let rows = t.members().iter().zip(&torques).enumerate().map(|(i, (name, own))| {
@@ -222,13 +226,13 @@ fn members(t: &Transmission, solution: &Solution<'_>) -> PageTable {
         ]
     });
     table(
-        "Balance of powers by member: what comes in is positive",
+        "Power balance by member, inflow positive",
         &["member", "n rpm", "ports W", "meshes W", "drags W", "residual W"],
         rows.collect(),
     )
 }
 
-/// Shares of the loss that rest on weak ground, in percent.
+/// Shares of the loss that depend on assumptions, unchecked formulas or extrapolation, in percent.
 fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> Vec<String> {
     let t = &b.transmission;
     let known = evidence(t, &b.resolved, &|path| b.gearbox.places.is_written(path));
@@ -273,7 +277,7 @@ fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> 
     let share = |watts: f64| number(loss.map(|loss| 100.0 * watts / loss), 1);
     let mut row = vec![b.name.clone(), number(loss, 3)];
     row.extend(sums.map(share));
-    // What is assumed of oil, housing, flanks or heat bears on everything.
+    // Assumptions on oil, housing, flanks or heat affect all components.
     let whole = ["lubricants", "housing", "surface", "thermal", "shafts"];
     let global: Vec<&str> = patterns
         .iter()
@@ -288,14 +292,14 @@ fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> 
     row
 }
 
-/// Paths of the gears of a mesh, whose inputs are those of its loss too.
+/// Paths of the gears of a mesh, whose inputs are also inputs of its loss.
 fn gears_of(t: &Transmission, part: usize) -> Vec<String> {
     let path = t.parts()[part].path.as_str();
     let path = path.split(".drag.").next().unwrap_or(path);
     t.gears_of_mesh(path).iter().map(|id| format!("gears.{id}")).collect()
 }
 
-/// True where a pattern names the component, something of it, or what it belongs to.
+/// True if a pattern matches the component, a part of it, or its parent.
 fn is_assumed(patterns: &[&str], component: &str) -> bool {
     patterns.iter().any(|pattern| {
         let mut keys = pattern.split('.');

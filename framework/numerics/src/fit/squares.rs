@@ -1,7 +1,7 @@
-//! Least squares of a few parameters, with what they are worth.
+//! Least squares of a few parameters, with confidence intervals.
 
-use gearloss_numerics::inference::{self, Accuracy, Standing};
-use gearloss_numerics::least_squares::{Options, Problem, Side, solve};
+use crate::inference::{self, Accuracy, Standing};
+use crate::least_squares::{Options, Problem, Side, solve};
 
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
@@ -9,28 +9,35 @@ const CONFIDENCE: f64 = 0.95;
 /// One parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Estimate {
+    /// Its name.
     pub name: String,
+    /// The value with the least squares.
     pub value: f64,
-    /// Absent where the points do not determine it.
+    /// Standard deviation. Absent if the points do not determine it.
     pub deviation: Option<f64>,
     /// Ends of the 95 % interval.
     pub interval: Option<[f64; 2]>,
-    /// Whether the points pull it against a bound.
+    /// Whether it is at an active bound.
     pub held: bool,
 }
 
-/// Parameters with the least squares of a problem, whose accuracy the scatter of the residuals tells.
+/// Least squares estimates of a problem; their accuracy is estimated from the scatter of the residuals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Squares {
+    /// One estimate for each parameter.
     pub estimates: Vec<Estimate>,
-    /// Of the first two parameters.
+    /// Correlation of the first two parameters.
     pub correlation: Option<f64>,
-    /// Root of the mean square of the residuals.
+    /// Root mean square of the residuals.
     pub rms: f64,
 }
 
 impl Squares {
-    pub fn of(problem: &Problem<'_>) -> Result<Self, String> {
+    /// Solves a problem.
+    ///
+    /// # Errors
+    /// Why the solver did not converge, or why the accuracy cannot be stated.
+    pub fn solve(problem: &Problem<'_>) -> Result<Self, String> {
         let fit = solve(problem, &Options::exact()).map_err(|fault| fault.to_string())?;
         let derivative = fit.derivative.as_ref().filter(|_| fit.converged());
         let derivative =

@@ -1,95 +1,25 @@
-//! The report of a run.
-
-mod point;
-
-use std::io::Write as _;
-use std::path::Path;
+//! A gearbox in the report: geometry, kinematics, and what its results rest on.
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::description::AssumedEntry;
-use gearloss_framework::evaluate::PowerFlow;
-use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
-use gearloss_report::schematic;
-use gearloss_studies::study::Study;
+use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::{Built, Context, Stopped};
 use serde_json::Value;
 
-use super::super::solve::RPM;
-use super::Run;
-use super::write::{Place, REPORT};
-use crate::output::{Failure, number};
-use crate::report::{Frame, GearboxPage, PageFault, PageTable};
-use gearloss_studies::analyses::{Built, Context};
+use super::{GearboxPage, PageTable, point};
+use crate::schematic;
+use crate::text::number;
 
-/// The user's template, where there is one.
-pub fn template(file: Option<&Path>) -> Result<Option<String>, Failure> {
-    let read = |file: &Path| {
-        read_text(file, LONGEST_TEXT).map_err(|e| {
-            Failure::input(
-                format!("cannot read {}: {e}", file.display()),
-                "name a template with --template",
-            )
-        })
-    };
-    file.map(read).transpose()
-}
-
-/// Writes `report.html` beside the results.
-pub fn write(runner: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
-    let context = runner.context("report");
-    for (i, (name, gearbox)) in runner.study.gearboxes.iter().enumerate() {
-        let page = page(&context, name, gearbox, i == 0)?;
-        runner.report.borrow_mut().gearbox(page);
-    }
-    let frame = Frame {
-        title: runner.study.entry.title.clone().unwrap_or_else(|| "Study".to_owned()),
-        question: runner.study.entry.question.clone().unwrap_or_default(),
-        conditions: conditions(runner),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        packages: runner
-            .language
-            .registry()
-            .packages()
-            .into_iter()
-            .map(|package| package.to_string())
-            .collect(),
-        study: runner.study.text.clone(),
-    };
-    let (place, mut to) = Place::new(&runner.files, REPORT)?;
-    let written = runner.report.borrow().html(&frame, template, &mut to);
-    written.map_err(|fault| match fault {
-        PageFault::Template(e) => Failure::input(
-            format!("the template of the report: {e}"),
-            "correct it, or leave --template out",
-        ),
-        PageFault::Write(e) => place.cannot(&e),
-    })?;
-    place.done(to.flush().map_err(|e| e.to_string()))
-}
-
-/// What every analysis starts from, as a sentence.
-fn conditions(runner: &Run<'_>) -> String {
-    let given = &runner.study.entry.conditions;
-    let oil = given.oil_temperature.map_or_else(
-        || "oil at the temperature of the gearbox".to_owned(),
-        |oil| format!("oil at {oil} °C"),
-    );
-    let flow = match given.power_flow {
-        PowerFlow::Real => "losses change the torques of what comes after them",
-        PowerFlow::Ideal => "torques without losses",
-    };
-    format!(
-        "Torque at `{}`, speed at `{}`, {oil}; {flow}. Sets of models stand in the study at the end of this page.",
-        given.torque_at, given.speed_at
-    )
-}
-
-/// What the results of a gearbox rest on: geometry and description under its own models, loads and losses under the sets that
-/// the analyses use.
-fn page(cx: &Context<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<GearboxPage, Failure> {
-    let sets = sets(cx.study, name, first);
-    // Overrides may be meant for the models of a set, which the own models of the gearbox do not take.
+/// The basis of a gearbox's results: geometry and description with its default models, loads and losses with the model sets of the
+/// analyses.
+///
+/// # Errors
+/// Everything that resolving and building find.
+pub fn gearbox_page(cx: &Context<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPage, Stopped> {
+    let sets = cx.study.sets_used_for(name);
+    // Overrides may apply only to the models of a set and not to the defaults of the gearbox.
     let own = cx.built(gearbox, &[]).or_else(|fault| match &sets[..] {
         [] => Err(fault),
         [first, ..] => cx.built(gearbox, std::slice::from_ref(first)),
@@ -125,7 +55,7 @@ fn page(cx: &Context<'_>, name: &str, gearbox: &Gearbox, first: bool) -> Result<
     })
 }
 
-/// Coefficients of models that were changed from their source; absent where none was.
+/// Coefficients that differ from their source; absent if there are none.
 fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> {
     let mut rows: Vec<Vec<String>> = Vec::new();
     for b in built {
@@ -145,29 +75,10 @@ fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> 
         }
     }
     let head = ["models", "path", "model", "coefficient", "value", "published", "source"];
-    (!rows.is_empty()).then(|| table("Coefficients changed from the source", &head, rows))
+    (!rows.is_empty()).then(|| table("Coefficients that differ from their source", &head, rows))
 }
 
-/// Names of the sets that the analyses use for a gearbox, each once.
-pub(super) fn sets(study: &Study, name: &str, first: bool) -> Vec<String> {
-    let mut sets: Vec<String> = Vec::new();
-    for (_, analysis) in study.entry.analyses.iter() {
-        let uses = analysis.uses();
-        let of_analysis = uses.gearbox.map_or(first, |g| g == name);
-        for set in uses.sets {
-            let own = match set.split_once('/') {
-                Some((product, _)) => (product == name).then(|| set.clone()),
-                None => of_analysis.then(|| set.clone()),
-            };
-            if let Some(set) = own.filter(|set| !sets.contains(set)) {
-                sets.push(set);
-            }
-        }
-    }
-    sets
-}
-
-fn table(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> PageTable {
+pub(super) fn table(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> PageTable {
     PageTable {
         title: title.to_owned(),
         head: head.iter().map(|h| (*h).to_owned()).collect(),
@@ -243,7 +154,7 @@ fn meshes(t: &Transmission) -> PageTable {
 
 /// Speed of every member in every gear state, for 1000 rpm at the first free port.
 fn states(t: &Transmission) -> PageTable {
-    let mut head = vec!["gear state", "port"];
+    let mut head = vec!["gear", "port"];
     head.extend(t.members().iter().map(String::as_str));
     let mut rows = Vec::new();
     for (i, state) in t.states().iter().enumerate() {

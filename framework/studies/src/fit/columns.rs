@@ -1,43 +1,39 @@
-//! Columns of a CSV file by name, in SI: `name [unit]` in the header, comments behind `#`.
+//! Columns of a CSV file by name, in SI: `name [unit]` in the header, comments after `#`.
 
-use std::path::Path;
+use gearloss_framework::document::{Diagnostic, Dimension, Unit, did_you_mean};
 
-use gearloss_framework::document::{Dimension, Unit, did_you_mean};
-use gearloss_framework::files::{LONGEST_DATA, read_text};
-
-use crate::output::Failure;
-
-/// What a unit measures.
+/// Dimension of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measure {
-    /// As in gearbox files, and nanometres, in which films are measured.
+    /// As in gearbox files, and nanometres for films.
     Of(Dimension),
     /// Shear rate, 1/s.
     ShearRate,
 }
 
-/// A quantity that a column may hold.
+/// A quantity of a column.
 #[derive(Debug, Clone, Copy)]
 pub struct Quantity {
     /// Name in the header.
     pub name: &'static str,
-    /// What its unit measures.
+    /// Its dimension.
     pub measure: Measure,
-    /// The unit to recommend.
+    /// The recommended unit.
     pub unit: &'static str,
 }
 
 impl Quantity {
+    /// A quantity with its name, what its unit measures, and the unit to recommend.
     pub const fn new(name: &'static str, measure: Measure, unit: &'static str) -> Self {
         Self { name, measure, unit }
     }
 
-    /// A plain number; it may stand without a unit, or in percent.
+    /// A plain number, without a unit or in percent.
     pub const fn plain(name: &'static str) -> Self {
         Self::new(name, Measure::Of(Dimension::None), "-")
     }
 
-    /// Factor and zero of a unit in SI.
+    /// Factor and offset of a unit to SI.
     fn conversion(&self, symbol: &str) -> Option<(f64, f64)> {
         match (self.measure, symbol) {
             (Measure::ShearRate, "1/s") | (Measure::Of(Dimension::None), "") => Some((1.0, 0.0)),
@@ -50,7 +46,7 @@ impl Quantity {
         }
     }
 
-    /// The column as a header names it.
+    /// The column name with its unit.
     pub fn header(&self) -> String {
         match self.unit {
             "-" => format!("`{}`", self.name),
@@ -69,18 +65,23 @@ pub struct Columns {
     rows: Vec<(u64, Vec<String>)>,
 }
 
+fn wrong_input(message: String, help: impl Into<String>) -> Diagnostic {
+    Diagnostic::error("", message).help(help)
+}
+
 fn cells(record: &csv::StringRecord) -> Vec<String> {
     record.iter().map(str::to_owned).collect()
 }
 
 impl Columns {
-    /// Reads a file.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        let file = path.display().to_string();
-        let text = read_text(path, LONGEST_DATA)
-            .map_err(|e| Failure::input(format!("cannot read {file}: {e}"), "check the name of the file"))?;
+    /// Reads the text of a file; errors name the file.
+    ///
+    /// # Errors
+    /// A row that has another number of cells than the header, or no row at all.
+    pub fn of_text(file: &str, text: &str) -> Result<Self, Diagnostic> {
+        let file = file.to_owned();
         let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
-        // Line by line: a reader of the whole text counts comments to the record behind them.
+        // Line by line: a reader of the whole text would count comments to the next record.
         for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
             if text.trim().is_empty() || text.starts_with('#') {
                 continue;
@@ -91,19 +92,19 @@ impl Columns {
                 .from_reader(text.as_bytes());
             let cells: Vec<String> = reader.records().flatten().flat_map(|r| cells(&r)).collect();
             if let Some((_, header)) = rows.first().filter(|(_, header)| header.len() != cells.len()) {
-                return Err(Failure::input(
+                return Err(wrong_input(
                     format!(
-                        "{file}: line {line}: {} cells where the header has {}",
+                        "{file}: line {line}: {} cells, but the header has {}",
                         cells.len(),
                         header.len()
                     ),
-                    "separate cells by commas, and write a decimal point",
+                    "separate cells by commas and use a decimal point",
                 ));
             }
             rows.push((line, cells));
         }
         if rows.len() < 2 {
-            return Err(Failure::input(
+            return Err(wrong_input(
                 format!("{file}: no row of numbers"),
                 "write a header and a row for each point",
             ));
@@ -124,29 +125,22 @@ impl Columns {
         })
     }
 
-    /// Name of the file.
-    pub fn file(&self) -> &str {
-        &self.file
-    }
-
-    /// Number of points.
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
     /// Whether there is a column of this name.
     pub fn has(&self, quantity: &Quantity) -> bool {
         self.names.iter().any(|(name, _)| name == quantity.name)
     }
 
-    /// Wrong input in a line of the file; line and place of a row by its number from zero.
-    pub fn wrong(&self, row: Option<usize>, message: &str, help: impl std::fmt::Display) -> Failure {
+    /// An input error in a row of the file (index from zero); without a row, in the header.
+    pub fn wrong(&self, row: Option<usize>, message: &str, help: impl Into<String>) -> Diagnostic {
         let line = row.map_or(self.head, |row| self.rows[row].0);
-        Failure::input(format!("{}: line {line}: {message}", self.file), help)
+        wrong_input(format!("{}: line {line}: {message}", self.file), help)
     }
 
-    /// A quantity in SI, one number for each point; only temperatures may be zero or below.
-    pub fn numbers(&self, quantity: &Quantity) -> Result<Vec<f64>, Failure> {
+    /// A quantity in SI, one number for each point; only temperatures may be zero or negative.
+    ///
+    /// # Errors
+    /// If there is no such column, its unit is none of the quantity, or a cell is no such number.
+    pub fn numbers(&self, quantity: &Quantity) -> Result<Vec<f64>, Diagnostic> {
         let Some(column) = self.names.iter().position(|(name, _)| name == quantity.name) else {
             let there: Vec<&str> = self.names.iter().map(|(name, _)| name.as_str()).collect();
             let near = did_you_mean(quantity.name, there.iter().copied());
@@ -161,7 +155,10 @@ impl Columns {
         let Some((factor, zero)) = quantity.conversion(unit) else {
             let message = match unit {
                 "" => format!("`{}` has no unit", quantity.name),
-                _ => format!("`{}` is in `{unit}`, which is no unit of it", quantity.name),
+                _ => format!(
+                    "`{}` is in `{unit}`, which is not a unit of this quantity",
+                    quantity.name
+                ),
             };
             return Err(self.wrong(None, &message, format!("convert it and write {}", quantity.header())));
         };
@@ -171,28 +168,22 @@ impl Columns {
             let place = format!("column {} `{}`", column + 1, quantity.name);
             let number = cell.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| {
                 let message = format!("{place}: `{cell}` is not a number");
-                self.wrong(Some(row), &message, "write a number, or leave the row out")
+                self.wrong(Some(row), &message, "write a number, or delete the row")
             })?;
             if any || number > 0.0 {
                 Ok(number * factor + zero)
             } else {
                 let message = format!("{place}: {cell} is not above zero");
-                Err(self.wrong(Some(row), &message, "write magnitudes, and leave out points at rest"))
+                Err(self.wrong(Some(row), &message, "write magnitudes, and delete points at standstill"))
             }
         };
         (0..self.rows.len()).map(cell).collect()
     }
 
-    /// Names of columns that are none of these quantities.
-    pub fn others(&self, quantities: &[Quantity]) -> Vec<&str> {
+    /// Names of columns other than these quantities: those that are not used.
+    pub fn unused(&self, quantities: &[Quantity]) -> Vec<&str> {
         let known = |name: &str| quantities.iter().any(|q| q.name == name);
         let names = self.names.iter().map(|(name, _)| name.as_str());
         names.filter(|name| !known(name)).collect()
-    }
-
-    /// A sentence about the columns that are not used; absent where all are.
-    pub fn unused(&self, quantities: &[Quantity]) -> Option<String> {
-        let others = self.others(quantities);
-        (!others.is_empty()).then(|| format!("note: not used: {}", others.join(", ")))
     }
 }

@@ -1,65 +1,66 @@
-//! The report of a study: one HTML file that opens without a network, with interactive pictures and the data behind them.
+//! The report of a study: one HTML page that works offline, with interactive figures and their data.
 
-use std::io::Write;
+mod gearbox;
+mod point;
 
 use gearloss_framework::description::AssumedEntry;
-use gearloss_report::Figure;
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::language::Language;
+use gearloss_studies::study::Study;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, ErrorKind, Value as Filled};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::Value;
 
-/// The template that is used unless the user gives one of his own.
-const TEMPLATE: &str = include_str!("report/template.html");
+pub use gearbox::gearbox_page;
 
-/// Steps that a template may take. The page of a large study takes some ten thousands; as many as these take seconds.
+use crate::Figure;
+use crate::page::{Page, Text};
+
+/// The built-in template.
+const TEMPLATE: &str = include_str!("html/template.html");
+
+/// Maximum number of steps of a template. A large study needs some ten thousand; this limit takes seconds.
 const MOST_STEPS: u64 = 10_000_000;
 
-/// Everything that a report shows, collected while a study runs.
+/// The content of a report, collected while a study runs.
 #[derive(Debug, Default)]
 pub struct Report {
-    sections: Vec<Section>,
-    gearboxes: Vec<GearboxPage>,
+    /// Analyses in their order.
+    pub sections: Vec<Section>,
+    /// Gearboxes in their order.
+    pub gearboxes: Vec<GearboxPage>,
 }
 
 /// One analysis.
-#[derive(Debug)]
-struct Section {
-    name: String,
-    /// What the analysis is, as a sentence.
-    about: String,
-    /// Sentences that a reader must not miss.
-    verdicts: Vec<String>,
+#[derive(Debug, Default)]
+pub struct Section {
+    /// Name of the analysis.
+    pub name: String,
+    /// Description of the analysis as a sentence.
+    pub about: String,
+    /// Main conclusions.
+    pub verdicts: Vec<String>,
     /// Tables and notes as printed.
-    text: String,
-    figures: Vec<Figure>,
+    pub text: String,
+    /// Pictures.
+    pub figures: Vec<Figure>,
 }
 
-/// Why the page cannot be written.
-#[derive(Debug)]
-pub enum PageFault {
-    /// What is wrong with the template.
-    Template(String),
-    /// What the file says.
-    Write(String),
-}
-
-impl From<minijinja::Error> for PageFault {
-    fn from(e: minijinja::Error) -> Self {
-        let words = format!("{e:#}");
-        match e.kind() {
-            ErrorKind::WriteFailure => Self::Write(words),
-            ErrorKind::OutOfFuel => Self::Template(format!(
-                "it takes more than {} million steps; is there a loop inside of a loop?",
-                MOST_STEPS / 1_000_000
-            )),
-            _ => Self::Template(words),
+impl Section {
+    /// Adds text and verdicts of an outcome; its pictures are taken from the page one by one.
+    pub fn add_text(&mut self, page: &Page) {
+        for text in &page.text {
+            let (Text::Everywhere(text) | Text::InReport(text)) = text;
+            self.text.push_str(text);
         }
+        self.verdicts.extend(page.verdicts.iter().cloned());
     }
 }
 
-/// A section as templates see it.
+/// A section for templates.
 #[derive(Serialize)]
 struct SectionOfPage<'a> {
     name: &'a str,
@@ -69,31 +70,31 @@ struct SectionOfPage<'a> {
     figures: Vec<FigureOfPage<'a>>,
 }
 
-/// A picture as templates see it; its data stand in `figures`.
+/// A figure for templates; its data are in `figures`.
 #[derive(Serialize)]
 struct FigureOfPage<'a> {
     id: String,
     title: &'a str,
 }
 
-/// A gearbox with what its results rest on.
+/// A gearbox and the basis of its results.
 #[derive(Debug, Serialize)]
 pub struct GearboxPage {
     /// Name in the study.
     pub name: String,
     /// Title.
     pub title: String,
-    /// Where the description comes from.
+    /// Source of the description.
     pub source: String,
     /// Drawing, as SVG.
     pub drawing: String,
     /// Tables of geometry and kinematics.
     pub tables: Vec<PageTable>,
-    /// An operating point in words; empty where there is none.
+    /// An operating point as text; empty if there is none.
     pub point: String,
     /// Loads, balances and shares at that point.
     pub point_tables: Vec<PageTable>,
-    /// What is assumed and why.
+    /// Assumptions with their reasons.
     pub assumed: Vec<AssumedEntry>,
     /// The resolved description.
     pub resolved: String,
@@ -110,82 +111,88 @@ pub struct PageTable {
     pub rows: Vec<Vec<String>>,
 }
 
-/// What stands at head and foot of the page.
+/// Head and foot of the page.
 #[derive(Debug, Serialize)]
 pub struct Frame {
     /// Title of the study.
     pub title: String,
     /// The question that it answers.
     pub question: String,
-    /// What every analysis starts from, as a sentence.
+    /// The conditions of all analyses as a sentence.
     pub conditions: String,
     /// Version of the program.
     pub version: String,
-    /// Crates that brought models.
+    /// Crates with models.
     pub packages: Vec<String>,
     /// The study as written.
     pub study: String,
 }
 
+impl Frame {
+    /// That of a study, for a version of the program.
+    pub fn new(study: &Study, language: &Language, version: &str) -> Self {
+        let packages = language.registry().packages();
+        Self {
+            title: study.entry.title.clone().unwrap_or_else(|| "Study".to_owned()),
+            question: study.entry.question.clone().unwrap_or_default(),
+            conditions: conditions(study),
+            version: version.to_owned(),
+            packages: packages.iter().map(ToString::to_string).collect(),
+            study: study.text.clone(),
+        }
+    }
+}
+
+/// The conditions of all analyses as a sentence.
+fn conditions(study: &Study) -> String {
+    let given = &study.entry.conditions;
+    let oil = given.oil_temperature.map_or_else(
+        || "oil temperature of the gearbox".to_owned(),
+        |oil| format!("oil at {oil} °C"),
+    );
+    let flow = match given.power_flow {
+        PowerFlow::Real => "torque reduced by upstream losses (real power flow)",
+        PowerFlow::Ideal => "torque without losses (ideal power flow)",
+    };
+    format!(
+        "Torque at `{}`, speed at `{}`, {oil}; {flow}. Model sets are listed in the study at the end of this page.",
+        given.torque_at, given.speed_at
+    )
+}
+
+/// The finding about an error of a template.
+fn template_fault(fault: minijinja::Error) -> Diagnostic {
+    let words = match fault.kind() {
+        ErrorKind::OutOfFuel => format!(
+            "it takes more than {} million steps; does it contain nested loops?",
+            MOST_STEPS / 1_000_000
+        ),
+        _ => format!("{fault:#}"),
+    };
+    Diagnostic::error("", format!("the template of the report: {words}")).help("correct it, or omit --template")
+}
+
 impl Report {
-    /// Begins the section of an analysis.
-    pub fn begin(&mut self, name: &str, about: &str) {
-        self.sections.push(Section {
-            name: name.to_owned(),
-            about: about.to_owned(),
-            verdicts: Vec::new(),
-            text: String::new(),
-            figures: Vec::new(),
-        });
-    }
-
-    /// Takes back the last section.
-    pub fn drop_last(&mut self) {
-        self.sections.pop();
-    }
-
-    /// Adds a picture to the section.
-    pub fn figure(&mut self, figure: Figure) {
-        if let Some(section) = self.sections.last_mut() {
-            section.figures.push(figure);
-        }
-    }
-
-    /// Adds a sentence that a reader must not miss to the section.
-    pub fn verdict(&mut self, sentence: &str) {
-        if let Some(section) = self.sections.last_mut() {
-            section.verdicts.push(sentence.to_owned());
-        }
-    }
-
-    /// Adds what was printed to the section.
-    pub fn text(&mut self, text: &str) {
-        if let Some(section) = self.sections.last_mut() {
-            section.text.push_str(text);
-        }
-    }
-
-    /// Adds a gearbox.
-    pub fn gearbox(&mut self, page: GearboxPage) {
-        self.gearboxes.push(page);
-    }
-
-    /// Writes the page, by the user's template where he gives one.
+    /// The page, by the user's template if there is one.
     ///
     /// # Errors
-    /// What is wrong with the template, or with the file.
-    pub fn html(&self, frame: &Frame, template: Option<&str>, to: impl Write) -> Result<(), PageFault> {
+    /// Error of the template.
+    pub fn html(&self, frame: &Frame, template: Option<&str>) -> Result<String, Diagnostic> {
+        self.filled(frame, template).map_err(template_fault)
+    }
+
+    fn filled(&self, frame: &Frame, template: Option<&str>) -> Result<String, minijinja::Error> {
         let mut environment = Environment::new();
         environment.set_auto_escape_callback(|_| AutoEscape::Html);
         environment.set_fuel(Some(MOST_STEPS));
-        // It stands in no list of templates, so that there is none to include, not even itself.
+        // The environment has no named templates, so a template cannot include any, not even itself.
         let page = environment.template_from_named_str("report", template.unwrap_or(TEMPLATE))?;
         let all: Vec<&Figure> = self.sections.iter().flat_map(|section| &section.figures).collect();
         let id = |number: usize| format!("figure-{number}");
         let datum = |(number, shown): (usize, &&Figure)| {
             let [id, title] = [id(number), shown.title().to_owned()].map(Value::from);
             let json = format!(r#"{{"id":{id},"title":{title},"spec":{}}}"#, shown.plotly());
-            // A text in the data must neither end the script that holds it nor begin a comment or a script in there.
+            // A text in the data must neither end the enclosing script nor start a comment or script in it.
             json.replace('<', "\\u003c")
         };
         let data = || all.par_iter().enumerate().map(datum).collect::<Vec<String>>();
@@ -213,12 +220,11 @@ impl Report {
             plotly => Filled::from_safe_string(script),
             figures => Filled::from_safe_string(format!("[{}]", data.join(","))),
         };
-        page.render_captured_to(filled, to)?;
-        Ok(())
+        page.render(filled)
     }
 }
 
-/// The plotting library as a script element. The crate also brings one for formulas, which no picture here has.
+/// The plotting library as a script element. The crate also contains a library for formulas, which is not needed.
 fn script() -> String {
     let mut both = plotly::Plot::offline_js_sources();
     let end = both.find("</script>").map_or(both.len(), |at| at + "</script>".len());
@@ -229,21 +235,26 @@ fn script() -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use gearloss_report::plot::Line;
-
     use super::*;
+    use crate::plot::Line;
 
     fn report() -> Report {
-        let mut report = Report::default();
-        report.begin("limit", "How far it goes.");
-        report.text("a < b");
-        report.figure(Figure::Lines {
+        let figure = Figure::Lines {
             title: "<!--<script></script><b>".to_owned(),
             x: "x".to_owned(),
             y: "y".to_owned(),
             lines: vec![Line::default()],
-        });
-        report
+        };
+        let section = Section {
+            name: "limit".to_owned(),
+            text: "a < b".to_owned(),
+            figures: vec![figure],
+            ..Section::default()
+        };
+        Report {
+            sections: vec![section],
+            gearboxes: Vec::new(),
+        }
     }
 
     fn frame() -> Frame {
@@ -258,10 +269,7 @@ mod tests {
     }
 
     fn page(report: &Report, template: Option<&str>) -> Result<String, String> {
-        let mut page = Vec::new();
-        let written = report.html(&frame(), template, &mut page);
-        written.map_err(|fault| format!("{fault:?}"))?;
-        Ok(String::from_utf8(page).unwrap())
+        report.html(&frame(), template).map_err(|fault| fault.message)
     }
 
     #[test]
@@ -282,7 +290,10 @@ mod tests {
         let own = "{{ frame.title }}: {% for s in sections %}{{ s.name }} {{ s.figures | length }}{% endfor %}";
         assert_eq!(page(&report(), Some(own)).unwrap(), "A &amp; B: limit 1");
         let fault = page(&report(), Some("{% for %}")).unwrap_err();
-        assert!(fault.starts_with("Template") && fault.contains("syntax"), "{fault}");
+        assert!(
+            fault.starts_with("the template of the report") && fault.contains("syntax"),
+            "{fault}"
+        );
     }
 
     #[test]

@@ -1,0 +1,6 @@
+//! Laws fitted to tables of measured or computed values.
+
+pub mod columns;
+mod drag_law;
+
+pub use drag_law::DragLaw;
