@@ -14,55 +14,55 @@ use crate::registry::{ModelRef, NamedSlots};
 pub struct GearEntry {
     /// Shaft, carrier or planet body that carries the gear.
     pub shaft: String,
-    /// Middle of the face along the shafts. [mm]
+    /// Middle of the face width along the shaft. [mm]
     #[serde(default)]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
-    /// Number of teeth; positive for rings, too. [-]
+    /// Number of teeth; also positive for ring gears. [-]
     #[schemars(range(min = 5, max = 2000))]
     pub z: u32,
     /// Face width. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: f64,
-    /// Hand of the helix; the mate's follows. Not needed for spur gears.
+    /// Hand of the helix; that of the mate follows. Not needed for spur gears.
     pub hand: Option<Hand>,
-    /// External teeth or a ring with internal teeth.
+    /// External teeth, or a ring gear with internal teeth.
     #[serde(default)]
     pub kind: GearKind,
-    /// Profile shift coefficient; absent, it closes the centre distance. For a ring see `profile_shift_sign`. [-]
+    /// Profile shift coefficient; absent, the value that matches the centre distance. For a ring gear see `profile_shift_sign`. [-]
     #[schemars(range(min = -3.0, max = 3.0))]
     pub profile_shift: Option<f64>,
-    /// Sign of a ring's `profile_shift`; absent, `outward`, with a warning. Of no effect for external teeth.
+    /// Sign of a ring gear's `profile_shift`; absent, `outward`, with a warning. No effect for external teeth.
     pub profile_shift_sign: Option<ShiftSign>,
-    /// Fixed to the shaft, or loose until a coupling joins it.
+    /// Fixed to the shaft, or an idler gear that a coupling connects.
     #[serde(default)]
     pub mounted: Mounting,
-    /// `none` where a loose gear has no bearings in this description: it has no bearing loads and no bearing losses.
+    /// `none` for an idler gear without bearings in this description: it has no bearing loads and no bearing losses.
     pub bearings: Option<Unsupported>,
-    /// Tip diameter; absent, it follows from the reference tooth. Required for rings, unless no model looks
-    /// at the teeth. [mm]
+    /// Tip diameter; absent, that of the standard basic rack. Required for ring gears, unless no model uses the tooth geometry.
+    /// [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub tip_diameter: Option<f64>,
-    /// Root diameter; absent, it follows from the reference tooth. [mm]
+    /// Root diameter; absent, that of the standard basic rack. [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub root_diameter: Option<f64>,
     /// Flanks; absent, those of the gearbox.
     pub surface: Option<Surface>,
-    /// Height of the oil above the gear's axis, where it runs in a pocket of its own. [mm]
+    /// Oil height above the gear's axis, if it runs in a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
     /// Oil; absent, that of the housing.
     pub lubricant: Option<String>,
-    /// Temperature of the oil at the gear above that of the sump. [K]
+    /// Temperature difference of the oil at the gear to that of the sump. [K]
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
-    /// Factor on the drag losses of the gear, for what a model does not know; drags at a mesh take the mean of both gears.
-    /// Identification moves it. [-]
+    /// Factor on the drag losses of the gear, for effects that the model does not include; drags at a mesh use the mean of both
+    /// gears. An identification may fit it. [-]
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
-    /// Drag models of this gear by name; they take the place of those in `models`.
+    /// Drag models of this gear by name; they replace those in `models`.
     pub drag: Option<NamedSlots<GearDrag>>,
 }
 
@@ -95,8 +95,8 @@ pub enum GearKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ShiftSign {
-    /// ISO 21771 and DIN 3960: a positive shift thickens the teeth and moves their tips towards the axis of the ring. A larger
-    /// sum x1 + x2 makes the centre distance of the pair smaller.
+    /// ISO 21771 and DIN 3960: a positive shift thickens the teeth and moves their tips towards the axis of the ring gear. A larger
+    /// sum x1 + x2 reduces the centre distance of the pair.
     Iso21771,
     /// A positive shift moves the teeth away from the axis, the opposite of ISO 21771: the meaning of documents that do not
     /// state a sign.
