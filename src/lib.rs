@@ -9,6 +9,7 @@
 //! }
 //! ```
 
+pub mod api;
 mod args;
 mod commands;
 mod interrupt;

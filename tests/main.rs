@@ -4,6 +4,7 @@
 
 mod abreast;
 mod analyses;
+mod api;
 mod cards;
 mod coefficients;
 mod common;

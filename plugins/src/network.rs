@@ -1,11 +1,11 @@
-//! The thermal network behind `network: auto`: nodes and links from shafts, bearings, gears and housing.
+//! The thermal network of `network: auto`: nodes and links derived from shafts, bearings, gears and housing.
 //!
-//! Nodes: the oil of the sump, the casing, every shaft that carries gears or bearings with the gears that are fixed to it, every
-//! loose gear, every bearing. A planet body is one node for all its copies. The heat of a mesh goes into its gears, that of a
-//! bearing into the bearing, that of a seal into its shaft, because a lip of rubber insulates; all else heats the oil.
+//! Nodes: the oil of the sump, the casing, every shaft with gears or bearings together with its fixed gears, every idler gear,
+//! every bearing. A planet body is one node for all its copies. The heat of a mesh goes into its gears, that of a bearing into the
+//! bearing, that of a seal into its shaft because the rubber lip insulates; all other heat goes into the oil.
 //!
-//! Nothing but geometry and oil is known of a gearbox, so the figures below are assumed: the conductances of bearings are those of
-//! thermal networks of drive units, which scatter by a factor of two either way. Each is written into the description, where it
+//! A description gives only geometry and oil, so the values below are assumed. The conductances of bearings are taken from thermal
+//! networks of drive units and scatter by a factor of two in either direction. Each value is written into the description, where it
 //! can be changed or identified.
 
 mod body;
@@ -23,46 +23,46 @@ use serde_json::{Value, json};
 use body::{Bodies, Metal};
 use lay::Lay;
 
-/// From a bearing to what runs in its bore, for each metre of the bore. \[W/(m K)\]
+/// From a bearing to the shaft or gear in its bore, per metre of bore. \[W/(m K)\]
 const TO_BORE: f64 = 90.0;
-/// From a bearing to what holds it, for each metre of its outside diameter. \[W/(m K)\]
+/// From a bearing to its seat, per metre of outside diameter. \[W/(m K)\]
 const TO_OUTSIDE: f64 = 80.0;
 /// From a bearing in oil to the sump. \[W/K\]
 const TO_OIL: f64 = 2.0;
 /// From gear to gear through the teeth in contact. \[W/K\]
 const TEETH: f64 = 10.0;
-/// From a loose gear that no bearing carries to its shaft. \[W/K\]
+/// From an idler gear without bearings to its shaft. \[W/K\]
 const PLAIN_BORE: f64 = 5.0;
-/// From what is screwed to the housing to the casing. \[W/K\]
+/// From a component bolted to the housing to the casing. \[W/K\]
 const SCREWED: f64 = 20.0;
-/// From a gear to oil and mist that stand still about it. \[W/(m2 K)\]
+/// From a stationary gear to the surrounding oil and mist. \[W/(m2 K)\]
 const AT_REST: f64 = 50.0;
-/// From oil to casing where no gear is known that splashes. \[W/(m2 K)\]
+/// From oil to casing where no splashing gear is known. \[W/(m2 K)\]
 const WITHOUT_SPLASH: f64 = 100.0;
-/// Share of the room between bore and outside diameter that the metal of a bearing fills.
+/// Share of the volume between bore and outside diameter that the metal of a bearing fills.
 const FILLED: f64 = 0.7;
-/// Volume of the oil where none is stated. \[m3\]
+/// Oil volume where none is stated. \[m3\]
 const ONE_LITRE: f64 = 1e-3;
 
 inventory::submit! {
     NetworkRecipe {
-        meaning: "Nodes for oil, casing, shafts with their gears, loose gears and bearings; conductances by size.",
+        meaning: "Nodes for oil, casing, shafts with their gears, idler gears and bearings; conductances by size.",
         lay_out,
         origin: origin!(),
     }
 }
 
-/// A bearing with its place.
+/// A bearing with its position.
 struct Seated {
     id: String,
     entry: BearingEntry,
     shaft: String,
     outer: Option<String>,
-    /// Place along the shaft. \[m\]
+    /// Position along the shaft. \[m\]
     at: f64,
-    /// Equal copies, those on all planets together.
+    /// Number of equal copies, counting all planets.
     copies: f64,
-    /// True where its model says how much it loses.
+    /// True if its model computes a loss.
     loses: bool,
 }
 
@@ -162,7 +162,7 @@ fn lay_out(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
     Ok(lay.written())
 }
 
-/// The area of the outside, with all else that its heat needs.
+/// The outside area of the housing; an error if other quantities for its heat transfer are missing.
 fn outside(housing: &HousingPart) -> Result<f64, Diagnostic> {
     let missing: Vec<&str> = [
         (housing.area.is_none(), "area"),
@@ -181,14 +181,14 @@ fn outside(housing: &HousingPart) -> Result<f64, Diagnostic> {
     })
 }
 
-/// Heat capacity of the oil; its values at the given temperature of the oil. \[J/K\]
+/// Heat capacity of the oil at its given temperature. \[J/K\]
 fn sump_capacity(entry: &GearboxEntry) -> f64 {
     let sump = entry.housing.oil.as_ref();
     let lubricant = match sump {
         Some(oil) => entry.lubricants.get(&oil.lubricant),
         None => entry.lubricants.iter().next().map(|(_, oil)| oil),
     };
-    // What is wrong with an oil is said where it is built.
+    // Errors of the oil are reported where it is built.
     let volumetric = lubricant.and_then(|oil| Lubricant::new(oil).ok()).map_or(0.0, |oil| {
         oil.density(entry.thermal.oil) * oil.heat_capacity(entry.thermal.oil)
     });
@@ -208,7 +208,7 @@ fn text<'a>(entry: &'a Value, key: &str) -> Option<&'a str> {
     entry.get(key).and_then(Value::as_str)
 }
 
-/// True where a component has a model that is not `none`.
+/// True if a component has a model other than `none`.
 fn loses(entry: &Value) -> bool {
     entry
         .get("model")
@@ -226,7 +226,7 @@ fn seated(value: &Value, bodies: &Bodies<'_>) -> Vec<Seated> {
                 .max(outer.as_deref().map_or(1.0, |outer| bodies.copies(outer)));
             Some(Seated {
                 id: id.clone(),
-                // What is wrong with a bearing is said where it is built.
+                // Errors of the bearing are reported where it is built.
                 entry: serde_json::from_value(bearing.clone()).ok()?,
                 shaft,
                 outer,
@@ -268,7 +268,7 @@ fn bearing_node(bearing: &Seated, lay: &mut Lay, casing: &str, sump: &str) {
     }
 }
 
-/// Every gear gives heat to the oil: at rest through the oil that stands about it, in motion by what it flings off.
+/// Adds the links of every gear to the oil: free convection at standstill, centrifugal film flow in motion.
 fn gears_to_oil(entry: &GearboxEntry, bodies: &Bodies<'_>, lay: &mut Lay, sump: &str) {
     for (id, gear) in entry.gears.iter() {
         let (Some(node), Some(size)) = (lay.of_gear(id), bodies.size(id)) else {
@@ -281,11 +281,11 @@ fn gears_to_oil(entry: &GearboxEntry, bodies: &Bodies<'_>, lay: &mut Lay, sump: 
             sump,
             copies * AT_REST * size.wetted(),
         );
-        // A ring holds its oil.
+        // Centrifugal force keeps the oil in a ring gear.
         if !size.ring {
             let mut model = json!({ "type": "fling_off" });
             if copies > 1.0 {
-                // All teeth of all planets.
+                // The teeth of all planets.
                 model["teeth"] = json!(copies * f64::from(gear.z));
             }
             lay.law(
@@ -298,7 +298,7 @@ fn gears_to_oil(entry: &GearboxEntry, bodies: &Bodies<'_>, lay: &mut Lay, sump: 
     }
 }
 
-/// Members that a coupling or clutch can join to the housing.
+/// Members that a coupling or clutch can connect to the housing.
 fn screwed(value: &Value, lay: &mut Lay, casing: &str) {
     for (id, coupling) in section(value, "couplings").chain(section(value, "clutches")) {
         let between: Vec<&str> = coupling

@@ -1,4 +1,4 @@
-//! Shipped cycles: their check sums, and a duty of each.
+//! Shipped cycles: their check sums, and the duty of each.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::Registry;
@@ -83,7 +83,7 @@ fn the_check_sums_of_the_regulations_are_met() {
     }
 }
 
-/// Duty of a cycle at the motor: energies out of it and into it, root mean square of its torque, greatest and mean speed.
+/// Duty of a cycle at the motor: energies out of it and into it, root mean square of its torque, maximum and mean speed.
 fn duty(name: &str) -> [f64; 5] {
     let car = Vehicle {
         mass: 1928.0,

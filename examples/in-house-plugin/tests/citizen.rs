@@ -169,3 +169,27 @@ impl Run {
         serde_json::from_str(&self.fine()).unwrap()
     }
 }
+
+/// Schema, `check`, `run`, its files and the report have the analysis of this crate.
+#[test]
+fn an_analysis_of_this_crate_runs_like_any_other() {
+    let schema = program(&["schema", "study"]).json().to_string();
+    assert!(
+        schema.contains("drag_torque") && schema.contains("over the temperature of the oil"),
+        "{schema}"
+    );
+    let results = program(&["schema", "result"]).json().to_string();
+    assert!(results.contains("Torque at the first temperature over that at the last."));
+    let folder = common::folder("drag");
+    let printed = program(&["run", "study.yaml", "--force", "-o", folder.to_str().unwrap()]).fine();
+    assert!(printed.contains("drag: models own: cold oil takes"), "{printed}");
+    let rows = std::fs::read_to_string(folder.join("drag.csv")).unwrap();
+    assert!(
+        rows.starts_with("model_set,oil_temperature_degc,torque_nm\n") && rows.lines().count() == 5,
+        "{rows}"
+    );
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("drag.json")).unwrap()).unwrap();
+    assert_eq!(json["sets"][0]["torques"].as_array().map(Vec::len), Some(4));
+    let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(page.contains("cold oil takes"));
+}

@@ -1,4 +1,4 @@
-//! The frame of gearloss: description, registry, kinematics, loads, evaluation. It names no concrete loss model.
+//! The framework of gearloss: description, registry, kinematics, loads, evaluation. It names no concrete loss model.
 
 pub mod attach;
 pub mod coefficients;

@@ -1,4 +1,4 @@
-//! Oils: viscosity and density over temperature, behaviour under pressure, thermal and friction properties.
+//! Oils: viscosity and density over temperature, pressure behaviour, thermal and friction properties.
 
 pub mod density;
 pub mod index;
@@ -23,10 +23,10 @@ use walther::{Form, Walther};
 /// Zero of the Celsius scale. \[K\]
 pub const ZERO_CELSIUS: f64 = 273.15;
 
-/// Least viscosity for which ASTM D341 with a constant, and DIN 51563, hold. \[mm2/s\]
+/// Minimum viscosity for which ASTM D341 with a constant, and DIN 51563, are valid. \[mm2/s\]
 const THINNEST: f64 = 2.0;
 
-/// The key that is wrong or missing, why, and how to fix it.
+/// The wrong or missing key, the reason, and the fix.
 type Fault = (&'static str, String, String);
 
 /// A law of viscosity.
@@ -36,14 +36,14 @@ enum Law {
     Vogel(Vogel),
 }
 
-/// A law with the factor on what it says.
+/// A law with a factor on its result.
 #[derive(Debug, Clone)]
 struct Viscosity {
     law: Law,
     factor: f64,
 }
 
-/// An oil with its laws fitted.
+/// An oil with its fitted laws.
 #[derive(Debug, Clone)]
 pub struct Lubricant {
     viscosity: Viscosity,
@@ -58,11 +58,11 @@ pub struct Lubricant {
     rheology: RheologyEntry,
 }
 
-/// Usual properties of a kind of oil.
+/// Typical properties of a kind of oil.
 struct Usual {
     /// Gold's constants s and t, after Gold et al. 2001.
     gold: (f64, f64),
-    /// Thermal expansion, in the middle of the usual range. \[1/K\]
+    /// Thermal expansion, middle of the typical range. \[1/K\]
     expansion: f64,
     /// Density at 15 degC. \[kg/m3\]
     density: f64,
@@ -87,15 +87,15 @@ fn usual(kind: LubricantKind) -> Usual {
     }
 }
 
-/// The points of a viscosity law, degC and mm2/s, from what was written.
+/// The points of a viscosity law, degC and mm2/s, from the written values.
 fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
     let shop = |nu: f64| nu * 1e6;
     if !entry.points.is_empty() {
         if entry.kv40.is_some() || entry.kv100.is_some() || entry.vi.is_some() {
             return Err((
                 "viscosity",
-                "points beside kv40, kv100 or vi".to_owned(),
-                "give the one or the other".to_owned(),
+                "`points` is combined with `kv40`, `kv100` or `vi`".to_owned(),
+                "state either the points or two of `kv40`, `kv100`, `vi`".to_owned(),
             ));
         }
         let mut points: Vec<(f64, f64)> = entry.points.iter().map(|p| (p.at, shop(p.value))).collect();
@@ -103,8 +103,8 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
         if points.windows(2).any(|w| w[1].1 >= w[0].1 || w[1].0 <= w[0].0) {
             return Err((
                 "viscosity.points",
-                "viscosity does not fall from one temperature to the next".to_owned(),
-                "correct a point, or leave out one of two at the same temperature".to_owned(),
+                "viscosity does not decrease from one temperature to the next".to_owned(),
+                "correct a point, or remove one of two at the same temperature".to_owned(),
             ));
         }
         return Ok(points);
@@ -116,7 +116,7 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
                 (
                     "viscosity.vi",
                     format!("the viscosity index is not defined at kv100 {kv100} mm2/s"),
-                    "give kv40 and kv100".to_owned(),
+                    "state `kv40` and `kv100`".to_owned(),
                 )
             })?,
             kv100,
@@ -126,8 +126,8 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
             index::kv100(kv40, vi).ok_or_else(|| {
                 (
                     "viscosity.vi",
-                    format!("no kv100 belongs to kv40 {kv40} mm2/s and this index"),
-                    "give kv40 and kv100".to_owned(),
+                    format!("no kv100 exists for kv40 {kv40} mm2/s and this index"),
+                    "state `kv40` and `kv100`".to_owned(),
                 )
             })?,
         ),
@@ -136,16 +136,16 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
             return Err((
                 "viscosity",
                 format!(
-                    "three values for a law of two: kv40 {kv40} and kv100 {kv100} mm2/s have the index {own}, not {vi}"
+                    "three values for a law with two parameters: kv40 {kv40} and kv100 {kv100} mm2/s give the index {own}, not {vi}"
                 ),
-                "leave one of them out".to_owned(),
+                "remove one of them".to_owned(),
             ));
         }
         _ => {
             return Err((
                 "viscosity",
-                "one value for a law of two".to_owned(),
-                "give two of kv40, kv100, vi".to_owned(),
+                "one value for a law with two parameters".to_owned(),
+                "state two of `kv40`, `kv100`, `vi`".to_owned(),
             ));
         }
     };
@@ -153,7 +153,7 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
         return Err((
             "viscosity",
             format!("kv100 {kv100} mm2/s is not below kv40 {kv40} mm2/s"),
-            "exchange them or correct one".to_owned(),
+            "swap them or correct one".to_owned(),
         ));
     }
     Ok(vec![(40.0, kv40), (100.0, kv100)])
@@ -182,15 +182,15 @@ fn law(entry: &ViscosityEntry, density: &Density) -> Result<Law, Fault> {
                         .ok_or_else(|| {
                             (
                                 "viscosity.points",
-                                "the three points do not follow the law of Vogel".to_owned(),
+                                "no Vogel law fits the three points".to_owned(),
                                 "correct a point, or choose `law: astm_d341` with two of them".to_owned(),
                             )
                         })
                 }
                 _ => Err((
                     "viscosity.points",
-                    "the law of Vogel needs two or three points above its pole".to_owned(),
-                    "give two points, or three".to_owned(),
+                    "Vogel's law requires two or three points above its pole".to_owned(),
+                    "state two or three points".to_owned(),
                 )),
             };
         }
@@ -198,16 +198,16 @@ fn law(entry: &ViscosityEntry, density: &Density) -> Result<Law, Fault> {
     if let (Form::AstmD341 | Form::Din51563, Some((t, nu))) = (form, points.iter().find(|p| p.1 < THINNEST)) {
         return Err((
             "viscosity",
-            format!("{nu:.3} mm2/s at {t} degC is below the {THINNEST} mm2/s from which this law holds"),
-            "write `law: astm_d341_low`, which holds from 0.21 mm2/s".to_owned(),
+            format!("{nu:.3} mm2/s at {t} degC is below {THINNEST} mm2/s, the minimum of this law"),
+            "write `law: astm_d341_low`, which is valid from 0.21 mm2/s".to_owned(),
         ));
     }
     match points[..] {
         [first, second] => Ok(Law::Walther(Walther::through(first, second, form))),
         _ => Err((
             "viscosity.points",
-            format!("{} points for a law of two", points.len()),
-            "give two points, or `law: vogel` with three".to_owned(),
+            format!("{} points for a law with two parameters", points.len()),
+            "state two points, or `law: vogel` with three".to_owned(),
         )),
     }
 }
@@ -224,8 +224,7 @@ fn density(entry: &DensityEntry, usual: &Usual) -> Density {
 impl Lubricant {
     /// An oil from its entry.
     ///
-    /// # Errors
-    /// The key that is wrong or missing, why, and how to fix it.
+    /// # Errors The wrong or missing key, the reason, and the fix.
     pub fn new(entry: &LubricantEntry) -> Result<Self, (&'static str, String, String)> {
         let usual = usual(entry.kind.unwrap_or_default());
         let written_density = entry.density.unwrap_or_default();
@@ -239,7 +238,7 @@ impl Lubricant {
         if written_density.law != DensityLaw::Linear && written_density.expansion.is_some() {
             return Err((
                 "density.expansion",
-                "an expansion beside a law that has its own".to_owned(),
+                "`expansion` is combined with a law that defines its own expansion".to_owned(),
                 "leave `expansion` out, or write `law: linear`".to_owned(),
             ));
         }
@@ -286,13 +285,13 @@ impl Lubricant {
             .unwrap_or_else(|| thermal::heat_capacity(self.density.rho15(), temperature))
     }
 
-    /// What is stated of its behaviour in a contact.
+    /// The stated behaviour in a contact.
     pub fn rheology(&self) -> &RheologyEntry {
         &self.rheology
     }
 
-    /// The law of Roelands that has the oil's viscosity at 40 and 100 degC, with an exponent over pressure; absent, the stated
-    /// one, else the one that gives the oil's pressure-viscosity coefficient at 40 degC.
+    /// Roelands' law through the oil's viscosity at 40 and 100 degC, with an exponent over pressure; default: the stated one, else
+    /// the one that reproduces the oil's pressure-viscosity coefficient at 40 degC.
     pub fn roelands(&self, z: Option<f64>) -> Roelands {
         let [cold, hot] = [40.0, 100.0].map(|t| self.at(t));
         let z = z.or(self.rheology.z);
@@ -465,7 +464,7 @@ mod tests {
             ViscosityLaw::Vogel,
         ] {
             let oil = with(&two, law).unwrap();
-            // The inverse of the thin-oil form is a fit of its own, good to some 1e-4.
+            // The inverse of the thin-oil form is a separate fit, accurate to about 1e-4.
             assert!((nu(&oil, 40.0) / 27.3 - 1.0).abs() < 3e-4, "{law:?}");
             assert!((nu(&oil, 100.0) / 5.9 - 1.0).abs() < 3e-4, "{law:?}");
         }
@@ -502,7 +501,7 @@ mod tests {
 
     #[test]
     fn every_usual_property_is_that_of_its_source() {
-        // Typed a second time from the sources, without a look at `usual`.
+        // Independently transcribed from the sources.
         let table = include_str!("../tests/tables/oil_kinds.csv");
         let lines: Vec<Vec<&str>> = table
             .lines()

@@ -1,6 +1,6 @@
-//! All that a crate of loss models names: `use gearloss_framework::prelude::*;`.
+//! The names used by crates of loss models: `use gearloss_framework::prelude::*;`.
 //!
-//! This is the part of the framework that keeps its promises to other crates (CONTRIBUTING.md, "Stability").
+//! This is the part of the framework with stability guarantees for other crates (CONTRIBUTING.md, "Stability").
 
 pub use schemars::JsonSchema;
 pub use serde::Deserialize;

@@ -1,7 +1,7 @@
-//! From the walked description to the resolved one: still pure data with paths.
+//! From the checked description to the resolved one: still pure data with paths.
 //!
-//! Every component gets its own model, catalogue values and defaults; `models` and `model_sets` are gone afterwards. A
-//! written path is an override of this document, so a change is: write it, resolve again, build again.
+//! Every component gets its own model, catalogue values and defaults; `models` and `model_sets` are then removed. A written path is
+//! an override of this document, so a change is: write it, resolve again, build again.
 
 mod catalogue;
 mod choice;
@@ -23,10 +23,10 @@ use crate::document::{Diagnostic, did_you_mean};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::Files;
 
-/// Where a value of the resolved document comes from.
+/// Origin of a value of the resolved document.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Came {
-    /// Written in the document, or the default of a key that was not written; the places of the walk tell which.
+    /// Written in the document, or the default of an omitted key; the positions of the check distinguish them.
     Document,
     /// From a catalogue.
     Catalogue {
@@ -50,18 +50,18 @@ pub enum Came {
 /// The resolved document.
 #[derive(Debug, Clone)]
 pub struct Resolved {
-    /// SI, total, plain data.
+    /// Complete plain data in SI.
     pub value: Value,
-    /// Where values come from, by path; a path stands for everything below it. What is not listed comes from the document.
+    /// Origins of values by path; a path covers everything below it. Values that are not listed come from the document.
     pub came: BTreeMap<String, Came>,
-    /// Models of the set in use that no component took, because each has its own or there is none.
+    /// Models of the set in use that no component uses, because each has its own or there is none.
     pub unreached: Vec<String>,
-    /// Components that nobody chose a model for, not even `none`: they count no loss. One line for each section.
+    /// Components without a chosen model, not even `none`: their loss is zero. One line for each section.
     pub without: Vec<String>,
 }
 
 impl Resolved {
-    /// Where the value at a path comes from.
+    /// Origin of the value at a path.
     pub fn came(&self, path: &str) -> &Came {
         let mut end = path.len();
         loop {
@@ -76,10 +76,10 @@ impl Resolved {
     }
 }
 
-/// Resolves a walked description with a set of models and overrides.
+/// Resolves a checked description with a model set and overrides.
 ///
 /// # Errors
-/// All findings at once: unknown designations, sets that do not exist, overrides that meet nothing or do not fit.
+/// All findings at once: unknown designations, sets that do not exist, overrides that match nothing or are invalid.
 pub fn resolve(
     language: &Language,
     files: &Files,
@@ -112,7 +112,7 @@ pub fn resolve(
             document.shift_remove(key);
         }
     }
-    // A network that is laid out sees all other changes, and those inside it change what was laid out.
+    // A generated network depends on all other changes, and changes inside it are applied afterwards.
     let (inside, later): (Vec<_>, Vec<_>) = later.into_iter().partition(|(path, _)| network::meets_inside(path));
     apply(language, &mut value, &later, &mut came, &mut found);
     if network::expand(language, &mut value, &mut came, &mut found) {
@@ -130,7 +130,7 @@ pub fn resolve(
     }
 }
 
-/// Overrides that the document itself states beside `extends`.
+/// Overrides that the document itself states with `extends`.
 fn own_overrides(value: &Value) -> Vec<(String, Value)> {
     let set = value.get("set").and_then(Value::as_object);
     set.into_iter()
@@ -167,8 +167,8 @@ fn absent(entry: &Map<String, Value>, key: &str) -> bool {
     entry.get(key).is_none_or(Value::is_null)
 }
 
-/// Gives every component its model: its own, the set's where the set names the component, the set's default, the
-/// gearbox's default, or `none`. Says which have none that anybody chose.
+/// Gives every component its model: its own, the set's for that component, the set's default, the gearbox's default, or `none`.
+/// Lists components without any chosen model.
 fn give_models(
     language: &Language,
     value: &mut Value,
@@ -208,7 +208,7 @@ fn give_models(
         }
         if !bare.is_empty() {
             without.push(format!(
-                "{section}: no model is chosen for {}, so no loss counts",
+                "{section}: no model is chosen for {}, so the loss is zero",
                 bare.join(", ")
             ));
         }
@@ -219,12 +219,12 @@ fn give_models(
                     kept.join(", ")
                 ));
             } else if s.models.contains_key(key) && taken == 0 && s.models[key] != "none" {
-                unreached.push(format!("`{name}` states a {key} model, and no component takes it"));
+                unreached.push(format!("`{name}` states a {key} model, but no component uses it"));
             }
         }
     }
-    // Named slots: a gear's, a mesh's or the housing's own slots replace the defaults of the same name. The defaults of drags
-    // go to one place in the document, because only the model's scope tells whether gears or meshes carry them.
+    // Named slots: the slots of a gear, a mesh or the housing replace the defaults of the same name. The defaults of drags are in
+    // one place in the document, because only the model's scope determines whether they belong to gears or meshes.
     let slots_of = |key: &str| {
         let (slots, from) = default_of(key).unwrap_or((Value::Null, Came::Models));
         (slots.as_object().cloned().unwrap_or_default(), from)
@@ -295,7 +295,7 @@ fn give_models(
     without
 }
 
-/// Writes overrides into the resolved document, each checked against the schema at its place.
+/// Writes overrides into the resolved document, each checked against the schema at its path.
 fn apply(
     language: &Language,
     value: &mut Value,
@@ -309,7 +309,7 @@ fn apply(
             found.push(paths::no_match(value, pattern));
             continue;
         }
-        // A key that the chosen `type` does not have would be ignored; of several matches those that have it count.
+        // A key that the chosen `type` does not have would be ignored; of several matches those with the key are used.
         hits.retain(|path| language.has_place(value, path));
         if hits.is_empty() {
             let key = pattern.rsplit('.').next().unwrap_or(pattern);
@@ -334,9 +334,9 @@ fn apply(
     }
 }
 
-/// The error for a path whose last key nothing has: the key that was probably meant, or where the keys are listed.
+/// The error for a path whose last key does not exist: suggests a similar key, or where the keys are listed.
 fn no_place(value: &Value, pattern: &str, key: &str) -> Diagnostic {
-    let error = Diagnostic::error(pattern, format!("nothing here has a key `{key}`"));
+    let error = Diagnostic::error(pattern, format!("the key `{key}` does not exist here"));
     let above = pattern.rsplit_once('.').map_or("", |(above, _)| above);
     let records = matches(value, above);
     let record = records.iter().find_map(|path| lookup(value, path)?.as_object());

@@ -168,6 +168,18 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn write_json(&self, to: &mut dyn io::Write) -> serde_json::Result<()>;
 }
 
+impl dyn AnyOutcome {
+    /// The outcome as its type; absent where it is that of another analysis.
+    pub fn get<O: Outcome>(&self) -> Option<&O> {
+        self.as_any().downcast_ref()
+    }
+
+    /// A table by its name; the first one has the name of the analysis.
+    pub fn table(&self, name: &str) -> Option<Table> {
+        self.tables().into_iter().find(|table| table.name == name)
+    }
+}
+
 impl<O: Outcome> AnyOutcome for O {
     fn head(&self) -> &Head {
         Outcome::head(self)

@@ -1,7 +1,7 @@
-//! An auxiliary that takes the same power at any speed, such as an alternator under control.
+//! An auxiliary with the same power at any speed, such as a controlled alternator.
 //!
-//! The user's own. At rest it takes none; at vanishing speed its moment grows without bound, so below `least_speed` the moment
-//! of that speed stays.
+//! User-defined. At standstill it consumes no power. At vanishing speed its torque would grow without bound, so below `least_speed`
+//! the torque stays at its value at that speed.
 
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
@@ -18,13 +18,13 @@ pub struct ConstantPower {
     /// Power taken from the shaft. [W]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub power: f64,
-    /// Speed below which the moment stays. [rpm]
+    /// Speed below which the torque is constant. [rpm]
     #[serde(default = "least")]
     #[schemars(range(min = 0.01, max = 1e5))]
     pub least_speed: f64,
 }
 
-/// One hundred revolutions per minute. \[rad/s\]
+/// 100 rpm. \[rad/s\]
 fn least() -> f64 {
     100.0 * std::f64::consts::PI / 30.0
 }
@@ -36,11 +36,11 @@ impl AuxiliaryModel for ConstantPower {
 }
 
 register!(Auxiliary, "constant_power", ConstantPower,
-    source: "the user's own",
+    source: "user-defined",
     example: "{ type: constant_power, power: 150 W }",
     evidence: [
         formula(Evidence::User, "the user states it"),
-        default_of("least_speed", Evidence::Assumed, "keeps the moment finite"),
+        default_of("least_speed", Evidence::Assumed, "keeps the torque finite"),
     ],
     terms: [POWER]);
 

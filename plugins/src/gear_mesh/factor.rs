@@ -1,4 +1,4 @@
-//! Power times mean friction times a tooth loss factor, which several models share.
+//! Power times mean friction times a tooth loss factor, shared by several models.
 
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
@@ -9,7 +9,7 @@ pub const SLIDING: Term = Term::load(0, "sliding");
 pub const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 pub const LOSS_FACTOR: Observed = Observed::new(1, "H_v", "-", "Tooth loss factor.");
 
-/// A loss factor with its law of mean friction.
+/// A loss factor with its mean friction law.
 pub struct Factor {
     pub value: f64,
     pub friction: Slot<MeanFriction>,

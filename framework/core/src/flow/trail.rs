@@ -1,47 +1,47 @@
-//! What the same points at the speeds before say of the torques at the next speed.
+//! Extrapolation of the torques at the next speed from the same points at previous speeds.
 
 use super::linear::larger;
 use super::work::Drive;
 use crate::lanes::{LANES, Lane, count, weighted};
 
-/// Steps that count: a polynomial through four of them.
+/// Number of steps used: a polynomial through four of them.
 const DEPTH: usize = 4;
-/// Most that the errors of the torques before may add up to in a guess; a cubic over even steps has 15.
+/// Maximum amplification of the errors of previous torques in a guess; a cubic over even steps has 15.
 const SPREAD: f64 = 16.0;
-/// To this many times the speed, or to that part of it, a measured rate counts as it is; speeds in even steps may meet it but for rounding.
+/// Ratio of speeds, up or down, within which a measured rate is used unchanged; even steps may reach it except for rounding.
 const NEAR: f64 = 2.0 * (1.0 + 1e-9);
-/// For this many guesses, too.
+/// Number of guesses within which it is used unchanged.
 const MANY: f64 = 256.0;
-/// The growth with which a rate is measured anew whatever the guesses say, since they are judged by it.
+/// Growth at which a rate is measured again, whatever the guesses were, since they are judged by it.
 const MOST: f64 = 4.0;
-/// A rate that could not be measured, with which a pass is never the last.
+/// A rate that could not be measured; with it an iteration is never the last.
 pub(super) const UNKNOWN: f64 = f64::INFINITY;
 
-/// Torques of the points of a block over the speeds before. The place of a step is the logarithm of its speed, because losses go
-/// nearly with powers of speed: polynomials over it err less where speeds are low and far apart.
+/// Torques of the points of a block over previous speeds. The abscissa of a step is the logarithm of its speed, because losses are
+/// nearly power laws of speed: polynomials over it are more accurate where speeds are low and far apart.
 #[derive(Debug, Clone, Default)]
 pub struct Trail {
     /// Given torques.
     torques: Vec<Lane>,
     pub(super) drives: Vec<Drive>,
-    /// How fast the losses converge: the share of an error that one pass leaves.
+    /// Convergence rate of the losses: the share of an error that remains after one iteration.
     pub(super) rate: Option<Lane>,
     /// The newest last.
     steps: Vec<Step>,
-    /// Numbers and weights of the steps in a guess.
+    /// Indices and weights of the steps in a guess.
     weights: Vec<(usize, f64)>,
-    /// Guesses since the rate was measured.
+    /// Number of guesses since the rate was measured.
     guesses: usize,
-    /// Whether the last block began with a guess that was good enough, so that its first pass was the last one.
+    /// True if the last block started with a good guess, so that its first iteration was the last.
     good: bool,
-    /// Where the rate was measured.
+    /// Abscissa at which the rate was measured.
     measured: f64,
 }
 
 #[derive(Debug, Clone)]
 struct Step {
     place: f64,
-    /// What the equilibrium was solved for.
+    /// The given torques of the solved equilibrium.
     unknowns: Vec<Lane>,
 }
 
@@ -52,13 +52,13 @@ impl Trail {
         self.guesses = 0;
     }
 
-    /// Weighs the steps for a guess at a place, for the points with these given torques; false where there is none.
+    /// Weights of the steps for a guess at an abscissa, for points with these given torques; false if there is none.
     #[inline(always)]
     pub(super) fn weigh(&mut self, torques: &[Lane], place: f64) -> bool {
         if !same_points(&self.torques, torques) {
             self.clear();
         }
-        // Far from where the rate was measured, guesses go on while they are good enough; nothing is far or near where a speed is zero.
+        // Far from the rate measurement, guesses continue while they are good; at zero speed nothing is near or far.
         let farthest = if self.good { MOST } else { 1.0 };
         if !place.is_finite() || self.rate.is_none() || self.growth(place) > farthest {
             return false;
@@ -71,15 +71,15 @@ impl Trail {
         })
     }
 
-    /// By how much the rate counts as grown at a place. It hardly moves along speeds; far from where it was measured it counts, to be safe, as
-    /// if it grew with the ratio of speeds, up or down, and with the number of guesses.
+    /// Growth of the rate at an abscissa. The rate hardly changes with speed; to be safe, far from its measurement it is assumed to
+    /// grow with the ratio of speeds, up or down, and with the number of guesses.
     #[inline(always)]
     pub(super) fn growth(&self, place: f64) -> f64 {
         let ratio = (place - self.measured).abs().exp();
         larger(1.0, ratio / NEAR) * larger(1.0, self.guesses as f64 / MANY)
     }
 
-    /// The guess of one unknown at the place that was weighed last.
+    /// The guess of one unknown at the abscissa of the last weights.
     #[inline(always)]
     pub(super) fn guess(&self, unknown: usize) -> Lane {
         weighted(
@@ -89,8 +89,8 @@ impl Trail {
         )
     }
 
-    /// Adds a step, for whose unknowns it gives older ones back. `guess` says whether that with which it began was good enough; absent where it
-    /// began without one.
+    /// Adds a step; returns the storage of an old one for its unknowns. `guess` states whether its initial guess was good; `None`
+    /// if it had none.
     pub(super) fn push(
         &mut self,
         given: &[Lane],
@@ -127,13 +127,13 @@ impl Trail {
     }
 }
 
-/// Whether given torques are the same in all lanes.
+/// True if given torques are the same in all lanes.
 #[inline(always)]
 fn same_points(a: &[Lane], b: &[Lane]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| count(|i| a[i] == b[i]) == LANES as u64)
 }
 
-/// Numbers and weights of the polynomial at a place through the steps from one on, after Lagrange.
+/// Indices and weights of the Lagrange polynomial at an abscissa through the steps from a first one on.
 fn lagrange(steps: &[Step], first: usize, place: f64) -> impl Iterator<Item = (usize, f64)> {
     let factor = move |own: &Step, other: &Step| (place - other.place) / (own.place - other.place);
     let weight = move |i: usize| -> f64 {
@@ -161,7 +161,7 @@ mod tests {
         trail.rate = Some(Lane::all(0.1));
     }
 
-    /// How many steps count for a guess at a place, where the rate was measured, too.
+    /// Number of steps used for a guess at an abscissa, given where the rate was measured.
     fn steps_at(trail: &mut Trail, given: f64, place: f64) -> usize {
         trail.measured = place;
         if trail.weigh(&[Lane::all(given)], place) {
@@ -178,7 +178,7 @@ mod tests {
         follow(&mut trail, &[1.0, 2.0, 2.9, 4.0, 5.1], law);
         assert_eq!(steps_at(&mut trail, 3.0, 6.0), 4);
         assert!((trail.guess(0)[7] - law(6.0)).abs() < 1e-13);
-        // Far from the steps before a polynomial of lower degree errs less.
+        // Far from previous steps a polynomial of lower degree is more accurate.
         assert!((1..3).contains(&steps_at(&mut trail, 3.0, 20.0)));
     }
 
@@ -189,7 +189,7 @@ mod tests {
         follow(&mut trail, &[1.0, 2.0], |x| x);
         assert_eq!(steps_at(&mut trail, 3.0, 3.0), 2);
         assert_eq!(steps_at(&mut trail.clone(), 3.1, 3.0), 0);
-        // The same speed once more leaves one step.
+        // A repeated speed leaves one step.
         follow(&mut trail, &[1.0, 2.0, 2.0], |x| x);
         assert_eq!(steps_at(&mut trail, 3.0, 3.0), 1);
     }
@@ -213,7 +213,7 @@ mod tests {
             (1000.0, 5.0),
         ] {
             assert!((growth(&trail, speed) / grown - 1.0).abs() < 1e-8, "{speed}");
-            // Far away a guess follows good ones only, and very far none.
+            // Far away only good guesses continue, and very far none.
             for (good, most) in [(Some(true), MOST), (Some(false), 1.0)] {
                 let mut trail = trail.clone();
                 push(&mut trail, 100.0, good);
@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(growth(&trail, 100.0), 2.0);
         push(&mut trail, 100.0, None);
         assert_eq!(growth(&trail, 100.0), 1.0);
-        // A standstill is far from all speeds, and not near to itself.
+        // Standstill is far from all speeds, and not near itself.
         assert!(!trail.weigh(&given, f64::NEG_INFINITY));
         push(&mut trail, 0.0, None);
         assert!(!trail.weigh(&given, f64::NEG_INFINITY) && !trail.weigh(&given, f64::ln(100.0)));

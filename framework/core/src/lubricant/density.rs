@@ -1,6 +1,6 @@
 //! Density over temperature.
 
-/// How density falls with temperature, for d = t - 15 degC.
+/// Decrease of density with temperature, for d = t - 15 degC.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Density {
     /// rho15 (1 - a d), a in 1/K.
@@ -30,7 +30,7 @@ fn api_factor(rho15: f64, warmer: f64) -> f64 {
 }
 
 impl Density {
-    /// The linear law from the density at some temperature in degC; the expansion counts from there.
+    /// The linear law from the density at a temperature in degC; the expansion is relative to that temperature.
     pub fn linear(value: f64, at: f64, expansion: f64) -> Self {
         let rho15 = value * (1.0 - expansion * (STANDARD - at));
         Self::Linear {
@@ -44,7 +44,7 @@ impl Density {
         Self::linear(value, at, DIN_51757 / value)
     }
 
-    /// The API's correction. Its factor hangs weakly on rho15, so the iteration contracts by about a d per step.
+    /// The API's correction. Its factor depends weakly on rho15, so the iteration contracts by about a d per step.
     pub fn api(value: f64, at: f64) -> Self {
         let rho15 = (0..60).fold(value, |rho15, _| value / api_factor(rho15, at - STANDARD));
         Self::Api { rho15 }

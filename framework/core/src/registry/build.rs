@@ -2,7 +2,7 @@
 
 use std::any::Any;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 use serde::de::DeserializeOwned;
@@ -11,23 +11,37 @@ use serde_json::Value;
 use super::slot::{ModelRef, Slot};
 use super::{Entry, Registry, from_resolved};
 use crate::document::{Diagnostic, did_you_mean};
-use crate::files::{LONGEST_DATA, read_text};
+use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::NoteBase;
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 
 /// Files that a description names, read once and found relative to the document that names them.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Files {
-    folder: Option<PathBuf>,
+    folder: PathBuf,
+    source: SharedSource,
     read: Mutex<BTreeMap<PathBuf, Arc<str>>>,
 }
 
+/// No files but those that are given by [`Files::put`].
+impl Default for Files {
+    fn default() -> Self {
+        Self::from_source(Arc::new(InMemory::default()), PathBuf::new())
+    }
+}
+
 impl Files {
-    /// Files beside a document in this folder.
+    /// Files on the disk beside a document in this folder.
     pub fn beside(folder: impl Into<PathBuf>) -> Self {
+        Self::from_source(Disk::shared(), folder)
+    }
+
+    /// Files of a source beside a document in this folder.
+    pub fn from_source(source: SharedSource, folder: impl Into<PathBuf>) -> Self {
         Self {
-            folder: Some(folder.into()),
+            folder: folder.into(),
+            source,
             read: Mutex::default(),
         }
     }
@@ -37,12 +51,14 @@ impl Files {
     /// # Errors
     /// The reason why it cannot be read, with the path that was tried.
     pub fn text(&self, name: &str) -> Result<Arc<str>, String> {
-        let path = self.folder.as_deref().unwrap_or(Path::new("")).join(name);
+        let path = self.folder.join(name);
         let mut read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(text) = read.get(&path) {
             return Ok(Arc::clone(text));
         }
-        let text: Arc<str> = read_text(&path, LONGEST_DATA)
+        let text: Arc<str> = self
+            .source
+            .read_text(&path, LONGEST_DATA)
             .map_err(|e| format!("cannot read {}: {e}", path.display()))?
             .into();
         read.insert(path, Arc::clone(&text));
@@ -57,7 +73,7 @@ impl Files {
 
     /// Gives a text for a file that need not exist.
     pub fn put(&self, name: &str, text: &str) {
-        let path = self.folder.as_deref().unwrap_or(Path::new("")).join(name);
+        let path = self.folder.join(name);
         self.read
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner)

@@ -4,7 +4,6 @@ use crate::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
 use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
 use crate::study::{By, Conditions, DriveEntry};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
@@ -61,7 +60,9 @@ impl<'a> Duties<'a> {
             let Some(cycle) = study.cycles.get(name) else { continue };
             let at = format!("cycles.{name}");
             let read = |file: &str| {
-                let bytes = read_bytes(&cx.study.folder.join(file), LONGEST_DATA)
+                let bytes = cx
+                    .study
+                    .read_file(file)
                     .map_err(|e| format!("cannot read {file}: {e}"))?;
                 cx.keep_input(file, &bytes);
                 Ok(bytes)

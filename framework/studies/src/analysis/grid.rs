@@ -42,6 +42,15 @@ pub struct Given {
 }
 
 impl Given {
+    /// A point at a torque in Nm and a speed in rad/s, at the temperature of all points.
+    pub fn new(torque: f64, speed: f64) -> Self {
+        Self {
+            torque,
+            speed,
+            oil: None,
+        }
+    }
+
     fn on_grid(torques: &[f64], speeds: &[f64], place: usize) -> Self {
         Self {
             torque: torques[place / speeds.len()],
@@ -196,6 +205,21 @@ pub struct GridResult {
 }
 
 impl Points {
+    /// Points whose torques and speeds are given at the reference port, with real flow and the temperatures that the gearbox
+    /// states.
+    pub fn at_reference(transmission: &Transmission, gear: &str, field: Field) -> Self {
+        let port = transmission.ports()[transmission.reference_port()].name.clone();
+        Self {
+            gear: gear.to_owned(),
+            torque_at: vec![port.clone()],
+            speed_at: vec![port],
+            field,
+            oil: OilTemperature::of(transmission, None),
+            flow: PowerFlow::Real,
+            terms: false,
+        }
+    }
+
     /// The case of these points.
     ///
     /// # Errors

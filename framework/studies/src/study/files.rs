@@ -1,6 +1,8 @@
 //! A study with its gearboxes.
 
+use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
@@ -14,7 +16,7 @@ use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Code, Diagnostic, Places, Sources, read_yaml};
-use gearloss_framework::files::{LONGEST_DATA, LONGEST_TEXT, read_bytes, read_text};
+use gearloss_framework::files::{Disk, LONGEST_DATA, LONGEST_TEXT, SharedSource};
 use gearloss_framework::gearbox::{DocumentKind, Findings, Gearbox, other_kind};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved, called_own, expand_set, meets, sets_of};
@@ -32,6 +34,7 @@ pub struct Study {
     pub text: String,
     /// Where the files that it names lie.
     pub folder: PathBuf,
+    files: SharedSource,
     places: Places,
     sources: Sources,
     promised: PromisedSets,
@@ -39,25 +42,48 @@ pub struct Study {
 }
 
 impl Study {
-    /// Reads a study and its gearboxes.
+    /// Reads a study of the disk and its gearboxes.
     ///
     /// # Errors
     /// Everything that reading and the walk find.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
-        let text = read_text(file, LONGEST_TEXT).map_err(|e| {
-            let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
-            Findings::from(vec![error.help("check the file name").code(Code::Unreadable)])
-        })?;
-        let folder = file.parent().unwrap_or(Path::new(""));
-        Self::of_text(language, text, &file.display().to_string(), folder)
+        Self::read_from(language, &Disk::shared(), file)
     }
 
-    /// Reads a study from a text, with its gearboxes; `folder` is where the files that it names lie.
+    /// Reads a study of a source and its gearboxes. Data that they name are read from the same source.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn read_from(language: &Language, files: &SharedSource, file: &Path) -> Result<Self, Findings> {
+        let text = files.read_text(file, LONGEST_TEXT).map_err(|e| {
+            Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
+                .help("check the file name")
+                .code(Code::Unreadable)
+        })?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        Self::from_text(language, files, text, &file.display().to_string(), folder)
+    }
+
+    /// Reads a study from a text, with its gearboxes; `folder` is where the files on the disk that it names lie.
     ///
     /// # Errors
     /// Everything that reading and the walk find.
     pub fn of_text(
         language: &Language,
+        text: String,
+        name: &str,
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Findings> {
+        Self::from_text(language, &Disk::shared(), text, name, folder)
+    }
+
+    /// Reads a study from a text, with its gearboxes; the files that it names are read from a source, relative to `folder`.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn from_text(
+        language: &Language,
+        files: &SharedSource,
         text: String,
         name: &str,
         folder: impl Into<PathBuf>,
@@ -116,7 +142,8 @@ impl Study {
         }
         let mut gearboxes = Vec::new();
         for (name, gearbox) in entry.gearboxes.iter() {
-            gearboxes.push((name.to_owned(), Gearbox::read(language, &folder.join(gearbox))?));
+            let gearbox = Gearbox::read_from(language, files, &folder.join(gearbox))?;
+            gearboxes.push((name.to_owned(), gearbox));
         }
         Ok(Self {
             entry,
@@ -124,6 +151,7 @@ impl Study {
             gearboxes,
             text,
             folder,
+            files: Arc::clone(files),
             places: walked.places,
             sources,
             promised,
@@ -510,11 +538,19 @@ impl Study {
         used.filter_map(|uses| uses.bind).flat_map(Ordered::ids).collect()
     }
 
+    /// The bytes of a file of data that the study names.
+    ///
+    /// # Errors
+    /// The reason why it cannot be read.
+    pub fn read_file(&self, name: &str) -> io::Result<Vec<u8>> {
+        self.files.read(&self.folder.join(name), LONGEST_DATA)
+    }
+
     /// The bytes of the files of a measurement.
     fn contents(&self, entry: &MeasuredEntry, place: &str) -> Result<Vec<Vec<u8>>, Vec<Diagnostic>> {
         let (mut contents, mut faults) = (Vec::new(), Vec::new());
         for file in entry.file.list() {
-            match read_bytes(&self.folder.join(file.file), LONGEST_DATA) {
+            match self.read_file(file.file) {
                 Ok(bytes) => contents.push(bytes),
                 Err(e) => {
                     let error = Diagnostic::error(format!("{place}.file"), format!("{}: cannot read: {e}", file.file));

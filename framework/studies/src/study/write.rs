@@ -19,7 +19,7 @@ pub enum Write {
 
 impl Write {
     /// CSV and JSON.
-    pub(crate) fn data() -> Vec<Self> {
+    pub fn data() -> Vec<Self> {
         vec![Self::Csv, Self::Json]
     }
 

@@ -39,7 +39,7 @@ struct Rig {
     cells: usize,
 }
 
-/// What a table answers: power, share of the heat, and what it notes.
+/// Result of a table: power, heat share, and its notes.
 struct Told {
     watts: f64,
     share: f64,
@@ -81,7 +81,7 @@ impl Rig {
         }
     }
 
-    /// The share of independent points at which the error of the loss exceeds the stated one, with the greatest and the stated, and
+    /// The share of independent points at which the loss error exceeds the stated one, with the maximum and the stated error, and
     /// the rms of both.
     fn exceeding(&self, known: bool, torques: [f64; 2], speeds: [f64; 2], temperatures: [f64; 2]) -> [f64; 5] {
         let sobol = Sobol::new(7).unwrap();
@@ -111,7 +111,7 @@ impl Rig {
     }
 }
 
-/// Torques up to which the tables of both stages reach by themselves.
+/// Default maximum torques of the tables of both stages.
 fn torques(number: usize) -> [f64; 2] {
     super::torques(&stage(number))
 }
@@ -175,7 +175,7 @@ fn constant_friction_is_met_to_rounding() {
         let point = point(torque, rpm, oil);
         let (told, (watts, share)) = (rig.told(&point), rig.itself(&point));
         assert!((told.watts / watts - 1.0).abs() < 1e-12 && (told.share - share).abs() < 1e-12);
-        // The greatest error is rounding as well.
+        // The maximum error is rounding as well.
         assert!(told.extents[rig.table.notes.observed()].greatest < 1e-10);
     }
 }
@@ -192,7 +192,7 @@ fn beyond_its_ends_and_at_rest_the_model_itself_answers() {
         let point = point(torque, rpm, oil);
         let told = rig.told(&point);
         assert_eq!((told.watts, told.share), rig.itself(&point));
-        // Its place is noted as outside, and what it observes itself is seen.
+        // The exceeded range is noted by position, and the model's own observations are shown.
         let [place, left] = [0, 1].map(|i| told.extents[rig.table.notes.limits() + i]);
         assert_eq!((place.outside, left.seen), (1, 0));
         assert!(told.extents[rig.of.notes.observed()..].iter().any(|e| e.seen > 0));
@@ -218,7 +218,7 @@ fn any_number_of_threads_reads_the_same_bits() {
     let one = read(&rig);
     assert_eq!(one, read(&rig));
     let other = Rig::new(2, &ehl(), &json!({}));
-    // All of them need the table at once.
+    // All of them need the table at the same time.
     std::thread::scope(|scope| {
         let started: Vec<_> = (0..4).map(|_| scope.spawn(|| read(&other))).collect();
         for thread in started {
@@ -258,7 +258,7 @@ fn bodies_that_are_known_count_where_the_model_looks_at_them() {
     for (told, itself) in [cold, hot] {
         assert!((told / itself - 1.0).abs() < 0.01, "{told} {itself}");
     }
-    // Friction by the oil alone reads the table over the oil, to the bit.
+    // Friction that depends on the oil alone uses the table over the oil, to the bit.
     let rig = Rig::new(
         1,
         &path_integral(json!({ "type": "xu", "roughness": "composite_rms" })),
@@ -297,7 +297,7 @@ fn heat_passes_between_bodies_that_differ() {
 fn ranges_that_the_model_leaves_at_a_node_are_noted() {
     let rig = Rig::new(1, &ehl(), &json!({}));
     let left = |t: f64| rig.told(&point(30.0, 3000.0, t)).extents[rig.table.notes.limits() + 1];
-    // The law of the film holds from 20 degC on.
+    // The film law applies from 20 degC on.
     assert_eq!((left(70.0).outside, left(-10.0).outside), (0, 1));
 }
 
@@ -321,10 +321,10 @@ fn what_makes_no_table_is_refused() {
         }
         build(&part, &model).err().unwrap()
     };
-    assert!(fault(json!({ "of": { "type": "efficiency", "value": 0.99 } })).contains("as quick"));
-    assert!(fault(json!({ "of": "none" })).contains("as quick"));
-    assert!(fault(json!({ "speeds": [100.0, 100.0] })).contains("`speeds` does not rise"));
-    assert!(fault(json!({ "temperatures": [100.0, 0.0] })).contains("`temperatures` does not rise"));
+    assert!(fault(json!({ "of": { "type": "efficiency", "value": 0.99 } })).contains("as fast"));
+    assert!(fault(json!({ "of": "none" })).contains("as fast"));
+    assert!(fault(json!({ "speeds": [100.0, 100.0] })).contains("`speeds` does not increase"));
+    assert!(fault(json!({ "temperatures": [100.0, 0.0] })).contains("`temperatures` does not increase"));
 }
 
 #[test]
@@ -339,7 +339,7 @@ fn a_model_without_a_value_at_a_node_is_told() {
 
 #[test]
 fn what_a_table_cannot_follow_is_stated() {
-    // Rolling follows the oil, a table over bodies does not.
+    // Rolling friction depends on the oil, a table over bodies does not.
     let rolling = json!({ "type": "path_integral", "load_sharing": "ramp", "rolling_friction": "goksem_hargreaves",
         "tooth_friction": { "type": "ehl_mixed" } });
     let rms = |of: &Value, bodies| {
@@ -351,6 +351,6 @@ fn what_a_table_cannot_follow_is_stated() {
         told.extents[rig.table.notes.observed() + 1].greatest
     };
     assert!(rms(&rolling, None) < 1.5 && rms(&rolling, Some([80.0, 70.0])) > 10.0);
-    // Friction that is cut off at nothing has a bend that no spline meets.
+    // Friction that is cut off at zero has a kink that no spline reproduces.
     assert!(rms(&path_integral(json!({ "type": "benedict_kelley" })), None) > 10.0);
 }

@@ -13,7 +13,7 @@ use gearloss_framework::contact::path::Path;
 const RPM: f64 = std::f64::consts::PI / 30.0;
 const RATIO: f64 = 81.0 / 31.0;
 
-/// Parameters as the check cases take them, with changes.
+/// Parameters of the check cases, with changes.
 fn params(changes: &Value) -> Params {
     let mut value = json!({
         "film": "chittenden_line", "inlet_heating": "wilson_sheu", "transit": "exact", "film_heat": "mid_plane",
@@ -32,7 +32,7 @@ struct Rig {
     model: EhlMixed,
 }
 
-/// What a path answers.
+/// Result of a path.
 struct Asked {
     loss: f64,
     mu: f64,
@@ -54,13 +54,13 @@ impl Rig {
         }
     }
 
-    /// Nodes that the mesh model would take.
+    /// The nodes of the mesh model.
     fn gauss(&self) -> Vec<PathNode> {
         let path = Path::new(&self.part.pair, LoadSharing::Ramp, self.model.order()).unwrap();
         path.nodes().to_vec()
     }
 
-    /// Asks on nodes at a torque of the first gear in N m, rpm and degC.
+    /// Evaluates on nodes at a torque of the first gear in N m, rpm and degC.
     fn ask(&self, nodes: &[PathNode], torque: f64, rpm: f64, oil: f64) -> Asked {
         let state = self.part.oil.as_ref().unwrap().lubricant.at(oil);
         let at = GearMeshAt::usual(&self.part, Notes::MUTED).with(|to| {
@@ -128,7 +128,7 @@ fn u4i_mesh_losses_of_both_stages() {
             let rig = Rig::new(number, &json!({}));
             let (torque, rpm) = (torque(30.0, rpm) * slower, rpm / slower);
             let asked = rig.ask(&midpoints(&rig.part.pair, 200), torque, rpm, 40.0);
-            // What the loop of the check leaves.
+            // Tolerance of the loop of the check.
             within(asked.loss, loss, 1e-4);
             within(asked.mu, mu, 1e-4);
             within(asked.lambda, lambda, 1e-4);
@@ -142,7 +142,7 @@ fn u4j_one_place_in_the_second_run() {
     let rig = Rig::new(1, &json!({}));
     let asked = rig.ask(&midpoints(&rig.part.pair, 200), torque(30.0, 2000.0), 2000.0, 40.0);
     let place = &asked.places[40];
-    // The loop of the check ends within 0.01 K, which is 6e-4 of the viscosity and 1e-4 of all else.
+    // The loop of the check ends within 0.01 K, which is 6e-4 of the viscosity and 1e-4 of all other quantities.
     assert!((place.temperature - 53.83846).abs() < 0.01);
     within(place.s, 11.92184, 6e-4);
     within(place.d0, 3.707576e-4, 6e-4);
@@ -159,7 +159,7 @@ fn u4_sensitivities_of_stage_one() {
         let rig = Rig::new(1, &changes);
         rig.ask(&midpoints(&rig.part.pair, 60), torque(30.0, rpm), rpm, oil)
     };
-    // Printed to 0.1 W; the loop of the check and its points leave as much again.
+    // Published to 0.1 W; the loop of the check and its points leave as much again.
     let near = |value: f64, printed: f64| assert!((value - printed).abs() < 0.15, "{value} against {printed}");
     for (m, loss, body) in [
         (0.01, 140.1, 40.4),
@@ -185,7 +185,7 @@ fn u4_sensitivities_of_stage_one() {
     }
 }
 
-/// What the defaults make of the bodies.
+/// Body temperatures with the default settings.
 fn balanced(number: usize) -> Rig {
     Rig::new(
         number,
@@ -209,7 +209,7 @@ fn bodies_balance_the_heat_of_the_mesh() {
                 .map(|(n, p)| n.weight * p.heats[i])
                 .sum::<f64>()
         };
-        // A contact has settled within 5 mK, and friction falls by about a percent per kelvin.
+        // A contact has converged within 5 mK, and friction falls by about a percent per kelvin.
         within(heat(0) + heat(1), asked.loss, 5e-5);
         for (i, m) in [resistance, 0.5 * resistance].into_iter().enumerate() {
             let rise = asked.places[0].bodies[i] - 40.0;
@@ -224,7 +224,7 @@ fn bodies_balance_the_heat_of_the_mesh() {
 
 #[test]
 fn bodies_are_about_as_warm_as_in_the_standard_for_micropitting() {
-    // ISO/TR 15144-1, recalled: the bodies of dip-lubricated gears are 7400 (P/(a b))^0.72/1.2 warmer than the oil, P in kW, mm.
+    // ISO/TR 15144-1, quoted from memory: the bodies of dip-lubricated gears are 7400 (P/(a b))^0.72/1.2 warmer than the oil, P in kW, mm.
     for number in [1, 2] {
         for rpm in [1000.0, 2000.0, 5000.0, 14000.0] {
             let rig = balanced(number);
@@ -244,7 +244,7 @@ fn bodies_are_about_as_warm_as_in_the_standard_for_micropitting() {
 
 #[test]
 fn friction_follows_the_stribeck_curve() {
-    // At one torque friction falls with speed towards that of the film; warm oil rubs more in mixed friction and less in full film.
+    // At constant torque friction falls with speed towards film friction; warm oil gives more in mixed friction and less in full film.
     let rig = balanced(1);
     let mu = |torque: f64, rpm: f64, oil: f64| rig.ask(&rig.gauss(), torque, rpm, oil).mu;
     let falling: Vec<f64> = [1.0, 10.0, 100.0, 1000.0, 5000.0]
@@ -256,14 +256,14 @@ fn friction_follows_the_stribeck_curve() {
     let smooth = Rig::new(1, &json!({ "exponent": 10.0, "bodies": "balance" }));
     let film = |oil: f64| smooth.ask(&smooth.gauss(), 20.0, 6000.0, oil).mu;
     assert!(film(0.0) > film(20.0), "{} {}", film(0.0), film(20.0));
-    // Loss rises with torque, and more than half as fast as it.
+    // Loss increases with torque, and more than half as fast.
     let loss = |torque: f64| rig.ask(&rig.gauss(), torque, 3000.0, 60.0).loss;
     let losses: Vec<f64> = [0.1, 1.0, 10.0, 50.0, 100.0, 300.0].map(loss).to_vec();
     assert!(losses.windows(2).all(|l| l[1] > l[0]), "{losses:?}");
     within(rig.loss(30.0, 2000.0, 60.0), loss_of_neighbour(&rig), 1e-4);
 }
 
-/// The loss a hair beside a point: what settles does not jump.
+/// The loss at a nearby point: the solution is continuous.
 fn loss_of_neighbour(rig: &Rig) -> f64 {
     rig.ask(&rig.gauss(), torque(30.0, 2000.0) * (1.0 + 1e-6), 2000.0, 60.0)
         .loss
@@ -279,7 +279,7 @@ fn without_heat_the_oil_is_as_warm_as_it_enters() {
             .iter()
             .all(|p| p.temperature == 40.0 && p.bodies == [40.0; 2])
     );
-    // Steel that conducts without end and a film that stays at its surfaces come to the same.
+    // Steel of infinite conductivity and a film at the temperature of its surfaces give the same result.
     let cold = json!({ "flank_conductivity": 1e12, "gear_resistance": [0.0, 0.0], "bodies": "oil" });
     let mut conducting = Rig::new(1, &cold);
     conducting.model.laws.flank.heat_capacity = 1e9;
@@ -308,7 +308,7 @@ fn known_bodies_are_kept_and_a_factor_of_ones_own_thins_the_film() {
     let rig = Rig::new(1, &json!({ "body_temperatures": [90.0, 70.0] }));
     let asked = rig.ask(&rig.gauss(), torque(30.0, 2000.0), 2000.0, 40.0);
     assert!(asked.places.iter().all(|p| p.bodies == [90.0, 70.0]));
-    // Oil enters at their mean.
+    // Oil enters at the mean body temperature.
     let plain = params(&json!({ "inlet_heating": "none", "thermal": false }));
     let (registry, files) = (Registry::linked().unwrap(), Files::default());
     let cx = Build::new(&registry, &files);
@@ -326,7 +326,7 @@ fn known_bodies_are_kept_and_a_factor_of_ones_own_thins_the_film() {
 
 #[test]
 fn work_per_place_is_bounded() {
-    // Machine-independent: two or three ways along the path, and few passes on each of its twenty places.
+    // Machine-independent: two or three iterations along the path, and few at each of its twenty points.
     let (mut runs, mut passes, mut places) = (0, 0, 0);
     for number in [1, 2] {
         let rig = balanced(number);

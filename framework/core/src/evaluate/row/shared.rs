@@ -1,26 +1,26 @@
-//! What does not differ between the points of a block.
+//! Values that are equal for all points of a block.
 
 use crate::loss::{Loss, Undefined};
 
-/// What one part answered where all lanes carry the same, as beside a gear that idles: mostly the same in all blocks of a row.
+/// Result of one part in a block whose lanes have equal loads, as beside an idling gear: usually the same in all blocks of a row.
 #[derive(Debug, Clone)]
 pub(super) struct Shared<K> {
-    /// What they carry.
+    /// The loads.
     at: Option<K>,
     answer: Result<Loss, Undefined>,
-    /// True where the notes stand among the common ones.
+    /// True if the notes are among the shared ones.
     noted: bool,
 }
 
 impl<K: Copy + PartialEq> Shared<K> {
-    /// Nothing was asked yet.
+    /// Not evaluated yet.
     pub const NONE: Self = Self {
         at: None,
         answer: Ok(Loss::POWERS),
         noted: false,
     };
 
-    /// The answer for what they carry now, asked for where that has moved.
+    /// The result for the present loads, evaluated again if they have changed.
     pub fn answer(&mut self, at: K, ask: impl FnOnce() -> Result<Loss, Undefined>) -> Result<Loss, Undefined> {
         if self.at != Some(at) {
             *self = Self {
@@ -32,7 +32,7 @@ impl<K: Copy + PartialEq> Shared<K> {
         self.answer
     }
 
-    /// The same where asking also notes: asked for again unless the notes stand already.
+    /// The same for an evaluation that also writes notes: evaluated again unless the notes are already shared.
     pub fn note(&mut self, at: K, ask: impl FnOnce() -> Result<Loss, Undefined>) {
         if self.at != Some(at) || !self.noted {
             *self = Self {
@@ -43,7 +43,7 @@ impl<K: Copy + PartialEq> Shared<K> {
         }
     }
 
-    /// Where the common notes stand for something else now.
+    /// Invalidates the shared notes.
     pub fn overwritten(&mut self) {
         self.noted = false;
     }
@@ -69,13 +69,13 @@ mod tests {
             shared.note(load, ask);
             assert_eq!(asked.get(), answers, "{load}");
         }
-        // The answer serves, but the notes have to be made again, by whichever way they were lost.
+        // The result is reused, but the notes must be written again, in whichever way they were lost.
         assert!(shared.answer(2.0, ask).is_ok());
         assert_eq!(asked.get(), 5);
         shared.overwritten();
         shared.note(2.0, ask);
         assert_eq!(asked.get(), 6);
-        // What is no number is the same as nothing.
+        // NaN is equal to nothing.
         for answers in [7, 8] {
             shared.note(f64::NAN, ask);
             assert_eq!(asked.get(), answers);
