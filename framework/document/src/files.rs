@@ -158,13 +158,18 @@ pub fn read_bytes(path: &Path, longest: u64) -> Result<Vec<u8>> {
         // The reported length of a file may be wrong.
         file.take(longest + 1).read_to_end(&mut bytes)?;
     }
-    let length = told.max(bytes.len() as u64);
-    if length > longest {
-        let [length, longest] = [length, longest].map(|bytes| bytes.div_ceil(1 << 20));
-        let message = format!("it has {length} MB; at most {longest} MB are read");
-        return Err(Error::other(message));
-    }
+    within(told.max(bytes.len() as u64), longest)?;
     Ok(bytes)
+}
+
+/// Refuses a file that is too long.
+fn within(length: u64, longest: u64) -> Result<()> {
+    if length <= longest {
+        return Ok(());
+    }
+    let [length, longest] = [length, longest].map(|bytes| bytes.div_ceil(1 << 20));
+    let message = format!("it has {length} MB; at most {longest} MB are read");
+    Err(Error::other(message))
 }
 
 /// The text of a regular file of at most `longest` bytes.
@@ -172,8 +177,11 @@ pub fn read_bytes(path: &Path, longest: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`read_bytes`], or if it is not UTF-8.
 pub fn read_text(path: &Path, longest: u64) -> Result<String> {
-    let bytes = read_bytes(path, longest)?;
-    String::from_utf8(bytes).map_err(|_| Error::new(std::io::ErrorKind::InvalidData, "it is not UTF-8 text"))
+    text_from(read_bytes(path, longest)?)
+}
+
+fn text_from(bytes: Vec<u8>) -> Result<String> {
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
 #[cfg(test)]
