@@ -100,7 +100,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
                  build: fn(&Value, &mut Build<'_>) -> Result<Built, Diagnostic>| Entry {
         mechanism: M::KEY,
         name,
-        source: "the user's own",
+        source: "user-defined",
         example,
         part: None,
         files: &[],

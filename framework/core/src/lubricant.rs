@@ -232,14 +232,14 @@ impl Lubricant {
             return Err((
                 "viscosity",
                 "no viscosity is stated".to_owned(),
-                "add `viscosity: { kv40: 32 mm2/s, kv100: 6 mm2/s }` with your figures, or a `designation`".to_owned(),
+                "add `viscosity: { kv40: 32 mm2/s, kv100: 6 mm2/s }` with your values, or a `designation`".to_owned(),
             ));
         };
         if written_density.law != DensityLaw::Linear && written_density.expansion.is_some() {
             return Err((
                 "density.expansion",
                 "`expansion` is combined with a law that defines its own expansion".to_owned(),
-                "leave `expansion` out, or write `law: linear`".to_owned(),
+                "omit `expansion`, or write `law: linear`".to_owned(),
             ));
         }
         let density = density(&written_density, &usual);
@@ -474,7 +474,7 @@ mod tests {
             with(&[(40.0, 5.0), (100.0, 6.0)], ViscosityLaw::AstmD341)
                 .unwrap_err()
                 .1
-                .contains("fall")
+                .contains("decrease")
         );
     }
 

@@ -462,7 +462,7 @@ impl Registry {
         sets.sort_by_key(|s| (s.name, s.origin.package, s.origin.file, s.origin.line));
         for pair in sets.windows(2) {
             if pair[0].name == pair[1].name {
-                found.push(twice("set of models", pair[0].name, pair[0].origin, pair[1].origin));
+                found.push(twice("model set", pair[0].name, pair[0].origin, pair[1].origin));
             }
         }
         let mut catalogues: Vec<_> = catalogues.into_iter().collect();

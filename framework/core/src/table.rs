@@ -142,7 +142,7 @@ impl Table {
         }
         let answer = reading.scale(ANSWER, &values);
         if let (Scale::Log, Some(value)) = (answer, values.iter().find(|v| **v <= 0.0)) {
-            return Err(format!("the result is logarithmic but has {value}"));
+            return Err(format!("`answer` is logarithmic but has {value}"));
         }
         Ok(Self {
             places: axes

@@ -797,7 +797,7 @@ mod tests {
             number: 2,
         });
         let model = Model::new(&Skf { seals, ..params() }, &part).unwrap();
-        // An outside diameter of 90 mm has K_S2 = 15 in place of 20.
+        // An outside diameter of 90 mm has K_S2 = 15 instead of 20.
         close(
             model.loss(&at(&part, 1000.0, 0.0, 0.0)).unwrap().value(3) * 1e3,
             154.119 - 5.0,

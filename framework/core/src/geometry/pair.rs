@@ -144,11 +144,11 @@ pub struct Pair {
     pub helix_angle: f64,
     /// Transverse pressure angle. \[rad\]
     pub transverse_angle: f64,
-    /// Sine of `working_angle`, which mesh losses use at every point.
+    /// Working transverse pressure angle. \[rad\]
     pub working_angle: f64,
     /// Base helix angle. \[rad\]
     pub base_helix: f64,
-    /// Sine of `working_angle`, which mesh losses ask for at every point.
+    /// Sine of `working_angle`, which mesh losses use at every point.
     pub sin_working_angle: f64,
     /// Cosine of `base_helix`, likewise.
     pub cos_base_helix: f64,

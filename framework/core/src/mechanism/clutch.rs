@@ -15,10 +15,9 @@ use crate::mechanism::{Component, Mechanism, Quantity};
 #[derive(Debug)]
 pub enum Clutch {}
 
-/// Drag of one open clutch or brake. Closed, its members have one speed and it loses nothing.
+/// Drag of one open clutch or brake. When closed, its members have equal speed and the loss is zero.
 ///
-/// It may look at [`ClutchAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`ClutchAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait ClutchModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &ClutchAt<'_>) -> Result<Loss, Undefined>;
@@ -47,7 +46,7 @@ fn one() -> u32 {
 }
 
 context! {
-    /// All that a clutch model may look at.
+    /// All inputs of a clutch model.
     pub struct ClutchAt of Clutch {
         /// Speed of the first member relative to the second, signed; zero when closed. [rpm]
         speed: 500.0 in -30000.0..=30000.0 from "kinematics of both members and the gear state",

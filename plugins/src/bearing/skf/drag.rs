@@ -75,7 +75,7 @@ pub struct Body {
     pub d: f64,
     pub big_d: f64,
     pub k_z: f64,
-    /// K_L and width of rollers; absent for balls.
+    /// K_L and width of rollers; `None` for balls.
     pub roller: Option<(f64, f64)>,
     /// Rows of balls.
     pub rows: f64,

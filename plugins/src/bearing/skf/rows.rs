@@ -181,7 +181,7 @@ pub struct Row {
     pub variables: Variables,
     /// K_Z.
     pub k_z: f64,
-    /// K_L of rollers; absent for balls.
+    /// K_L of rollers; `None` for balls.
     pub k_l: Option<f64>,
     /// Number of rows of balls.
     pub rows: f64,

@@ -1,4 +1,4 @@
-//! The numbers of a network at one state: heat of parts and motors, and its circuit.
+//! Numerical form of a network at one state: heat of parts and motors, and its circuit.
 
 use std::cell::Cell;
 
@@ -10,7 +10,7 @@ use crate::mechanism::heat_link::HeatLinkAt;
 use crate::transmission::{HeatPath, PartKind, Transmission};
 
 impl Network {
-    /// Adds the heat of all parts at the point that was evaluated last to that of the nodes. \[W\]
+    /// Adds the heat of all parts at the last evaluated point to that of the nodes. \[W\]
     pub(super) fn add_parts(&self, transmission: &Transmission, scratch: &Scratch, heat: &mut [f64]) {
         for ((part, way), watts) in transmission.parts().iter().zip(&self.heat).zip(scratch.watts()) {
             match (way, part.kind) {
@@ -24,8 +24,8 @@ impl Network {
             }
         }
     }
-    /// Adds the losses of all motors at the point that was evaluated last to the heat of the nodes, and tells them for rotor and
-    /// stator; true where one is beyond its map. \[W\]
+    /// Adds the losses of all motors at the last evaluated point to the heat of the nodes, and returns them for rotor and stator;
+    /// true if one is outside its map. \[W\]
     pub(super) fn add_motors(
         &self,
         temperatures: &[f64],
@@ -48,7 +48,7 @@ impl Network {
         }
         outside
     }
-    /// Temperatures at the start: held nodes as they are held, others as stated, else `start`, else the surroundings. \[degC\]
+    /// Initial temperatures: prescribed ones, else stated ones, else `start`, else the ambient temperature. \[degC\]
     pub fn start(&self, start: Option<f64>, around: &Surroundings) -> Vec<f64> {
         let ambient = around.ambient.unwrap_or(self.ambient);
         (0..self.names.len())
@@ -56,7 +56,7 @@ impl Network {
             .collect()
     }
 
-    /// Temperature of a held node. \[degC\]
+    /// Prescribed temperature of a node. \[degC\]
     fn held(&self, node: usize, around: &Surroundings) -> Option<f64> {
         match (node, around.ambient) {
             (0, Some(ambient)) => Some(ambient),
@@ -64,10 +64,9 @@ impl Network {
         }
     }
 
-    /// Writes the numbers of the network at temperatures of its nodes (degC) and speeds of the members (rad/s).
+    /// Writes the numerical form of the network at node temperatures (degC) and speeds of the members (rad/s).
     ///
-    /// # Errors
-    /// Number of the link whose law has no value, and why.
+    /// # Errors Number of the link whose model is undefined, and the reason.
     pub(crate) fn circuit(
         &self,
         temperatures: &[f64],
@@ -78,7 +77,7 @@ impl Network {
         circuit.capacities.clone_from(&self.capacities);
         circuit.held.clear();
         circuit.held.extend((0..self.names.len()).map(|i| self.held(i, around)));
-        // One mass flow all round, so that none is lost: that of the oil of the housing.
+        // A single mass flow in the circuit, so that it is balanced: that of the oil of the housing.
         let oil = temperatures[self.oil];
         let pumped = || self.pumped.unwrap_or(0.0) * self.lubricant.density(oil);
         let mass = around.oil_flow.unwrap_or_else(pumped);
@@ -155,7 +154,7 @@ impl Lawful {
     }
 }
 
-/// Adds a heat to nodes by equal parts.
+/// Adds heat to nodes in equal shares.
 fn spread(watts: f64, nodes: &[usize], heat: &mut [f64]) {
     for node in nodes {
         heat[*node] += watts / nodes.len() as f64;
