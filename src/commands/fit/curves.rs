@@ -92,7 +92,7 @@ pub fn curves(columns: &Columns) -> Result<Vec<Curve>, Failure> {
         };
         let place = curves.iter().position(|curve| curve.holds(&point));
         let place = place.unwrap_or_else(|| {
-            curves.push(Curve::of(&point));
+            curves.push(Curve::from_point(&point));
             curves.len() - 1
         });
         if slide_roll.as_ref().is_some_and(|ratio| ratio[row] < CREEP) {
@@ -126,7 +126,7 @@ fn one_of(columns: &Columns, one: Quantity, others: &[Quantity]) -> Result<(), F
 }
 
 impl Curve {
-    fn of(point: &TractionPoint) -> Self {
+    fn from_point(point: &TractionPoint) -> Self {
         Self {
             pressure: point.pressure,
             temperature: point.temperature,

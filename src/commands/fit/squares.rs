@@ -30,7 +30,7 @@ pub struct Squares {
 }
 
 impl Squares {
-    pub fn of(problem: &Problem<'_>) -> Result<Self, String> {
+    pub fn from_problem(problem: &Problem<'_>) -> Result<Self, String> {
         let fit = solve(problem, &Options::exact()).map_err(|fault| fault.to_string())?;
         let derivative = fit.derivative.as_ref().filter(|_| fit.converged());
         let derivative =

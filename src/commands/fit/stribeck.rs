@@ -32,7 +32,7 @@ pub fn run(path: &Path, rq: Option<&str>, exponent: f64, out: &mut Out) -> Resul
     let start = boundary_friction(&points, exponent).unwrap_or(MU_B[0]);
     let mu_b = Parameter::new("mu_b", start.clamp(MU_B[0], MU_B[1])).within(MU_B[0], MU_B[1]);
     let all = |theta: &[f64]| Ok(points.iter().map(|p| mixed_residual(theta[0], exponent, p)).collect());
-    let squares = Squares::of(&Problem::new(all, vec![mu_b])).map_err(|fault| {
+    let squares = Squares::from_problem(&Problem::new(all, vec![mu_b])).map_err(|fault| {
         Failure::input(
             format!("{}: {fault}", columns.file()),
             "measure at film thicknesses below the roughness",

@@ -97,7 +97,7 @@ pub fn run(path: &Path, args: &OilArgs, out: &mut Out) -> Result<End, Failure> {
 fn exponent(law: &Roelands, points: &[TractionPoint], tau0: f64) -> Result<Squares, String> {
     let z = Parameter::new("z", START).within(Z[0], Z[1]);
     let all = |theta: &[f64]| Ok(residuals(law, points, tau0, theta[0]));
-    Squares::of(&Problem::new(all, vec![z]))
+    Squares::from_problem(&Problem::new(all, vec![z]))
 }
 
 /// Step 3: both simultaneously.
@@ -105,7 +105,7 @@ fn together(law: &Roelands, points: &[TractionPoint], [tau0, z]: [f64; 2]) -> Re
     let tau0 = Parameter::new("tau0", tau0).within(TAU0[0], TAU0[1]);
     let z = Parameter::new("z", z).within(Z[0], Z[1]);
     let all = |theta: &[f64]| Ok(residuals(law, points, theta[0], theta[1]));
-    Squares::of(&Problem::new(all, vec![tau0, z]))
+    Squares::from_problem(&Problem::new(all, vec![tau0, z]))
 }
 
 /// Calculated minus measured stresses. \[MPa\]

@@ -185,7 +185,7 @@ impl Runner<'_> {
         for (path, name) in samples {
             self.keep_outside_at_samples(path, name);
         }
-        let page = Page::of(outcome);
+        let page = Page::from_outcome(outcome);
         for text in &page.text {
             match text {
                 Text::Everywhere(text) => out.text(text)?,

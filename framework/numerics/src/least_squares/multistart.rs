@@ -75,7 +75,7 @@ pub struct Minima {
 /// # Errors
 /// If the problem is invalid, or if hardly any point has residuals.
 pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -> Result<Minima, Fault> {
-    let space = Space::of(problem.parameters())?;
+    let space = Space::from_parameters(problem.parameters())?;
     // First, because of its errors.
     let first = search(problem, options, &space)?;
     let (others, looked) = even_starts(problem, options, &space, starts.saturating_sub(1))?;
