@@ -2,7 +2,7 @@
 
 use gearloss_document::Ordered;
 use gearloss_document::data::cells::Form;
-use gearloss_document::data::sheet::{Sheet, Wanted, told};
+use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
 use gearloss_document::data::{MeasuredFault, fault};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -140,14 +140,14 @@ impl Node {
     }
 
     /// Merges this document into a base: maps key by key; other values replace those of the base.
-    pub fn over(self, base: Node) -> Node {
+    pub fn merged_over(self, base: Node) -> Node {
         match (self.content, base.content) {
             (Content::Map(own), Content::Map(mut entries)) => {
                 for (key, node) in own {
                     match entries.iter().position(|(k, _)| k.name == key.name) {
                         Some(i) => {
                             let (_, under) = std::mem::replace(&mut entries[i], (key.clone(), NOTHING));
-                            entries[i] = (key, node.over(under));
+                            entries[i] = (key, node.merged_over(under));
                         }
                         None => entries.push((key, node)),
                     }

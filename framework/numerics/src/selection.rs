@@ -16,4 +16,4 @@ pub use errors::LossErrors;
 pub use losses::{Losses, MeasuredLosses};
 pub use ranking::{Bounds, Combination, Printed, rank, validate};
 pub use shortlist::{Shortlist, shortlist};
-pub use winner::{Standing, Winner, stand, winner};
+pub use winner::{Standing, Winner, compare_pair, winner};

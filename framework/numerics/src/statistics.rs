@@ -20,7 +20,7 @@ pub struct Statistics {
 
 impl Statistics {
     /// Statistics of a list; absent if it is empty.
-    pub fn of(list: impl IntoIterator<Item = f64>) -> Option<Self> {
+    pub fn from_values(list: impl IntoIterator<Item = f64>) -> Option<Self> {
         Self::weighted(list.into_iter().map(|x| (x, 1.0)))
     }
 
@@ -109,7 +109,7 @@ pub fn bands(coordinates: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
 /// Histogram with equal bins: lower end of the first bin, width, counts. The number of bins is proportional to the root of the number of
 /// values.
 pub fn histogram(values: &[f64]) -> (f64, f64, Vec<usize>) {
-    let Some(of) = Statistics::of(values.iter().copied()) else {
+    let Some(of) = Statistics::from_values(values.iter().copied()) else {
         return (0.0, 1.0, Vec::new());
     };
     let cells = ((of.count as f64).sqrt().ceil() as usize).clamp(1, 40);
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn figures_of_a_list() {
-        let of = Statistics::of([1.0, -1.0, 3.0, 1.0]);
+        let of = Statistics::from_values([1.0, -1.0, 3.0, 1.0]);
         let expected = Statistics {
             count: 4,
             least: -1.0,
@@ -139,7 +139,7 @@ mod tests {
             rms: 3.0_f64.sqrt(),
         };
         assert_eq!(of, Some(expected));
-        assert_eq!(Statistics::of([]), None);
+        assert_eq!(Statistics::from_values([]), None);
     }
 
     #[test]

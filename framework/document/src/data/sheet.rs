@@ -190,7 +190,7 @@ impl Sheet {
 }
 
 /// One error for each of the first messages, and the number of further ones.
-pub fn told(messages: Vec<String>, help: &str) -> Vec<MeasuredFault> {
+pub fn limited_faults(messages: Vec<String>, help: &str) -> Vec<MeasuredFault> {
     let beyond = messages.len().saturating_sub(TOLD);
     let mut faults: Vec<_> = messages.into_iter().take(TOLD).map(|m| fault(m, help)).collect();
     if let (Some(last), 1..) = (faults.last_mut(), beyond) {

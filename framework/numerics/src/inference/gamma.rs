@@ -33,7 +33,7 @@ pub(super) fn ln_gamma(x: f64) -> f64 {
 }
 
 /// Sufficient number of terms: series and fractions converge within a few times the root of their largest parameter.
-fn most(parameter: f64) -> usize {
+fn sufficient_terms(parameter: f64) -> usize {
     1000 + (50.0 * parameter.sqrt()).min(1e6) as usize
 }
 
@@ -48,7 +48,7 @@ pub(super) fn gamma(a: f64, x: f64) -> [f64; 2] {
     let front = (a * x.ln() - x - ln_gamma(a)).exp();
     if x < a + 1.0 {
         let (mut term, mut sum) = (1.0 / a, 1.0 / a);
-        for k in 1..most(a) {
+        for k in 1..sufficient_terms(a) {
             term *= x / (a + k as f64);
             sum += term;
             if term < DONE * sum {
@@ -58,7 +58,7 @@ pub(super) fn gamma(a: f64, x: f64) -> [f64; 2] {
         let p = (front * sum).clamp(0.0, 1.0);
         return [p, 1.0 - p];
     }
-    let fraction = lentz(most(a), |k| {
+    let fraction = lentz(sufficient_terms(a), |k| {
         let k = k as f64;
         (if k == 0.0 { 1.0 } else { k * (a - k) }, x - a + 1.0 + 2.0 * k)
     });
@@ -82,7 +82,7 @@ pub(super) fn beta(a: f64, b: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     }
     let ln_y = if x < 0.5 { (-x).ln_1p() } else { y.ln() };
     let front = (ln_gamma(a + b) - ln_gamma(a) - ln_gamma(b) + a * x.ln() + b * ln_y).exp() / a;
-    let fraction = lentz(most(a.max(b)), |k| {
+    let fraction = lentz(sufficient_terms(a.max(b)), |k| {
         let m = (k / 2) as f64;
         let numerator = match k {
             0 => 1.0,

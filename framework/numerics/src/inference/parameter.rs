@@ -170,7 +170,7 @@ impl Parameter {
     /// State from the gradient of the sum of squares: at an active bound, or free.
     ///
     /// "At a bound" means bitwise equal, as from a solver that respects bounds.
-    pub fn stand(&mut self, gradient: f64) {
+    pub fn update_state(&mut self, gradient: f64) {
         self.standing = match self.bounds {
             [low, high] if low == high => Standing::Fixed,
             [low, _] if self.u == low && gradient > 0.0 => Standing::Active(Side::Lower),
@@ -219,7 +219,7 @@ mod tests {
         assert!((f.u - 2.0_f64.ln()).abs() < 1e-15 && (f.theta() - 2.0).abs() < 1e-15);
         assert!((f.range() - 4.0_f64.ln()).abs() < 1e-15);
         for (gradient, standing) in [(-1.0, Standing::Active(Side::Upper)), (1.0, Standing::Free)] {
-            f.stand(gradient);
+            f.update_state(gradient);
             assert_eq!(f.standing, standing);
         }
         let fixed = Parameter::new("f", Scale::Linear, 2.0, [2.0, 2.0]).unwrap();

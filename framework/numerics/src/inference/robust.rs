@@ -26,7 +26,7 @@ pub struct RobustRows {
 
 impl RobustRows {
     /// From residuals and a loss with its scale.
-    pub fn of(loss: Loss, scale: f64, residuals: &[f64]) -> Self {
+    pub fn new(loss: Loss, scale: f64, residuals: &[f64]) -> Self {
         let mut rows = Self {
             curvature: Vec::new(),
             kept: Vec::new(),
@@ -152,7 +152,7 @@ mod tests {
         let parameters = ["a", "b"]
             .map(|name| Parameter::new(name, Scale::Linear, 0.0, [-100.0, 100.0]).unwrap())
             .to_vec();
-        let rows = RobustRows::of(loss, 2.0, residuals);
+        let rows = RobustRows::new(loss, 2.0, residuals);
         Fit::robust(parameters, &jacobian, residuals, 0, (Accuracy::Given, &rows)).unwrap()
     }
 
@@ -168,7 +168,7 @@ mod tests {
         let residuals = [0.5, -1.0, 0.3, 4.0, -0.7, 1.2, -0.1];
         let fit = line(&residuals, loss);
         // The same by explicit products, two by two.
-        let rows = RobustRows::of(loss, 2.0, &residuals);
+        let rows = RobustRows::new(loss, 2.0, &residuals);
         let x = |i: usize| [1.0, i as f64 - 3.0];
         let product = |weight: &dyn Fn(usize) -> f64| {
             let entry = |j: usize, k: usize| (0..7).map(|i| weight(i) * x(i)[j] * x(i)[k]).sum::<f64>();

@@ -147,7 +147,7 @@ fn held_parameters_leave_nothing_to_say() {
 #[test]
 fn a_bound_that_holds_a_parameter_says_so() {
     let mut a = Parameter::new("a", Scale::Log, 2.0, [2.0, 9.0]).unwrap();
-    a.stand(1.0);
+    a.update_state(1.0);
     assert_eq!(a.standing, Standing::Active(Side::Lower));
     let fit = Fit::new(
         vec![a],

@@ -10,7 +10,7 @@ impl Fit {
     /// The verdict on a parameter as a sentence without full stop, with a note if its interval fills half the range or more.
     pub fn sentence(&self, parameter: usize) -> String {
         let found = self.determination(parameter);
-        let said = self.said(parameter, &found);
+        let said = self.verdict_text(parameter, &found);
         match found.filled {
             Some(filled) if filled >= FILLS && found.verdict != Verdict::NotSeen => {
                 format!("{said}; its interval fills {:.0} % of the given range", 100.0 * filled)
@@ -20,7 +20,7 @@ impl Fit {
     }
 
     /// The verdict as text.
-    fn said(&self, parameter: usize, found: &Determination) -> String {
+    fn verdict_text(&self, parameter: usize, found: &Determination) -> String {
         let at = &self.parameters()[parameter];
         match found.verdict {
             Verdict::Held => format!("fixed at {}", digits(at.theta())),

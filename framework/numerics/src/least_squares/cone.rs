@@ -108,7 +108,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region, newton: f64) -> Option<DV
     let ball = rows + bounds;
     let slack = answer.s[ball] - answer.s[ball + 1..].iter().map(|s| s * s).sum::<f64>().sqrt();
     let inside = answer.z[ball] <= slack;
-    if let Some(sharp) = model.least(&z, &loose).filter(|sharp| inside && region.holds(sharp)) {
+    if let Some(sharp) = model.minimum(&z, &loose).filter(|sharp| inside && region.holds(sharp)) {
         return Some(sharp);
     }
     region.clip(&mut z);

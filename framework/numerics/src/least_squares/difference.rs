@@ -160,7 +160,7 @@ mod tests {
             inside.ok_or_else(|| "beyond the edge".to_owned())
         };
         let problem = Problem::new(law, vec![Parameter::new("x", x).within(bounds[0], bounds[1])]);
-        let space = Space::of(problem.parameters()).unwrap_or_else(|fault| panic!("{fault}"));
+        let space = Space::from_parameters(problem.parameters()).unwrap_or_else(|fault| panic!("{fault}"));
         let (evaluator, r) = Evaluator::start(&problem, &space, None).unwrap_or_else(|fault| panic!("{fault}"));
         let differences = Differences {
             evaluator: &evaluator,

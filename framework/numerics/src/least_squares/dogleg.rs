@@ -33,7 +33,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region) -> DVector<f64> {
     let mut free: Vec<usize> = (0..z.len())
         .filter(|j| !outward(region, &z, *j, -gradient[*j]))
         .collect();
-    while let Some(target) = model.least(&z, &free) {
+    while let Some(target) = model.minimum(&z, &free) {
         let leg = target - &z;
         let Some(bound) = walk(region, &mut z, &leg, 1.0) else {
             break;

@@ -33,7 +33,7 @@ impl Finding {
 
 impl Fault {
     /// One error: place, message and help.
-    pub fn of(place: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub fn single(place: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Finding::new(place, message, help).into()
     }
 }

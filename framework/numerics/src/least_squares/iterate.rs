@@ -93,7 +93,7 @@ pub(super) fn run(context: &Context<'_>, start: Point, steps: Steps, attempt: us
         scale: DVector::zeros(n),
         radius: None,
         trusted: 0,
-        noise: CostNoise::told(context.noise),
+        noise: CostNoise::stated(context.noise),
         unseen: vec![true; n],
     };
     run.finish(record)

@@ -17,7 +17,7 @@ pub(super) struct Factors {
 
 impl Factors {
     /// Factors of scaled columns and a residual.
-    pub fn of(columns: DMatrix<f64>, residual: &DVector<f64>) -> Self {
+    pub fn new(columns: DMatrix<f64>, residual: &DVector<f64>) -> Self {
         let qr = columns.qr();
         let r = qr.r();
         let mut factors = Self {

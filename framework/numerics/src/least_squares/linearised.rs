@@ -49,7 +49,7 @@ impl<'a> Linearised<'a> {
             space,
             point: point.clone(),
             cost: robust.cost(&point.r),
-            factors: Factors::of(columns, &weighted.residual),
+            factors: Factors::new(columns, &weighted.residual),
             scale: scale.clone(),
             first_order: optimality::first_order(space, &point.u, &rows, &weighted.residual),
             relative_offset: optimality::relative_offset(&rows, &weighted.residual, &active),

@@ -20,7 +20,7 @@ pub(super) struct CostNoise {
 
 impl CostNoise {
     /// From the stated noise of a call relative to the residuals.
-    pub fn told(noise: f64) -> Self {
+    pub fn stated(noise: f64) -> Self {
         Self {
             share: TOLD * noise,
             sounded: false,

@@ -44,7 +44,9 @@ pub(super) fn first_order(space: &Space<'_>, u: &[f64], jacobian: &DMatrix<f64>,
 /// the other columns. A column that is a combination of the others is never above that, so that its bound cannot hide the singularity.
 pub(super) fn unheld(jacobian: &DMatrix<f64>, residual: &DVector<f64>, active: &[Option<Side>]) -> Vec<usize> {
     let free = inactive(active);
-    let left = linear::Factors::of(linear::columns(jacobian, &free), residual).q.norm();
+    let left = linear::Factors::new(linear::columns(jacobian, &free), residual)
+        .q
+        .norm();
     let noise = ROUNDING * residual.norm();
     let holds = |j: usize| {
         let column = jacobian.column(j);
@@ -67,7 +69,7 @@ pub(super) fn relative_offset(
     if n == 0 || rows <= n {
         return None;
     }
-    let inside = linear::Factors::of(linear::columns(jacobian, &free), residual)
+    let inside = linear::Factors::new(linear::columns(jacobian, &free), residual)
         .q
         .norm_squared();
     let outside = residual.norm_squared() - inside;

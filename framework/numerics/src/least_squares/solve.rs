@@ -31,7 +31,7 @@ const FAILURES: f64 = 0.2;
 /// # Errors
 /// If the problem is invalid; all its errors. Failures of the search are not errors: the fit reports status and reason.
 pub fn solve(problem: &Problem<'_>, options: &Options<'_>) -> Result<Fit, Fault> {
-    let space = Space::of(problem.parameters())?;
+    let space = Space::from_parameters(problem.parameters())?;
     let fit = search(problem, options, &space)?;
     if options.polish && is_stuck(&fit) {
         return finish(problem, options, &space, fit, None);
@@ -248,7 +248,7 @@ impl Context<'_> {
         }
         Fit {
             theta: space.theta(&end.point.u),
-            u: space.all(&end.point.u),
+            u: space.all_coordinates(&end.point.u),
             cost: self.robust.cost(&end.point.r),
             residuals: end.point.r.iter().copied().collect(),
             rows: self.evaluator.rows,

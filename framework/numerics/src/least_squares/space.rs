@@ -25,7 +25,7 @@ impl<'p> Space<'p> {
     ///
     /// # Errors
     /// All errors of the parameters.
-    pub fn of(parameters: &'p [Parameter]) -> Result<Self, Fault> {
+    pub fn from_parameters(parameters: &'p [Parameter]) -> Result<Self, Fault> {
         let mut findings = Vec::new();
         if parameters.is_empty() {
             findings.push(Finding::new("parameters", "there are none", "give at least one"));
@@ -112,7 +112,7 @@ impl<'p> Space<'p> {
     }
 
     /// All coordinates, including those of fixed parameters.
-    pub fn all(&self, u: &[f64]) -> Vec<f64> {
+    pub fn all_coordinates(&self, u: &[f64]) -> Vec<f64> {
         let mut all: Vec<f64> = self.parameters.iter().map(|p| p.coordinate(p.lower)).collect();
         for (j, i) in self.free.iter().enumerate() {
             all[*i] = u[j];

@@ -72,7 +72,7 @@ impl Model<'_> {
     }
 
     /// The minimum over some components, the others as in z.
-    pub fn least(&self, z: &DVector<f64>, free: &[usize]) -> Option<DVector<f64>> {
+    pub fn minimum(&self, z: &DVector<f64>, free: &[usize]) -> Option<DVector<f64>> {
         let mut held = z.clone();
         for j in free {
             held[*j] = 0.0;
@@ -108,7 +108,7 @@ impl Region {
 /// The step to the minimum of the model, or one with sufficient decrease if the cone program fails.
 pub(super) fn step(model: &Model<'_>, region: &Region, way: Subproblem) -> Step {
     let whole: Vec<usize> = (0..model.r.ncols()).collect();
-    let newton = model.least(&DVector::zeros(whole.len()), &whole);
+    let newton = model.minimum(&DVector::zeros(whole.len()), &whole);
     if let Some(z) = newton.as_ref().filter(|z| region.holds(z)) {
         return Step {
             z: z.clone(),

@@ -36,7 +36,7 @@ impl Losses<'_> {
     }
 
     /// Loss of a combination at every point. \[W\]
-    pub fn all(&self, places: &[usize], factors: &[f64]) -> Vec<f64> {
+    pub fn of_combination(&self, places: &[usize], factors: &[f64]) -> Vec<f64> {
         (0..self.rest.len()).map(|i| self.loss(places, factors, i)).collect()
     }
 }

@@ -89,7 +89,7 @@ pub fn validate(
 ) -> Option<Combination> {
     let all: Vec<usize> = (0..measured.len()).collect();
     let factors = factors(losses, measured, bounds, &places, &all)?;
-    let fitted = losses.all(&places, &factors);
+    let fitted = losses.of_combination(&places, &factors);
     let predicted = predictions(losses, measured, bounds, &places)?;
     let residuals = measured.residuals(&predicted);
     let weighted = |rows: &[usize]| Statistics::weighted(rows.iter().map(|i| (residuals[*i], measured.weights[*i])));

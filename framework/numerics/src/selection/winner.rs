@@ -16,14 +16,15 @@ pub struct Standing {
 }
 
 /// Compares two combinations.
-pub fn stand(
+pub fn compare_pair(
     [first, second]: [&Combination; 2],
     losses: &Losses<'_>,
     measured: &MeasuredLosses,
     errors: &ErrorModel,
 ) -> Standing {
     let folds = Paired::from_folds(&first.mean_squares, &second.mean_squares, FLOOR);
-    let residuals = |c: &Combination| measured.weighted(&measured.residuals(&losses.all(&c.places, &c.factors)));
+    let residuals =
+        |c: &Combination| measured.weighted(&measured.residuals(&losses.of_combination(&c.places, &c.factors)));
     let separation = Separation::new([&residuals(first), &residuals(second)], errors);
     let found = folds.map_or(Decision::NotDecided, |folds| folds.decision());
     Standing {
@@ -64,13 +65,13 @@ pub fn winner(
     correlation: Option<f64>,
 ) -> Option<Winner> {
     let best = ranked.first()?;
-    let fitted = losses.all(&best.places, &best.factors);
+    let fitted = losses.of_combination(&best.places, &best.factors);
     let estimated = || ErrorModel::estimated(&measured.weighted(&measured.residuals(&fitted)), &measured.points);
     // Without neighbours the correlation is unknown, and errors count as independent.
     let stated = |correlation: f64| ErrorModel::new(1.0, correlation, &measured.points.shapes);
     let errors = correlation.map_or_else(|| estimated().unwrap_or_else(|| stated(0.0)), stated);
     let unmarked = ranked.iter().position(|c| !is_marked(c));
-    let against = |a: usize, b: usize| stand([&ranked[a], &ranked[b]], losses, measured, &errors);
+    let against = |a: usize, b: usize| compare_pair([&ranked[a], &ranked[b]], losses, measured, &errors);
     let best_against_unmarked = unmarked.filter(|place| *place > 0).map(|place| against(0, place));
     let place = match (unmarked, best_against_unmarked) {
         (Some(place), Some(standing)) if standing.decision != Decision::Better => place,
