@@ -388,7 +388,7 @@ fn chain(
         Ok(text) => {
             let inner = file.parent().unwrap_or(Path::new("")).to_path_buf();
             let base = chain(&text, &file.display().to_string(), &inner, sources, found, seen, span)?;
-            Some(read.node.over(base))
+            Some(read.node.merged_over(base))
         }
     }
 }

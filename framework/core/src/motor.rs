@@ -2,7 +2,7 @@
 
 use gearloss_document::Ordered;
 use gearloss_document::data::cells::Form;
-use gearloss_document::data::sheet::{Sheet, Wanted, told};
+use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
 use gearloss_document::data::{MeasuredFault, fault};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -175,7 +175,7 @@ impl MotorMap {
             }
         }
         if !faulty.is_empty() {
-            return Err(told(faulty, "correct the cell, or leave the row out"));
+            return Err(limited_faults(faulty, "correct the cell, or leave the row out"));
         }
         let mut notes = sheet.notes.clone();
         if silent > 0 {

@@ -1,4 +1,4 @@
-//! What is wrong, where, and how to fix it.
+//! Findings: message, place and help.
 
 use std::fmt;
 
@@ -7,38 +7,38 @@ use serde::Serialize;
 
 use super::node::Span;
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Severity {
     /// The document cannot be used.
     Error,
-    /// The document can be used; something deserves a look.
+    /// The document can be used, but should be checked.
     Warning,
 }
 
-/// What kind of finding it is, for programs: the word stays where the message is put better. A stage of reading gives its word to
-/// all that it finds without one of its own.
+/// Kind of a finding, for programs: it remains the same if the message is reworded. A reading stage assigns its code to findings without
+/// one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Code {
     /// A file cannot be read.
     Unreadable,
-    /// The text is no YAML as documents are written in it.
+    /// The text is not valid YAML for documents.
     Syntax,
-    /// A key that has no meaning at its place.
+    /// An unknown key.
     UnknownKey,
-    /// A key that is needed.
+    /// A missing key.
     MissingKey,
-    /// A `type`, or a word, that there is not.
+    /// An unknown `type` or word.
     UnknownName,
-    /// A value of another kind, unit or range.
+    /// A value of the wrong kind, unit or range.
     Value,
-    /// A model, catalogue value, set or override that does not fit.
+    /// An invalid model, catalogue value, model set or override.
     Choice,
-    /// What is described cannot be built, or deserves a look.
+    /// The described transmission cannot be built, or should be checked.
     Gearbox,
-    /// A study, its data or what it points at does not fit.
+    /// An invalid study, or invalid data of a study.
     Study,
     /// Anything else.
     Other,
@@ -47,17 +47,17 @@ pub enum Code {
 /// One finding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// Severity.
     pub severity: Severity,
-    /// What kind of finding it is, where its author or a stage has said so.
+    /// Kind of finding, if assigned.
     pub code: Option<Code>,
-    /// Path in the document; empty where there is none.
+    /// Path in the document; empty if there is none.
     pub path: String,
-    /// What is wrong.
+    /// Message.
     pub message: String,
-    /// Places in the text: the first is the place itself, the others say why.
+    /// Places in the text: the first is the place of the finding, the others give reasons.
     pub spans: Vec<(Span, String)>,
-    /// More about it.
+    /// Notes.
     pub notes: Vec<String>,
     /// How to fix it.
     pub help: Option<String>,
@@ -85,7 +85,7 @@ impl Diagnostic {
         }
     }
 
-    /// Says what kind of finding it is, unless it was said.
+    /// Assigns a kind unless one was assigned.
     pub fn code(mut self, code: Code) -> Self {
         self.code.get_or_insert(code);
         self
@@ -108,13 +108,13 @@ impl Diagnostic {
         self
     }
 
-    /// Says how to fix it.
+    /// Adds the help.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// The finding about a path at another place: that of the change which led to it.
+    /// Moves a finding about a path to another place: to the change that caused it.
     pub fn moved(self, place: impl Into<String>, path: &str) -> Self {
         Self {
             path: place.into(),
@@ -124,7 +124,7 @@ impl Diagnostic {
         }
     }
 
-    /// The finding in one line: path and message.
+    /// The finding as one line: path and message.
     pub fn title(&self) -> String {
         if self.path.is_empty() {
             self.message.clone()
@@ -151,7 +151,7 @@ impl std::error::Error for Diagnostic {}
 pub struct Sources(Vec<(String, String)>);
 
 impl Sources {
-    /// Adds a text with the name to print; returns its number.
+    /// Adds a text with its printed name; returns its number.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> u16 {
         self.0.push((name.into(), text.into()));
         (self.0.len() - 1) as u16
@@ -173,7 +173,7 @@ impl Sources {
         Some((name, line, column))
     }
 
-    /// A finding with the excerpt of its text, plain, without colours.
+    /// A finding with an excerpt of its text, without colours.
     pub fn render(&self, finding: &Diagnostic) -> String {
         let level = match finding.severity {
             Severity::Error => Level::ERROR,
@@ -222,7 +222,7 @@ impl Sources {
     }
 }
 
-/// A range of the text at character boundaries, at least one character where there is one.
+/// A range of the text at character boundaries, at least one character if there is one.
 fn clip(text: &str, span: Span) -> std::ops::Range<usize> {
     let floor = |mut at: usize| {
         at = at.min(text.len());
@@ -233,13 +233,13 @@ fn clip(text: &str, span: Span) -> std::ops::Range<usize> {
     };
     let start = floor(span.start as usize);
     let end = floor(span.end as usize).max(start);
-    // A span over several lines is shown by its first.
+    // A span over several lines is shown by its first line.
     let line = text[start..end].find('\n').map_or(end, |newline| start + newline);
     start..line.max(start)
 }
 
-/// The candidate that was probably meant: one letter differs, or it is the only one of which the word is a part, as `pitch` of
-/// `pitch_point`, or at most a third of its letters differ.
+/// The candidate that was probably meant: one letter differs, or it is the only candidate with the word as a part (`pitch` in
+/// `pitch_point`), or at most a third of its letters differ.
 pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&'a str> = candidates.into_iter().collect();
     let misspelt = misspelt(word, &candidates);
@@ -248,12 +248,12 @@ pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
     close.or(misspelt).map(|(_, candidate)| candidate)
 }
 
-/// The only candidate that has the word between its underscores.
+/// The only candidate with the word between its underscores.
 fn abbreviated<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let word = word.to_lowercase();
     let has_part = |candidate: &&&str| candidate.to_lowercase().split('_').any(|part| part == word);
     let mut found = candidates.iter().filter(has_part);
-    // Parts of one or two letters are numbers and sides, which many names have.
+    // Parts of one or two letters are too common.
     let first = found.next().filter(|_| word.chars().count() > 2)?;
     found.all(|other| other == first).then_some(first)
 }
@@ -274,7 +274,7 @@ fn misspelt<'a>(word: &str, candidates: &[&'a str]) -> Option<(usize, &'a str)> 
         .min_by_key(|(away, _)| *away)
 }
 
-/// Edits, with a swap of neighbours as one (optimal string alignment).
+/// Edit distance, with a swap of neighbours as one edit (optimal string alignment).
 pub fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
