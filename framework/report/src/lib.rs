@@ -1,5 +1,6 @@
 //! Text, figures, pages and files of results.
 
+pub mod card;
 mod contours;
 pub mod csv;
 pub mod deviations;
@@ -9,6 +10,7 @@ pub mod html;
 pub mod page;
 pub mod parquet;
 pub mod plot;
+pub mod point;
 mod schematic;
 pub mod text;
 pub mod views;
