@@ -228,7 +228,7 @@ pub(super) fn all(
                 write::remove(&runner, name);
                 out.line(format!("{name}: failed"))?;
                 runner.in_section(|section| section.text.push_str(&format!("failed\n{text}")));
-                if let Some(text) = reported.rest(failure).and_then(|rest| rest.text()) {
+                if let Some(text) = reported.unreported(failure).and_then(|rest| rest.text()) {
                     Out::error().text(&text)?;
                 }
             }

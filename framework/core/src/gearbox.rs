@@ -114,7 +114,8 @@ impl From<Diagnostic> for Findings {
 impl Language {
     /// The language of all linked crates; the starting point of reading.
     ///
-    /// # Errors All faults of the linked mechanisms, models, catalogues and sets.
+    /// # Errors
+    /// All faults of the linked mechanisms, models, catalogues and sets.
     pub fn linked() -> Result<Self, Findings> {
         Ok(Self::new(Registry::linked()?)?)
     }
@@ -123,7 +124,8 @@ impl Language {
 impl Gearbox {
     /// Reads a gearbox file of the disk and the files that it extends.
     ///
-    /// # Errors All findings of reading and checking.
+    /// # Errors
+    /// All findings of reading and checking.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
         Self::read_from(language, &Disk::shared(), file)
     }
@@ -144,7 +146,8 @@ impl Gearbox {
 
     /// Reads a gearbox from a text; `folder` on the disk contains the files that it names.
     ///
-    /// # Errors All findings of reading and checking.
+    /// # Errors
+    /// All findings of reading and checking.
     pub fn of_text(language: &Language, text: &str, name: &str, folder: impl Into<PathBuf>) -> Result<Self, Findings> {
         Self::from_text(language, &Disk::shared(), text, name, folder)
     }
@@ -189,7 +192,8 @@ impl Gearbox {
 
     /// Resolves the description with a choice of models and overrides.
     ///
-    /// # Errors All findings of resolving, with positions.
+    /// # Errors
+    /// All findings of resolving, with positions.
     pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
         resolve(language, &self.files, &self.value, choice).map_err(|list| {
             self.findings(
@@ -250,7 +254,8 @@ impl Gearbox {
 
     /// Builds the transmission of a resolved description.
     ///
-    /// # Errors All findings of building, with positions.
+    /// # Errors
+    /// All findings of building, with positions.
     pub fn build(&self, language: &Language, resolved: &Resolved) -> Result<Transmission, Findings> {
         let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
             self.findings(
@@ -290,7 +295,8 @@ impl Gearbox {
 
     /// Resolves and builds.
     ///
-    /// # Errors All findings of both.
+    /// # Errors
+    /// All findings of both.
     pub fn transmission(&self, language: &Language, choice: &Choice) -> Result<Transmission, Findings> {
         self.build(language, &self.resolve(language, choice)?)
     }
@@ -394,7 +400,7 @@ impl Chain<'_> {
             Ok(text) => {
                 let inner = file.parent().unwrap_or(Path::new(""));
                 let base = self.read(&text, &file.display().to_string(), inner, span)?;
-                Some(read.node.over(base))
+                Some(read.node.merged_over(base))
             }
         }
     }

@@ -162,7 +162,7 @@ fn limit_words(limit: Option<&Curve>) -> String {
         return String::new();
     };
     let said = format!(
-        "\ngreatest stress over pressure at the highest pressures: {} at {}\n",
+        "\nmaximum stress over pressure at the highest pressures: {} at {}\n",
         figures(curve.greatest, 3),
         curve.name()
     );

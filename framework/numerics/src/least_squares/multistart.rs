@@ -75,7 +75,7 @@ pub struct Minima {
 /// # Errors
 /// If the problem is invalid, or if hardly any point has residuals.
 pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -> Result<Minima, Fault> {
-    let space = Space::of(problem.parameters())?;
+    let space = Space::from_parameters(problem.parameters())?;
     let others = even_starts(problem, options, &space, starts.saturating_sub(1));
     let others_or_none = others.as_ref().map_or(&[][..], |(others, _)| others);
     let search_from = |i: usize| match i.checked_sub(1) {

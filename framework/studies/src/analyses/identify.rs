@@ -149,7 +149,7 @@ fn identify(
         let fits = cx.each(&format!("{} starts", b.name), count, search);
         fits.unwrap_or_else(|stopped| {
             cx.end(stopped);
-            vec![Err(Fault::of("the search", "it was broken off", "run it again"))]
+            vec![Err(Fault::single("the search", "it was broken off", "run it again"))]
         })
     };
     let settings = Settings {
