@@ -471,7 +471,7 @@ fn values_of_tables_and_lists_are_parameters() {
         .unwrap();
     let refused = gearbox.build(&language, &half).err().unwrap().render();
     assert!(
-        refused.contains("table needs `file`, or `axes` and `values`"),
+        refused.contains("table requires `file`, or `axes` and `values`"),
         "{refused}"
     );
     let misspelt = json!({ "type": "table", "axes": { "sped": [0, 1] }, "values": [1, 2] });

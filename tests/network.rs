@@ -361,7 +361,7 @@ fn a_circuit_of_oil_that_does_not_close_is_told_and_no_exchanger_cools_the_air()
     };
     let own = gearbox.transmission(&language, &Choice::default()).unwrap();
     assert!(
-        own.warnings.iter().all(|w| !w.message.contains("flows out")),
+        own.warnings.iter().all(|w| !w.message.contains("oil flow of")),
         "{:?}",
         own.warnings
     );

@@ -28,7 +28,7 @@ pub fn run(language: &Language, file: &Path, only: Option<&str>, out: &mut Out) 
         for entry in language
             .registry()
             .models(mechanism.key)
-            .filter(|e| e.source != "the user's own")
+            .filter(|e| !e.is_user_defined())
         {
             let Ok((example, _)) = language.example_of(entry) else {
                 continue;

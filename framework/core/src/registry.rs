@@ -156,6 +156,9 @@ pub const fn default_of(key: &'static str, grade: Evidence, because: &'static st
     Graded { key, grade, because }
 }
 
+/// Source of a model whose law the user states, such as `formula` and `table`.
+pub const USER_DEFINED: &str = "user-defined";
+
 /// A type-erased `Arc<M::Model>`.
 pub type Built = Box<dyn Any + Send + Sync>;
 
@@ -218,6 +221,11 @@ impl Entry {
         slots
             .filter_map(|(key, record)| Some((key.clone(), mechanism(record)?)))
             .collect()
+    }
+
+    /// True if the user states the law of the model: it has no published source.
+    pub fn is_user_defined(&self) -> bool {
+        self.source == USER_DEFINED
     }
 
     /// Description, as a sentence: the first paragraph of the doc comment of its parameters.

@@ -6,7 +6,7 @@
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Evidence, USER_DEFINED, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -36,7 +36,7 @@ impl AuxiliaryModel for ConstantPower {
 }
 
 register!(Auxiliary, "constant_power", ConstantPower,
-    source: "user-defined",
+    source: USER_DEFINED,
     example: "{ type: constant_power, power: 150 W }",
     evidence: [
         formula(Evidence::User, "the user states it"),
