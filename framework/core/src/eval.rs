@@ -53,7 +53,8 @@ impl Evaluated {
 
 /// A mechanism and a model of a language by their names, `MECHANISM/MODEL`.
 ///
-/// # Errors If there is no such model; the error lists the available ones, or a close match.
+/// # Errors
+/// If there is no such model; the error lists the available ones, or a close match.
 pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEntry, &'a Entry), Diagnostic> {
     let Some((mechanism, model)) = name.split_once('/') else {
         return Err(Diagnostic::error("", format!("`{name}` is not a model"))

@@ -93,7 +93,8 @@ impl Transmission {
 
     /// The sum of all losses at trial temperatures: without notes or counts. \[W\]
     ///
-    /// # Errors Why there is none.
+    /// # Errors
+    /// Why there is none.
     pub(crate) fn probe(
         &self,
         case: &Case,

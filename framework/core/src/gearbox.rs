@@ -113,7 +113,8 @@ impl From<Diagnostic> for Findings {
 impl Language {
     /// The language of all linked crates; the starting point of reading.
     ///
-    /// # Errors All faults of the linked mechanisms, models, catalogues and sets.
+    /// # Errors
+    /// All faults of the linked mechanisms, models, catalogues and sets.
     pub fn linked() -> Result<Self, Findings> {
         Ok(Self::new(Registry::linked()?)?)
     }
@@ -122,7 +123,8 @@ impl Language {
 impl Gearbox {
     /// Reads a gearbox file and the files that it extends.
     ///
-    /// # Errors All findings of reading and checking.
+    /// # Errors
+    /// All findings of reading and checking.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
         let mut sources = Sources::default();
         let text = match read_text(file, LONGEST_TEXT) {
@@ -144,7 +146,8 @@ impl Gearbox {
 
     /// Reads a gearbox from a text; `folder` contains the files that it names.
     ///
-    /// # Errors All findings of reading and checking.
+    /// # Errors
+    /// All findings of reading and checking.
     pub fn of_text(language: &Language, text: &str, name: &str, folder: impl Into<PathBuf>) -> Result<Self, Findings> {
         let mut sources = Sources::default();
         Self::parse(language, text, name, folder.into(), &mut sources).map_err(|list| Findings { list, sources })
@@ -176,7 +179,8 @@ impl Gearbox {
 
     /// Resolves the description with a choice of models and overrides.
     ///
-    /// # Errors All findings of resolving, with positions.
+    /// # Errors
+    /// All findings of resolving, with positions.
     pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
         resolve(language, &self.files, &self.value, choice).map_err(|list| {
             self.findings(
@@ -237,7 +241,8 @@ impl Gearbox {
 
     /// Builds the transmission of a resolved description.
     ///
-    /// # Errors All findings of building, with positions.
+    /// # Errors
+    /// All findings of building, with positions.
     pub fn build(&self, language: &Language, resolved: &Resolved) -> Result<Transmission, Findings> {
         let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
             self.findings(
@@ -277,7 +282,8 @@ impl Gearbox {
 
     /// Resolves and builds.
     ///
-    /// # Errors All findings of both.
+    /// # Errors
+    /// All findings of both.
     pub fn transmission(&self, language: &Language, choice: &Choice) -> Result<Transmission, Findings> {
         self.build(language, &self.resolve(language, choice)?)
     }

@@ -224,7 +224,8 @@ fn density(entry: &DensityEntry, usual: &Usual) -> Density {
 impl Lubricant {
     /// An oil from its entry.
     ///
-    /// # Errors The wrong or missing key, the reason, and the fix.
+    /// # Errors
+    /// The wrong or missing key, the reason, and the fix.
     pub fn new(entry: &LubricantEntry) -> Result<Self, (&'static str, String, String)> {
         let usual = usual(entry.kind.unwrap_or_default());
         let written_density = entry.density.unwrap_or_default();

@@ -147,7 +147,8 @@ impl MotorMap {
     /// [degC]`. If both are given, the loss is used. Rows with an efficiency and without speed or torque carry no information and
     /// are skipped.
     ///
-    /// # Errors The problem, with line and column.
+    /// # Errors
+    /// The problem, with line and column.
     pub fn read(bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
         let none = Ordered::default();
         let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, (&none, &none)).map_err(in_header)?;

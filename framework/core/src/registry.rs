@@ -379,7 +379,8 @@ pub struct Registry {
 impl Registry {
     /// All linked mechanisms and models.
     ///
-    /// # Errors If nothing is linked, or two entries have the same name; each error names modules and lines.
+    /// # Errors
+    /// If nothing is linked, or two entries have the same name; each error names modules and lines.
     pub fn linked() -> Result<Self, Vec<Diagnostic>> {
         Self::of(
             inventory::iter::<MechanismEntry>().copied(),
@@ -401,7 +402,8 @@ impl Registry {
 
     /// The same with driving cycles.
     ///
-    /// # Errors If two cycles have the same name; each error names modules and lines.
+    /// # Errors
+    /// If two cycles have the same name; each error names modules and lines.
     pub fn with_cycles(mut self, cycles: impl IntoIterator<Item = ShippedCycle>) -> Result<Self, Vec<Diagnostic>> {
         self.cycles.extend(cycles);
         self.cycles
@@ -511,7 +513,8 @@ impl Registry {
 
     /// One mechanism by a key from user input.
     ///
-    /// # Errors If there is none; lists the available ones, or a close match.
+    /// # Errors
+    /// If there is none; lists the available ones, or a close match.
     pub fn mechanism_named(&self, key: &str) -> Result<&MechanismEntry, Diagnostic> {
         self.mechanism(key).ok_or_else(|| {
             let names: Vec<&str> = self.mechanisms.iter().map(|m| m.key).collect();
@@ -559,7 +562,8 @@ impl Registry {
 
     /// The recipe that generates thermal networks.
     ///
-    /// # Errors If no crate ships one, or two do.
+    /// # Errors
+    /// If no crate ships one, or two do.
     pub fn network_recipe(&self) -> Result<&NetworkRecipe, Diagnostic> {
         recipe::only(&self.recipes)
     }

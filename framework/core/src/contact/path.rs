@@ -25,7 +25,8 @@ impl Path {
 
     /// The path of a pair with its load sharing, with as many points on each smooth section as the friction law requires.
     ///
-    /// # Errors If the contact ratio is too high, as a sentence.
+    /// # Errors
+    /// If the contact ratio is too high, as a sentence.
     pub fn new(pair: &Pair, sharing: LoadSharing, order: usize) -> Result<Self, String> {
         let points = pair.graded_path(sharing, order);
         if points.len() > Self::MOST {

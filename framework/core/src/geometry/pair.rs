@@ -206,7 +206,8 @@ impl Pair {
 
     /// Computes the geometry.
     ///
-    /// # Errors All faults that make the pair impossible.
+    /// # Errors
+    /// All faults that make the pair impossible.
     pub fn new(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
         Self::solve(spec, true)
     }
@@ -216,7 +217,8 @@ impl Pair {
     /// line of action. A missing tip diameter is that of the standard basic rack. The path of contact is a point, all contact
     /// ratios are zero.
     ///
-    /// # Errors Faults other than those of [`PairFault::is_of_teeth`].
+    /// # Errors
+    /// Faults other than those of [`PairFault::is_of_teeth`].
     pub fn schematic(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
         Self::solve(spec, false)
     }

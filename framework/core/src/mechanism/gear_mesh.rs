@@ -178,7 +178,8 @@ impl MeshPart {
 impl MeshPart {
     /// FZG C gears, for a single model.
     ///
-    /// # Errors None occur: the geometry is valid.
+    /// # Errors
+    /// None occur: the geometry is valid.
     pub fn fzg_c() -> Result<Self, String> {
         let pair = Pair::new(&PairSpec {
             z: [16, 24],

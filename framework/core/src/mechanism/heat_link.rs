@@ -22,7 +22,8 @@ pub enum HeatLink {}
 pub trait HeatLinkModel: Send + Sync {
     /// Heat flow from one node to the other over their temperature difference, not negative. Pure; must not allocate. \[W/K\]
     ///
-    /// # Errors If the formula is undefined.
+    /// # Errors
+    /// If the formula is undefined.
     fn conductance(&self, at: &HeatLinkAt<'_>) -> Result<f64, Undefined>;
 }
 

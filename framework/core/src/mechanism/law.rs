@@ -24,7 +24,8 @@ pub const ROUNDED: f64 = 0.01;
 /// Computes the quantities that are not stated from the stated ones, by the laws of the mechanism, and returns them with their
 /// laws. If more than one quantity of a law is not stated, all but the first keep their usual values.
 ///
-/// # Errors If stated quantities contradict each other by more than rounding; the error names them.
+/// # Errors
+/// If stated quantities contradict each other by more than rounding; the error names them.
 pub fn settle<M: Mechanism>(
     at: &mut M::At<'_>,
     stated: &[&'static str],

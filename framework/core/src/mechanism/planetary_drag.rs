@@ -144,7 +144,8 @@ has_level: true
 impl PlanetaryDragAt<'_> {
     /// True at standstill, where there is no drag.
     ///
-    /// # Errors If the carrier rotates while the reference shaft is stationary and can take no moment.
+    /// # Errors
+    /// If the carrier rotates while the reference shaft is stationary and can take no moment.
     pub fn at_rest(&self) -> Result<bool, Undefined> {
         if self.speed == 0.0 && self.carrier_speed != 0.0 {
             return Err(Undefined {

@@ -151,14 +151,16 @@ impl<'a> Build<'a> {
 
     /// The parameters of the model.
     ///
-    /// # Errors Faults found by the parameters' own checks.
+    /// # Errors
+    /// Faults found by the parameters' own checks.
     pub fn params<T: DeserializeOwned>(&self, value: &Value) -> Result<T, Diagnostic> {
         from_resolved(value).map_err(|e| self.error(e.to_string()))
     }
 
     /// Builds the model of a nested slot; `key` is the field's name.
     ///
-    /// # Errors If the nested model cannot be built.
+    /// # Errors
+    /// If the nested model cannot be built.
     pub fn slot<M: Mechanism>(&mut self, key: &str, slot: &ModelRef<M>) -> Result<Slot<M>, Diagnostic> {
         let outer = self.path.len();
         self.path.push('.');
@@ -186,7 +188,8 @@ impl<'a> Build<'a> {
 
     /// Builds a model at a path for a part.
     ///
-    /// # Errors If the model cannot be built.
+    /// # Errors
+    /// If the model cannot be built.
     pub fn slot_at<M: Mechanism>(
         &mut self,
         path: &str,
@@ -198,7 +201,8 @@ impl<'a> Build<'a> {
 
     /// Builds a model at a path beside a part of another mechanism, as a nested model.
     ///
-    /// # Errors If the model cannot be built.
+    /// # Errors
+    /// If the model cannot be built.
     pub fn slot_beside<M: Mechanism, P: Any + Send + Sync>(
         &mut self,
         path: &str,

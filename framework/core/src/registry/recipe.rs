@@ -23,7 +23,8 @@ inventory::collect!(NetworkRecipe);
 
 /// The only available recipe.
 ///
-/// # Errors If there is none, or more than one.
+/// # Errors
+/// If there is none, or more than one.
 pub(super) fn only(recipes: &[NetworkRecipe]) -> Result<&NetworkRecipe, Diagnostic> {
     const PATH: &str = "thermal.network";
     match recipes {

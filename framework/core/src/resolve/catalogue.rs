@@ -35,7 +35,8 @@ impl CatalogueTable {
     /// Reads a catalogue: `designation`, then keys with their unit in brackets, and optionally `confidence` and `basis`. A column
     /// without a unit is text. An empty cell states nothing.
     ///
-    /// # Errors With the line of the file.
+    /// # Errors
+    /// With the line of the file.
     pub fn from_csv(text: &str) -> Result<Self, String> {
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))

@@ -104,7 +104,8 @@ pub fn called_own<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<Dia
 
 /// Expands a set with everything that it extends.
 ///
-/// # Errors If a name is unknown or sets extend each other in a circle.
+/// # Errors
+/// If a name is unknown or sets extend each other in a circle.
 pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet, Diagnostic> {
     let mut chain: Vec<&str> = Vec::new();
     let mut next = Some(name);

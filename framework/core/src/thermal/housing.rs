@@ -174,7 +174,8 @@ impl Housing {
 
     /// Heat that leaves the oil at a temperature.
     ///
-    /// # Errors Number of the undefined path, and the reason.
+    /// # Errors
+    /// Number of the undefined path, and the reason.
     pub fn flow(&self, oil: &SumpOil) -> Result<HeatFlow, (usize, Undefined)> {
         let surface = self.surface(oil)?;
         let (from_oil, oil_scale) = self.sum(WarmSide::Oil, oil, surface)?;
@@ -226,7 +227,8 @@ impl Housing {
 
     /// Heat flow of one path, recording every step. \[W\]
     ///
-    /// # Errors If the model is undefined.
+    /// # Errors
+    /// If the model is undefined.
     pub(crate) fn explain(&self, way: usize, oil: &SumpOil, surface: f64, trace: &Trace) -> Result<f64, Undefined> {
         let way = &self.ways[way];
         self.flow_of(way, oil, surface, Notes::new(&[], way.model.notes).traced(trace))

@@ -28,7 +28,8 @@ use crate::thermal::network::{Around, Network};
 impl Transmission {
     /// Builds the transmission of a resolved description.
     ///
-    /// # Errors All faults, by path.
+    /// # Errors
+    /// All faults, by path.
     pub fn new(language: &Language, files: &Files, resolved: &Resolved) -> Result<Self, Vec<Diagnostic>> {
         let entry: GearboxEntry = serde_json::from_value(resolved.value.clone())
             .map_err(|e| vec![Diagnostic::error("", format!("the description cannot be read: {e}"))])?;

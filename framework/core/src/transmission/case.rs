@@ -147,7 +147,8 @@ impl Transmission {
 
     /// Checks that one given speed and at most one given torque determine a gear state, as in every point of a study.
     ///
-    /// # Errors The required numbers, with a fix.
+    /// # Errors
+    /// The required numbers, with a fix.
     pub fn takes_one(&self, state: usize) -> Result<(), Diagnostic> {
         let (torques, own) = (self.torques_needed(state), &self.states[state]);
         if own.freedom <= 1 && torques <= 1 {

@@ -208,7 +208,8 @@ fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], L
 
 /// The constants of a bearing; lengths in mm.
 ///
-/// # Errors If a series or a value required by the row is missing.
+/// # Errors
+/// If a series or a value required by the row is missing.
 pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, Lack> {
     use BearingKind as K;
     let d_m = 1e3 * part.mean_diameter();

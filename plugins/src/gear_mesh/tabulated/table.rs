@@ -102,7 +102,8 @@ pub struct Asked<'a> {
 impl Asked<'_> {
     /// Evaluates the model.
     ///
-    /// # Errors If it is undefined.
+    /// # Errors
+    /// If it is undefined.
     pub fn answer(&self, point: &Point) -> Result<Answer, Undefined> {
         let mut extents = vec![Extent::EMPTY; self.model.notes.end()];
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
@@ -117,7 +118,8 @@ impl Asked<'_> {
 
     /// Conductance from the first body to the second, from a result for equal bodies. \[W/K\]
     ///
-    /// # Errors If the model is undefined.
+    /// # Errors
+    /// If the model is undefined.
     fn conduction(&self, point: &Point, temperature: f64, even: &Answer) -> Result<f64, Undefined> {
         const TRIED: [f64; 4] = [1.0, 0.03, 1e-3, 3e-5];
         let mut conduction = 0.0;
@@ -253,7 +255,8 @@ pub struct Table {
 impl Table {
     /// Evaluates the model at all nodes and at a number of check points.
     ///
-    /// # Errors If it is undefined at any of them.
+    /// # Errors
+    /// If it is undefined at any of them.
     pub fn new(
         asked: &Asked<'_>,
         extents: &Extents,

@@ -198,7 +198,8 @@ impl<'a> March<'a> {
 
     /// Simulates an interval (s) with constant speeds and torques, and returns its energies.
     ///
-    /// # Errors If a loss or a conductance is undefined, or no step is short enough. The temperatures are then those before the
+    /// # Errors
+    /// If a loss or a conductance is undefined, or no step is short enough. The temperatures are then those before the
     /// failed step.
     pub fn advance(&mut self, moment: &Moment<'_>, duration: f64, scratch: &mut Scratch) -> Result<Heats, Unbalanced> {
         let mut loaded = Loaded {

@@ -66,7 +66,8 @@ impl Network {
 
     /// Writes the numerical form of the network at node temperatures (degC) and speeds of the members (rad/s).
     ///
-    /// # Errors Number of the link whose model is undefined, and the reason.
+    /// # Errors
+    /// Number of the link whose model is undefined, and the reason.
     pub(crate) fn circuit(
         &self,
         temperatures: &[f64],
