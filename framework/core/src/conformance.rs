@@ -107,10 +107,10 @@ pub fn conform<M: Mechanism>(
         }
         let answer = M::answer(&slot, &at);
         let speed = M::speed(&at);
-        if !same(&answer, &M::answer(&slot, &with_notes), speed) {
+        if !same_result(&answer, &M::answer(&slot, &with_notes), speed) {
             faults.push(format!("returns a different result with notes, at {what}"));
         }
-        if let (true, Some(fault)) = (changes.len() < 2, M::side_by_side(&slot, &at, slot.notes)) {
+        if let (true, Some(fault)) = (changes.len() < 2, M::compare_batched(&slot, &at, slot.notes)) {
             faults.push(format!("{fault} at {what}"));
         }
         match answer {
@@ -212,7 +212,7 @@ fn keeping<M: Mechanism>(
         for value in [q.least, q.greatest] {
             let (anew, speed, notes) = ask(Notes::fresh(cells, base), q, value);
             let (again, _, notes_again) = ask(Notes::fresh(cells, base).keeping(&kept), q, value);
-            if !same(&anew, &again, speed) {
+            if !same_result(&anew, &again, speed) {
                 faults.push(format!(
                     "keeps a value that depends on `{}` over the iterations of a point",
                     q.name
@@ -226,7 +226,7 @@ fn keeping<M: Mechanism>(
     faults
 }
 
-fn same<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f64) -> bool {
+fn same_result<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f64) -> bool {
     match (a, b) {
         (Ok(a), Ok(b)) => a.total(speed).to_bits() == b.total(speed).to_bits(),
         (Err(a), Err(b)) => a.what == b.what,

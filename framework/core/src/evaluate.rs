@@ -149,7 +149,7 @@ impl Transmission {
         );
         s.temperatures.clear();
         s.temperatures.extend_from_slice(temperatures);
-        self.oils.at(temperatures, &mut s.oils);
+        self.oils.write_states(temperatures, &mut s.oils);
         s.surface = self.oils.surface(&s.speeds);
         s.cells.fill(Extent::EMPTY);
         s.idle_drags.fill(0.0);
@@ -527,8 +527,8 @@ impl Transmission {
             }
         }
         for (load, factors) in loads.iter_mut().zip(&self.load_factors) {
-            load.radial *= factors.radial.at(torque);
-            load.axial *= factors.axial.at(torque);
+            load.radial *= factors.radial.value_at(torque);
+            load.axial *= factors.axial.value_at(torque);
         }
     }
 
@@ -551,7 +551,7 @@ impl Transmission {
         // Without a power flow no load is defined, and no loss has its own reason.
         s.undefined = undefined.filter(|_| matches!(outcome, Outcome::Converged { .. }));
         let powers = self.ports.iter().map(|p| s.work.ports[p.member] * s.speeds[p.member]);
-        s.balance = Balance::of(powers.clone());
+        s.balance = Balance::from_powers(powers.clone());
         s.status = match outcome {
             Outcome::SelfLocking => Status::SelfLocking,
             Outcome::NoConvergence => Status::NoConvergence,
@@ -564,7 +564,7 @@ impl Transmission {
                 } else if flow == PowerFlow::Ideal && s.balance.input > 0.0 && sum > s.balance.input {
                     Status::LossAboveInput
                 } else {
-                    Status::of(powers, self.reference_port())
+                    Status::from_powers(powers, self.reference_port())
                 }
             }
         };

@@ -269,7 +269,7 @@ inventory::collect!(MechanismEntry);
 
 impl MechanismEntry {
     /// The entry of a mechanism without its own section.
-    pub const fn of<M: Mechanism>(origin: Origin) -> Self {
+    pub const fn new<M: Mechanism>(origin: Origin) -> Self {
         Self {
             key: M::KEY,
             meaning: M::MEANING,
@@ -289,8 +289,8 @@ impl MechanismEntry {
     /// The entry of a mechanism whose parts have a section.
     pub const fn component<C: Component>(origin: Origin) -> Self {
         Self {
-            section: Some(Section::of::<C>()),
-            ..Self::of::<C>(origin)
+            section: Some(Section::new::<C>()),
+            ..Self::new::<C>(origin)
         }
     }
 }
@@ -382,7 +382,7 @@ impl Registry {
     /// # Errors
     /// If nothing is linked, or two entries have the same name; each error names modules and lines.
     pub fn linked() -> Result<Self, Vec<Diagnostic>> {
-        Self::of(
+        Self::from_entries(
             inventory::iter::<MechanismEntry>().copied(),
             inventory::iter::<Entry>().copied(),
             inventory::iter::<Catalogue>().copied(),
@@ -421,7 +421,7 @@ impl Registry {
     ///
     /// # Errors
     /// As [`Registry::linked`].
-    pub fn of(
+    pub fn from_entries(
         mechanisms: impl IntoIterator<Item = MechanismEntry>,
         models: impl IntoIterator<Item = Entry>,
         catalogues: impl IntoIterator<Item = Catalogue>,
@@ -613,7 +613,7 @@ pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json
 #[macro_export]
 macro_rules! register_mechanism {
     ($M:ty) => {
-        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::of::<$M>($crate::origin!()) }
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::new::<$M>($crate::origin!()) }
     };
 }
 

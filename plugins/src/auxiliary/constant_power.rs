@@ -19,13 +19,13 @@ pub struct ConstantPower {
     #[schemars(range(min = 0.0, max = 1e6))]
     pub power: f64,
     /// Speed below which the torque is constant. [rpm]
-    #[serde(default = "least")]
+    #[serde(default = "default_least_speed")]
     #[schemars(range(min = 0.01, max = 1e5))]
     pub least_speed: f64,
 }
 
 /// 100 rpm. \[rad/s\]
-fn least() -> f64 {
+fn default_least_speed() -> f64 {
     100.0 * std::f64::consts::PI / 30.0
 }
 

@@ -421,7 +421,7 @@ impl Row<'_> {
                 if asked < torques.len() {
                     components[i].want(&wanted);
                 }
-                let untaken = ask(
+                let untaken = evaluate_component(
                     component,
                     &state,
                     loads,
@@ -500,7 +500,7 @@ impl Row<'_> {
         };
         for i in (0..t.components.len()).filter(resting) {
             *called += torques.len();
-            let untaken = ask(
+            let untaken = evaluate_component(
                 &t.components[i],
                 &state,
                 loads,
@@ -666,7 +666,7 @@ impl Row<'_> {
 }
 
 /// Evaluates the model of a component in all lanes; returns the untaken thrust.
-fn ask<'a>(
+fn evaluate_component<'a>(
     component: &Component,
     state: &State<'_>,
     loads: &'a [LoadLanes],

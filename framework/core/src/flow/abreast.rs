@@ -145,7 +145,7 @@ impl SparseVector {
 
 /// True if two lanes have the same numbers.
 #[inline(always)]
-fn same(a: &Lane, b: &Lane) -> bool {
+fn same_numbers(a: &Lane, b: &Lane) -> bool {
     count(|i| a[i] == b[i]) == LANES as u64
 }
 
@@ -458,7 +458,7 @@ impl Flow {
         for e in 0..work.used.len() {
             let (used, answer) = (&work.used[e], &work.answer[e]);
             let (used_before, answer_before) = (&work.used_before[e], &work.answer_before[e]);
-            if !(same(used, answer) && same(used, used_before) && same(answer, answer_before)) {
+            if !(same_numbers(used, answer) && same_numbers(used, used_before) && same_numbers(answer, answer_before)) {
                 work.live.push(e);
             }
         }
@@ -537,7 +537,7 @@ impl Flow {
         for (mesh, row) in self.meshes.iter().enumerate() {
             let side = usize::from(work.drives[mesh] == Drive::Second);
             let (loss, relative) = (&work.used[k + mesh], work.relative[mesh][side]);
-            if relative == 0.0 || same(loss, &ZERO) {
+            if relative == 0.0 || same_numbers(loss, &ZERO) {
                 continue;
             }
             let torque = over(loss, |loss| loss / relative);
@@ -663,7 +663,7 @@ impl Flow {
     fn friction_abreast(&self, work: &mut WorkLanes) {
         work.active.clear();
         for mesh in 0..self.meshes.len() {
-            if !same(&work.used[mesh], &ZERO) {
+            if !same_numbers(&work.used[mesh], &ZERO) {
                 work.active.push(mesh);
             }
         }

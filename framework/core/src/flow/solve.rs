@@ -92,7 +92,7 @@ impl Flow {
         let (mut least, mut slow, mut damping) = (f64::INFINITY, 0, 1.0);
         for _ in 0..tolerance.passes {
             *passes += 1;
-            if !ask(speeds, work, losses) {
+            if !evaluate_losses(speeds, work, losses) {
                 return End::Open;
             }
             self.weigh(speeds, work);
@@ -222,7 +222,7 @@ enum End {
 }
 
 /// Evaluates the losses of the models at the present torques; false if a result is NaN.
-fn ask(speeds: &[f64], work: &mut Work, losses: &mut impl FnMut(&mut FlowState<'_>)) -> bool {
+fn evaluate_losses(speeds: &[f64], work: &mut Work, losses: &mut impl FnMut(&mut FlowState<'_>)) -> bool {
     work.asked.fill(0.0);
     work.answer.drags_mut().fill(0.0);
     losses(&mut FlowState {

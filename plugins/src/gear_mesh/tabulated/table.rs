@@ -45,7 +45,7 @@ pub struct Point {
 
 impl Point {
     /// The context of a mesh model at the point.
-    pub fn at<'a>(&self, part: &'a MeshPart, lubricant: &Lubricant, notes: Notes<'a>) -> GearMeshAt<'a> {
+    pub fn context<'a>(&self, part: &'a MeshPart, lubricant: &Lubricant, notes: Notes<'a>) -> GearMeshAt<'a> {
         let Oil {
             temperature,
             nu,
@@ -56,7 +56,7 @@ impl Point {
             conductivity,
             x_l,
             ..
-        } = lubricant.at(self.oil);
+        } = lubricant.oil_at(self.oil);
         let [temperature_1, temperature_2] = self.bodies.unwrap_or([temperature; 2]);
         GearMeshAt::usual(part, notes).with(|to| {
             to.torque = self.torque;
@@ -108,7 +108,7 @@ impl Asked<'_> {
         let mut extents = vec![Extent::EMPTY; self.model.notes.end()];
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
         let notes = Notes::new(cells, self.model.notes);
-        let loss = self.model.loss(&point.at(self.part, self.lubricant, notes))?;
+        let loss = self.model.loss(&point.context(self.part, self.lubricant, notes))?;
         Ok(Answer {
             watts: loss.total_watts(point.speed),
             share: loss.first_heat(),

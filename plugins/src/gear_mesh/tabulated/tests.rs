@@ -64,7 +64,10 @@ impl Rig {
 
     fn itself(&self, point: &Point) -> (f64, f64) {
         let lubricant = &self.part.oil.as_ref().unwrap().lubricant;
-        let loss = self.of.loss(&point.at(&self.part, lubricant, Notes::MUTED)).unwrap();
+        let loss = self
+            .of
+            .loss(&point.context(&self.part, lubricant, Notes::MUTED))
+            .unwrap();
         (loss.sum(), loss.first_heat())
     }
 
@@ -72,7 +75,7 @@ impl Rig {
         let lubricant = &self.part.oil.as_ref().unwrap().lubricant;
         let mut extents = vec![Extent::EMPTY; self.cells];
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
-        let at = point.at(&self.part, lubricant, Notes::new(cells, self.table.notes));
+        let at = point.context(&self.part, lubricant, Notes::new(cells, self.table.notes));
         let loss = self.table.loss(&at).unwrap();
         Told {
             watts: loss.sum(),
@@ -333,7 +336,7 @@ fn a_model_without_a_value_at_a_node_is_told() {
     let formula = json!({ "type": "formula", "formula": "sqrt(temperature)" });
     let (table, _) = build(&part, &json!({ "type": "tabulated", "of": path_integral(formula) })).unwrap();
     let lubricant = &part.oil.as_ref().unwrap().lubricant;
-    let fault = table.loss(&point(50.0, 3000.0, 60.0).at(&part, lubricant, Notes::MUTED));
+    let fault = table.loss(&point(50.0, 3000.0, 60.0).context(&part, lubricant, Notes::MUTED));
     assert!(fault.unwrap_err().what.contains("narrow"));
 }
 

@@ -62,7 +62,7 @@ impl Rig {
 
     /// Evaluates on nodes at a torque of the first gear in N m, rpm and degC.
     fn ask(&self, nodes: &[PathNode], torque: f64, rpm: f64, oil: f64) -> Asked {
-        let state = self.part.oil.as_ref().unwrap().lubricant.at(oil);
+        let state = self.part.oil.as_ref().unwrap().lubricant.oil_at(oil);
         let at = GearMeshAt::usual(&self.part, Notes::MUTED).with(|to| {
             to.torque = torque;
             to.speed = rpm * RPM;
@@ -74,10 +74,10 @@ impl Rig {
             to.beta = state.beta;
             to.conductivity = state.conductivity;
         });
-        let mean = MeanFrictionAt::of(&at, Notes::MUTED);
+        let mean = MeanFrictionAt::at_pitch_point(&at, Notes::MUTED);
         let whole = Path::even(&self.part.pair, LoadSharing::Ramp, 3);
-        let extent = PathExtent::of(nodes);
-        let path = whole.at(&mean, Notes::MUTED).with(|to| {
+        let extent = PathExtent::from_nodes(nodes);
+        let path = whole.at_operating_point(&mean, Notes::MUTED).with(|to| {
             to.nodes = nodes;
             to.extent = &extent;
         });

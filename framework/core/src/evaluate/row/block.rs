@@ -27,12 +27,12 @@ impl Block<'_> {
 
     /// Operating state of the transmission.
     pub fn status(&self, lane: usize) -> Status {
-        Status::of(self.powers(lane), self.reference)
+        Status::from_powers(self.powers(lane), self.reference)
     }
 
     /// Input and output power. \[W\]
     pub fn balance(&self, lane: usize) -> Balance {
-        Balance::of(self.powers(lane))
+        Balance::from_powers(self.powers(lane))
     }
 
     /// Sums of all losses. \[W\]
