@@ -1,14 +1,14 @@
 //! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
 
+mod batch;
 mod grip;
 mod readings;
-mod row;
 mod scratch;
 mod solution;
 
+pub use batch::{Batch, BatchScratch, Block};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
-pub use row::{Block, Row, RowScratch};
 pub use scratch::Scratch;
 pub use solution::{PartLoss, Solution};
 

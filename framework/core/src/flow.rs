@@ -4,17 +4,17 @@
 //! driven gear in the carrier's frame, and the carrier takes the reaction. The power balance therefore holds to rounding for any
 //! multipliers that solve the linear system.
 
-mod abreast;
+mod batched;
 mod equilibrium;
+mod history;
 mod linear;
 mod solve;
 mod system;
-mod trail;
 mod work;
 
-pub use abreast::{FlowLanes, TaskLanes, WorkLanes};
+pub use batched::{FlowLanes, TaskLanes, WorkLanes};
+pub use history::TorqueHistory;
 pub use system::{Flow, FlowFault, MeshRow, Share};
-pub use trail::Trail;
 pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
 
 /// Powers and status of one solved point.

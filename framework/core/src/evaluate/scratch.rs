@@ -35,7 +35,7 @@ pub struct Scratch {
     pub(super) relative: Vec<f64>,
     /// Rotating components that carry load: they are evaluated in every iteration.
     pub(super) braking: Vec<usize>,
-    /// Values that models keep over the iterations of a point or the points of a row, by instance.
+    /// Values that models keep over the iterations of a point or the points of a batch, by instance.
     pub(super) kept: Vec<[f64; MOST_KEPT]>,
     pub(super) cells: Vec<Extent>,
     pub(super) work: Work,
