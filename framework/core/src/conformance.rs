@@ -201,7 +201,7 @@ fn keeping<M: Mechanism>(
 ) -> Vec<String> {
     let kept = vec![Cell::new([f64::NAN; MOST_KEPT]); instances];
     let _ = M::answer(model, &M::usual(part, Notes::muted(base).keeping(&kept)));
-    let ask = |notes, q: &Quantity<M>, value| {
+    let evaluate = |notes, q: &Quantity<M>, value| {
         let mut at = M::usual(part, notes);
         (q.set)(&mut at, q.unit().to_si(value));
         let noted = |cells: &[Cell<Extent>]| cells.iter().map(Cell::get).collect::<Vec<_>>();
@@ -210,8 +210,8 @@ fn keeping<M: Mechanism>(
     let mut faults = Vec::new();
     for q in M::QUANTITIES.iter().filter(|q| matches!(q.unit().symbol, "N" | "Nm")) {
         for value in [q.least, q.greatest] {
-            let (anew, speed, notes) = ask(Notes::fresh(cells, base), q, value);
-            let (again, _, notes_again) = ask(Notes::fresh(cells, base).keeping(&kept), q, value);
+            let (anew, speed, notes) = evaluate(Notes::fresh(cells, base), q, value);
+            let (again, _, notes_again) = evaluate(Notes::fresh(cells, base).keeping(&kept), q, value);
             if !same_result(&anew, &again, speed) {
                 faults.push(format!(
                     "keeps a value that depends on `{}` over the iterations of a point",

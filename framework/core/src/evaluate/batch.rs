@@ -174,7 +174,7 @@ impl Transmission {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         for component in &self.components {
             if !component.loaded || component.off || component.notes_hang_on_load {
@@ -372,7 +372,7 @@ impl Batch<'_> {
             temperatures: &settled.temperatures,
             surface: settled.surface,
             loads: &settled.loads,
-            asked: &settled.asked,
+            calls: &settled.calls,
         };
         let corrected = t.imported.is_some() || !t.load_factors.is_empty();
         let braking = &settled.braking;
@@ -402,7 +402,7 @@ impl Batch<'_> {
                 }
                 t.correct_lanes(case, ports, (one, one_ports), loads);
             }
-            let (wanted, asked) = wide(
+            let (wanted, calls) = wide(
                 #[inline(always)]
                 || {
                     for (drags, idle) in flow.drags.iter_mut().zip(&settled.idle_drags) {
@@ -417,8 +417,8 @@ impl Batch<'_> {
             );
             for &i in braking {
                 let (component, speed) = (&t.components[i], settled.relative[i]);
-                *called += asked;
-                if asked < torques.len() {
+                *called += calls;
+                if calls < torques.len() {
                     components[i].want(&wanted);
                 }
                 let untaken = evaluate_component(
@@ -455,8 +455,8 @@ impl Batch<'_> {
                         is_even(own_torques)
                     },
                 );
-                *called += asked;
-                if asked < torques.len() {
+                *called += calls;
+                if calls < torques.len() {
                     meshes[i].want(&wanted);
                 }
                 if even {
@@ -646,8 +646,8 @@ impl Batch<'_> {
                             let total = meshes[i].total_watts(speed, |watts| watts);
                             let used = &work.mesh_loss[i];
                             factors[i] = each(|lane| {
-                                let asked = total[lane] * count;
-                                count * if asked > 0.0 { used[lane] / asked } else { 1.0 }
+                                let returned = total[lane] * count;
+                                count * if returned > 0.0 { used[lane] / returned } else { 1.0 }
                             });
                             if speed == 0.0 {
                                 Lane::ZERO

@@ -41,7 +41,7 @@ pub struct WorkLanes {
     rate: Lane,
     largest: Lane,
     /// Results of the models for the meshes. \[W\]
-    asked: Vec<Lane>,
+    model_losses: Vec<Lane>,
     used: Vec<Lane>,
     used_before: Vec<Lane>,
     answer: Vec<Lane>,
@@ -208,7 +208,7 @@ impl Flow {
             rolling: lanes(k),
             rate: ZERO,
             largest: ZERO,
-            asked: lanes(k),
+            model_losses: lanes(k),
             used: lanes(2 * k + n),
             used_before: lanes(2 * k + n),
             answer: lanes(2 * k + n),
@@ -306,7 +306,7 @@ impl Flow {
     }
 
     fn evaluate_models_batched(&self, work: &mut WorkLanes, losses: &mut impl FnMut(&mut FlowLanes<'_>)) {
-        work.asked.fill(ZERO);
+        work.model_losses.fill(ZERO);
         wide(
             #[inline(always)]
             || {
@@ -321,7 +321,7 @@ impl Flow {
             drives: &work.drives,
             ports: &work.ports,
             done: &work.done,
-            mesh_loss: &mut work.asked,
+            mesh_loss: &mut work.model_losses,
             drags: &mut work.answer[drags..],
         });
     }
@@ -758,9 +758,9 @@ impl WorkLanes {
     /// The entries of the losses from the results of the models.
     #[inline(always)]
     fn answers(&mut self) {
-        let k = self.asked.len();
+        let k = self.model_losses.len();
         for mesh in 0..k {
-            let (loss, rolling) = (&self.asked[mesh], &self.rolling[mesh]);
+            let (loss, rolling) = (&self.model_losses[mesh], &self.rolling[mesh]);
             let proportional = |i: usize| loss[i] > 0.0 && loss[i] < 0.5 * rolling[i].abs();
             self.answer[mesh] = each(|i| {
                 if proportional(i) {

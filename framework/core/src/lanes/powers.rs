@@ -149,23 +149,23 @@ mod tests {
             calls.set(calls.get() + 1);
             cube_root(x)
         };
-        let mut ask = |place: usize, x: f64, others: f64| {
+        let mut is_exact = |place: usize, x: f64, others: f64| {
             calls.set(0);
             let found = powers.raise(place, |i| if i == 7 { x } else { others }, 1.0 / 3.0, exact);
             assert!((found[7] - cube_root(x)).abs() <= 1e-15 && (found[8] - cube_root(others)).abs() <= 1e-15);
             calls.get() > 0
         };
-        assert!(ask(0, 3.0, 3.0));
-        assert!(!ask(0, 3.001, 3.0));
+        assert!(is_exact(0, 3.0, 3.0));
+        assert!(!is_exact(0, 3.001, 3.0));
         // One lane is enough.
-        assert!(ask(0, 3.1, 3.0));
-        assert!(!ask(0, 3.1, 3.0));
+        assert!(is_exact(0, 3.1, 3.0));
+        assert!(!is_exact(0, 3.1, 3.0));
         // Zero load is never close to anything, and its power is zero.
-        assert!(ask(0, 0.0, 3.0));
-        assert!(ask(0, 0.0, 3.0));
+        assert!(is_exact(0, 0.0, 3.0));
+        assert!(is_exact(0, 0.0, 3.0));
         // Each place has its own memory.
-        assert!(ask(2, 3.0, 3.0));
-        assert!(!ask(2, 3.0, 3.0));
+        assert!(is_exact(2, 3.0, 3.0));
+        assert!(!is_exact(2, 3.0, 3.0));
         powers.forget();
         calls.set(0);
         powers.raise(2, |_| 3.0, 1.0 / 3.0, exact);
@@ -176,13 +176,13 @@ mod tests {
     fn without_a_memory_every_power_is_exact() {
         let mut powers = Powers::EXACT;
         for x in [2.0, 2.0] {
-            let asked = std::cell::Cell::new(false);
+            let evaluated = std::cell::Cell::new(false);
             let root = |x: f64| {
-                asked.set(true);
+                evaluated.set(true);
                 cube_root(x)
             };
             assert_eq!(powers.raise(0, |_| x, 1.0 / 3.0, root)[0], cube_root(2.0));
-            assert!(asked.get());
+            assert!(evaluated.get());
         }
     }
 }
