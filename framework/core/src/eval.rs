@@ -69,7 +69,13 @@ pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEnt
 ///
 /// # Errors
 /// If there is no such model, or the input is invalid, or [`eval`] fails.
-pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &Path) -> Result<Evaluated, Findings> {
+pub fn evaluate_input(
+    language: &Language,
+    name: &str,
+    source: &str,
+    input: &str,
+    folder: &Path,
+) -> Result<Evaluated, Findings> {
     let mut sources = Sources::default();
     let source = sources.add(source.to_owned(), input);
     let found = |list: Vec<Diagnostic>| Findings {

@@ -10,7 +10,7 @@ use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, Span, r
 use crate::files::{Disk, LONGEST_TEXT, SharedSource};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
-use crate::resolve::{Came, Choice, Resolved, called_own, expand_set, meets, resolve, sets_of};
+use crate::resolve::{Choice, Resolved, ValueSource, called_own, expand_set, meets, resolve, sets_of};
 use crate::transmission::Transmission;
 
 /// Maximum number of files that may extend each other.
@@ -274,7 +274,7 @@ impl Gearbox {
 
     /// For a model that a component takes from `models`, a finding also shows where it is written.
     fn inherited(&self, language: &Language, resolved: &Resolved, finding: Diagnostic) -> Diagnostic {
-        if *resolved.came(&finding.path) != Came::Models {
+        if *resolved.source_of(&finding.path) != ValueSource::Models {
             return finding;
         }
         let mut keys = finding.path.split('.');

@@ -10,7 +10,7 @@ use crate::formula::Formula;
 use crate::loss::{Limit, Loss, Undefined};
 use crate::mechanism::gear_drag::Scope;
 use crate::mechanism::{Mechanism, Noted, Quantity};
-use crate::registry::{Build, Built, Entry, Evidence, Graded, formula};
+use crate::registry::{Build, Built, Entry, Evidence, Graded, USER_DEFINED, formula};
 use crate::table::{self, Interpolation, Outside, Reading, Scale, Table};
 
 /// Maximum number of quantities of a context, for the inputs of a formula.
@@ -101,7 +101,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
                  build: fn(&Value, &mut Build<'_>) -> Result<Built, Diagnostic>| Entry {
         mechanism: M::KEY,
         name,
-        source: "user-defined",
+        source: USER_DEFINED,
         example,
         part: None,
         files: &[],

@@ -156,6 +156,9 @@ pub const fn default_of(key: &'static str, grade: Evidence, because: &'static st
     Graded { key, grade, because }
 }
 
+/// Source of a model whose law the user states, such as `formula` and `table`.
+pub const USER_DEFINED: &str = "user-defined";
+
 /// A type-erased `Arc<M::Model>`.
 pub type Built = Box<dyn Any + Send + Sync>;
 
@@ -220,6 +223,11 @@ impl Entry {
             .collect()
     }
 
+    /// True if the user states the law of the model: it has no published source.
+    pub fn is_user_defined(&self) -> bool {
+        self.source == USER_DEFINED
+    }
+
     /// Description, as a sentence: the first paragraph of the doc comment of its parameters.
     pub fn meaning(&self) -> String {
         let schema = (self.schema)(&mut SchemaGenerator::default());
@@ -261,7 +269,7 @@ inventory::collect!(MechanismEntry);
 
 impl MechanismEntry {
     /// The entry of a mechanism without its own section.
-    pub const fn of<M: Mechanism>(origin: Origin) -> Self {
+    pub const fn new<M: Mechanism>(origin: Origin) -> Self {
         Self {
             key: M::KEY,
             meaning: M::MEANING,
@@ -281,8 +289,8 @@ impl MechanismEntry {
     /// The entry of a mechanism whose parts have a section.
     pub const fn component<C: Component>(origin: Origin) -> Self {
         Self {
-            section: Some(Section::of::<C>()),
-            ..Self::of::<C>(origin)
+            section: Some(Section::new::<C>()),
+            ..Self::new::<C>(origin)
         }
     }
 }
@@ -374,7 +382,7 @@ impl Registry {
     /// # Errors
     /// If nothing is linked, or two entries have the same name; each error names modules and lines.
     pub fn linked() -> Result<Self, Vec<Diagnostic>> {
-        Self::of(
+        Self::from_entries(
             inventory::iter::<MechanismEntry>().copied(),
             inventory::iter::<Entry>().copied(),
             inventory::iter::<Catalogue>().copied(),
@@ -413,7 +421,7 @@ impl Registry {
     ///
     /// # Errors
     /// As [`Registry::linked`].
-    pub fn of(
+    pub fn from_entries(
         mechanisms: impl IntoIterator<Item = MechanismEntry>,
         models: impl IntoIterator<Item = Entry>,
         catalogues: impl IntoIterator<Item = Catalogue>,
@@ -605,7 +613,7 @@ pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json
 #[macro_export]
 macro_rules! register_mechanism {
     ($M:ty) => {
-        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::of::<$M>($crate::origin!()) }
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::new::<$M>($crate::origin!()) }
     };
 }
 

@@ -264,7 +264,7 @@ impl EhlMixed {
         mu: &mut [f64],
         mut seen: impl FnMut(&Place<'_>, &Settled),
     ) -> (Tally, f64) {
-        let oil = self.fluid.at(Supplied {
+        let oil = self.fluid.for_supply(Supplied {
             temperature: path.temperature,
             nu: path.nu,
             eta: path.eta,
@@ -351,7 +351,7 @@ impl ToothFrictionModel for EhlMixed {
             at.branch("at standstill: boundary friction, the limit without a film");
             return Ok(at.observe(&MU, self.fluid.rheology.mu_b));
         }
-        let oil = self.fluid.at(Supplied {
+        let oil = self.fluid.for_supply(Supplied {
             temperature: at.temperature,
             nu: at.nu,
             eta: at.eta,

@@ -30,12 +30,12 @@ pub struct Common {
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
     /// Number of equal components at this position; each carries the full load of the position. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 1000))]
     pub count: u32,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 
@@ -95,23 +95,23 @@ impl<C: Component> sealed::Sealed for PlacedAs<C> {}
 impl<C: Component> Placed for PlacedAs<C> {
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::answer(&self.model, &C::at(&self.part, site, book.notes(self.model.notes)))
+        C::answer(&self.model, &C::context(&self.part, site, book.notes(self.model.notes)))
     }
     fn losses(&self, state: &State<'_>, loads: &LoadLanes, book: &Notebook<'_>, losses: &mut LossLanes) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        let at = C::at(&self.part, site, book.notes(self.model.notes));
+        let at = C::context(&self.part, site, book.notes(self.model.notes));
         C::losses(&self.model, &at, loads, losses)
     }
     fn note(&self, state: &State<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::note(&self.model, &C::at(&self.part, site, notes.all()), loads, notes)
+        C::note(&self.model, &C::context(&self.part, site, notes.all()), loads, notes)
     }
     fn notes_hang_on_load(&self) -> bool {
         C::notes_hang_on_load(&self.model)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        readings::<C>(&C::at(&self.part, site, Notes::MUTED))
+        readings::<C>(&C::context(&self.part, site, Notes::MUTED))
     }
     fn between(&self) -> [Option<u16>; 2] {
         C::Attachment::between(self.seat)
@@ -146,7 +146,7 @@ pub struct Section {
 
 impl Section {
     /// The section of a component.
-    pub(super) const fn of<C: Component>() -> Self {
+    pub(super) const fn new<C: Component>() -> Self {
         Self {
             name: C::SECTION,
             schemas: |generator| {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value};
 
 use super::designation::suggest;
-use super::{Came, absent, entries_mut};
+use super::{ValueSource, absent, entries_mut};
 use crate::attach::dangling;
 use crate::document::{Diagnostic, Dimension, Unit};
 use crate::language::{LUBRICANTS, Language};
@@ -114,7 +114,7 @@ pub(super) fn fill(
     language: &Language,
     files: &Files,
     value: &mut Value,
-    came: &mut BTreeMap<String, Came>,
+    sources: &mut BTreeMap<String, ValueSource>,
     found: &mut Vec<Diagnostic>,
 ) {
     let mut own: BTreeMap<String, CatalogueTable> = BTreeMap::new();
@@ -206,11 +206,11 @@ pub(super) fn fill(
                             continue;
                         }
                     }
-                    let from = Came::Catalogue {
+                    let from = ValueSource::Catalogue {
                         designation: designation.clone(),
                         confidence: row.confidence.clone(),
                     };
-                    came.insert(format!("{section}.{id}.{key}"), from);
+                    sources.insert(format!("{section}.{id}.{key}"), from);
                 }
             }
         }

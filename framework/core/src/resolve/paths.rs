@@ -203,12 +203,12 @@ mod tests {
             matches(&value, "seals.D1.model.values.*"),
             ["seals.D1.model.values.0", "seals.D1.model.values.1"]
         );
-        let said = |path: &str| {
+        let message = |path: &str| {
             let error = no_match(&value, path);
             format!("{}; {}", error.message, error.help.unwrap_or_default())
         };
         assert_eq!(
-            said("seals.D1.model.values.2"),
+            message("seals.D1.model.values.2"),
             "`seals.D1.model.values` is a list and has no entry `2`; write a number from 0 to 1, or `*` for all"
         );
         for path in [
@@ -217,7 +217,7 @@ mod tests {
             "seals.D2.model.file.1",
         ] {
             assert!(
-                said(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
+                message(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
             );
         }
     }

@@ -21,7 +21,7 @@ use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{Build, Common, Files, ModelRef, NamedSlots};
-use crate::resolve::{Came, Resolved};
+use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
 
@@ -106,7 +106,7 @@ impl Transmission {
         if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
             let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
             unmet(written, &paths, &mut found);
-            let laid_out = *resolved.came("thermal.network") == Came::Network;
+            let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
             if entry.thermal.mode == ThermalMode::Network {
                 unused(&entry, laid_out, &mut found, &mut warnings);
             }

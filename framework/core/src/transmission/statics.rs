@@ -36,7 +36,7 @@ pub struct LoadFactors {
 
 impl LoadFactor {
     /// The factor at the torques of all ports, by number.
-    pub fn at(&self, torque: impl Fn(usize) -> f64) -> f64 {
+    pub fn value_at(&self, torque: impl Fn(usize) -> f64) -> f64 {
         match self {
             Self::Constant(factor) => *factor,
             Self::Over { port, torques, factors } => clamped(torques, factors, torque(*port).abs()),
