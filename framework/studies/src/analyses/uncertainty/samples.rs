@@ -10,7 +10,7 @@ use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Built, Context, Stopped};
 use crate::analysis::{PointResult, Points, correlation, quantile};
 
-/// Shares of the samples below the ends and the middle of a band.
+/// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
 /// Values of the inputs, the solved points, and which stated ranges were left: path and quantity.
@@ -20,7 +20,7 @@ type Sample = (Vec<f64>, Vec<PointResult>, Vec<(String, &'static str)>);
 pub struct Samples {
     /// Values of the inputs and the solved points of each sample that could be built.
     pub solved: Vec<(Vec<f64>, Vec<PointResult>)>,
-    /// Why each of the others has no value.
+    /// Why each of the other samples has no value.
     pub failed: Vec<String>,
 }
 
@@ -67,7 +67,7 @@ pub fn solve(
     }
     if solved.len() < 2 {
         let message = format!(
-            "hardly a sample could be built: {}",
+            "hardly any sample could be built: {}",
             failed.first().map_or("", String::as_str)
         );
         return Err(cx.wrong("analyses", message, "narrow the ranges of the inputs"));
