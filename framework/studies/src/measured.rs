@@ -104,7 +104,7 @@ pub struct Row {
     pub file: usize,
     /// Line in the file; the first one where several were averaged.
     pub line: u64,
-    /// Name, where the file has names.
+    /// Name, if the file has names.
     pub name: Option<String>,
     /// Gear state, where the file has them.
     pub gear: Option<String>,

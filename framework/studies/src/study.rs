@@ -93,7 +93,7 @@ pub enum StudyFormat {
 /// The operating point of a report.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ReportAt {
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
     /// Torque. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
@@ -119,7 +119,7 @@ pub struct Conditions {
     /// Temperature of the oil; absent, that of the gearbox: the one stated there, or that of the balance at each point. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil_temperature: Option<f64>,
-    /// Whether losses change the torques of what comes after them.
+    /// Whether torque downstream is reduced by upstream losses.
     #[serde(default)]
     pub power_flow: PowerFlow,
     /// Overrides: resolved path to value.
@@ -226,7 +226,7 @@ impl Grid {
 /// The names that an analysis uses.
 #[derive(Debug, Clone)]
 pub struct Uses<'a> {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<&'a String>,
     /// Grid.
     pub grid: Option<&'a String>,

@@ -36,11 +36,11 @@ const RESAMPLES: usize = 200;
 /// the loss at the points (`relative_loss`: root of its mean square from the values of the gearbox, not for `local`).
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SensitivityEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
     /// Grid, of one gear state.
     pub grid: String,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// The quantities that are varied. `local` starts from the value of the gearbox: of the first where a path meets several
@@ -59,7 +59,7 @@ pub struct SensitivityEntry {
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -215,7 +215,7 @@ impl SensitivityEntry {
         let grid = cx.study.grid(&path, &self.grid)?;
         if !grid.bind.is_empty() || grid.envelope.is_some() {
             let message = "a sensitivity takes a grid without bound values and envelope";
-            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+            return Err(cx.wrong(&path, message, "give it its own grid"));
         }
         if !self.samples.is_power_of_two() {
             let message = format!(

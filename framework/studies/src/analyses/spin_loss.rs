@@ -15,12 +15,12 @@ use crate::study::{By, SpeedAxis, Uses, Write};
 /// Losses without load: every free port turns at no torque.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SpinLossEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
     /// Gear states, neutral among them; absent, all.
     #[serde(default)]
     pub gears: Vec<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Port that is turned; absent, that of the conditions. `output` is towing.
@@ -30,7 +30,7 @@ pub struct SpinLossEntry {
     pub by: By,
     /// Speeds of that port.
     pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV and JSON.
+    /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
 }

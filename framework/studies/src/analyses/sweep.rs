@@ -22,11 +22,11 @@ pub use self::outcome::{NotesOfSet, PointOfSweep, SecondValue, SweepOfValue, Swe
 /// Losses and efficiency over the values of one path, or of two.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SweepEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Resolved path whose value changes, such as `lubricants.sump.viscosity.kv100`, or `thermal.oil` for the temperature.
@@ -43,7 +43,7 @@ pub struct SweepEntry {
     pub torque: TorqueAxis,
     /// Speeds.
     pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -122,9 +122,9 @@ impl SweepEntry {
         }
         let error = Diagnostic::error(
             format!("{}.path", cx.path()),
-            "the conditions fix the temperature, so it cannot change",
+            "the conditions fix the temperature, so it cannot be varied",
         )
-        .help("leave `conditions.oil_temperature` out");
+        .help("delete `conditions.oil_temperature`");
         Err(cx.found(vec![error]))
     }
 

@@ -20,11 +20,11 @@ use crate::table::{Column, Table};
 /// The torque, or the speed, at which the balance reaches a given temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ThermalLimitEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Temperatures of the oil that may be reached. [degC]
@@ -38,7 +38,7 @@ pub struct ThermalLimitEntry {
     pub torque: TorqueAxis,
     /// Speeds: those at which the torque is looked for; or the range in which the limit is.
     pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -68,7 +68,7 @@ register_analysis!(ThermalLimitEntry);
 /// The thermal limits under each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ThermalLimitOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
@@ -86,7 +86,7 @@ pub struct ThermalLimitsOfSet {
     pub find: Find,
     /// One for each temperature and each speed or torque.
     pub limits: Vec<ThermalLimit>,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
 }
 
@@ -104,11 +104,11 @@ pub struct ThermalLimit {
     pub outcome: &'static str,
     /// Loss there. [W]
     pub loss_w: Option<f64>,
-    /// Power in. [W]
+    /// Input power. [W]
     pub input_w: Option<f64>,
-    /// Power out. [W]
+    /// Output power. [W]
     pub output_w: Option<f64>,
-    /// Power out over power in. [-]
+    /// Output power over input power. [-]
     pub efficiency: Option<f64>,
     /// Lowest temperature that keeps itself there: another one than the limit where several do. [degC]
     pub lowest_balance_degc: Option<f64>,
@@ -282,15 +282,15 @@ impl Outcome for ThermalLimitOutcome {
             &self.head.analysis,
             [
                 Column::text("model_set", "Model set"),
-                Column::text("gear", "Gear state"),
+                Column::text("gear", "Gear"),
                 Column::number("limit_degc", "degC", "Temperature of the oil that may be reached"),
                 Column::number("torque_nm", "Nm", "Torque"),
                 Column::number("speed_rpm", "rpm", "Speed"),
                 Column::text("outcome", "What became of the search"),
                 Column::number("loss_w", "W", "Loss"),
-                Column::number("input_w", "W", "Power in"),
-                Column::number("output_w", "W", "Power out"),
-                Column::number("efficiency", "-", "Power out over power in"),
+                Column::number("input_w", "W", "Input power"),
+                Column::number("output_w", "W", "Output power"),
+                Column::number("efficiency", "-", "Output power over input power"),
                 Column::number(
                     "lowest_balance_degc",
                     "degC",

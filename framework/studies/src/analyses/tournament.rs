@@ -32,11 +32,11 @@ const MOST: usize = 200_000;
 /// uncertainty of the models.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct TournamentEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
     /// Gear state of the data; absent, the first. A grid has its own.
     pub gear: Option<String>,
-    /// Set of models for everything else; absent, the models of the gearbox.
+    /// Model set of all other components; default: the models of the gearbox.
     pub model_set: Option<String>,
     /// The mechanisms whose models change.
     #[schemars(length(min = 1))]
@@ -66,7 +66,7 @@ pub struct TournamentEntry {
     #[serde(default = "shown")]
     #[schemars(range(min = 1, max = 1000))]
     pub shown: u32,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }

@@ -18,11 +18,11 @@ use crate::table::{Cell, Column, Table};
 /// What uncertain inputs do to efficiency, loss and temperature over a grid: every input is drawn from its distribution.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct UncertaintyEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
     /// Grid, of one gear state.
     pub grid: String,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// The uncertain inputs. A name takes over a parameter of the study, evenly distributed.
@@ -32,7 +32,7 @@ pub struct UncertaintyEntry {
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -58,7 +58,7 @@ register_analysis!(UncertaintyEntry);
 /// Bands over a grid under each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UncertaintyOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
@@ -79,7 +79,7 @@ pub struct BandsOfSet {
     pub samples: usize,
     /// Number of samples that could not be built or solved. [-]
     pub failed: usize,
-    /// Shares of the samples below the lower end, the middle and the upper end of each band. [-]
+    /// Probabilities of the lower end, the middle and the upper end of each band. [-]
     pub quantiles: [f64; 3],
     /// The inputs, those with the strongest correlation first.
     pub inputs: Vec<UncertainInput>,
@@ -112,7 +112,7 @@ pub struct UncertainInput {
     pub from: f64,
     /// Upper end of the range, in the unit of the input.
     pub to: f64,
-    /// Correlation with the mean loss over the grid; absent where one of both is the same in all samples. [-]
+    /// Correlation with the mean loss over the grid; absent if one of them is constant. [-]
     pub correlation_with_mean_loss: Option<f64>,
     /// Both ends with their unit, in words.
     #[serde(skip)]
@@ -126,13 +126,13 @@ pub struct PointOfBand {
     pub torque_nm: f64,
     /// Given speed. [rpm]
     pub speed_rpm: f64,
-    /// Power out over power in. [-]
+    /// Output power over input power. [-]
     pub efficiency: QuantityBand,
     /// Sum of all losses. [W]
     pub loss_w: QuantityBand,
     /// Loss over the speed of the reference port. [Nm]
     pub loss_torque_nm: QuantityBand,
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: QuantityBand,
     /// The efficiency as it is printed. [%]
     #[serde(skip)]
@@ -171,7 +171,7 @@ impl Analysis for UncertaintyEntry {
         let grid = cx.study.grid(&path, &self.grid)?;
         if !grid.bind.is_empty() || grid.envelope.is_some() {
             let message = "a band takes a grid without bound values and envelope";
-            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+            return Err(cx.wrong(&path, message, "give it its own grid"));
         }
         let built = cx.built(gearbox, &self.model_sets)?;
         let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
@@ -228,7 +228,7 @@ type Quantity = (
 );
 
 const QUANTITIES: [Quantity; 4] = [
-    ("efficiency", "-", "Power out over power in", |p| &p.efficiency),
+    ("efficiency", "-", "Output power over input power", |p| &p.efficiency),
     ("loss_w", "W", "Sum of all losses", |p| &p.loss_w),
     (
         "loss_torque_nm",
@@ -236,7 +236,7 @@ const QUANTITIES: [Quantity; 4] = [
         "Loss over the speed of the reference port",
         |p| &p.loss_torque_nm,
     ),
-    ("oil_temperature_degc", "degC", "Temperature of the oil", |p| {
+    ("oil_temperature_degc", "degC", "Oil temperature", |p| {
         &p.oil_temperature_degc
     }),
 ];
@@ -249,7 +249,7 @@ impl Outcome for UncertaintyOutcome {
     fn tables(&self) -> Vec<Table> {
         let mut columns = vec![
             Column::text("model_set", "Model set"),
-            Column::text("gear", "Gear state"),
+            Column::text("gear", "Gear"),
             Column::number("torque_nm", "Nm", "Given torque"),
             Column::number("speed_rpm", "rpm", "Given speed"),
         ];

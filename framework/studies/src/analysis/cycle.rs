@@ -57,14 +57,14 @@ pub struct Stretch {
     pub brakes: f64,
     /// Temperatures at its end: of the nodes, or of the oil alone. \[degC\]
     pub temperatures: Vec<f64>,
-    /// What the transmission does.
+    /// State of the transmission.
     pub status: Status,
 }
 
 /// A duty as it was driven.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Driven {
-    /// The intervals, as far as they went.
+    /// The simulated intervals.
     pub stretches: Vec<Stretch>,
     /// All energies.
     pub total: Heats,

@@ -142,21 +142,21 @@ pub struct PointResult {
     pub oil: Option<f64>,
     /// Temperature of the surface, where it was found by balance. \[degC\]
     pub surface: Option<f64>,
-    /// What became of the balance, where the temperature is not given.
+    /// Status of the heat balance if the temperature is not given.
     pub balance: Option<ThermalOutcome>,
     /// Temperatures of the nodes of a thermal network; none without one. \[degC\]
     pub nodes: Vec<f64>,
-    /// What the transmission does.
+    /// State of the transmission.
     pub status: Status,
-    /// Power out over power in.
+    /// Output power over input power.
     pub efficiency: Option<f64>,
     /// Sum of all losses. \[W\]
     pub loss: Option<f64>,
     /// Loss over the speed of the reference port. \[Nm\]
     pub loss_torque: Option<f64>,
-    /// Power in. \[W\]
+    /// Input power. \[W\]
     pub input: Option<f64>,
-    /// Power out. \[W\]
+    /// Output power. \[W\]
     pub output: Option<f64>,
     /// The usual sums, in the order of [`super::SUMS`]. \[W\]
     pub sums: [f64; 6],
@@ -164,11 +164,11 @@ pub struct PointResult {
     pub parts: Vec<f64>,
     /// The same by the terms of their models, where that was asked for. \[W\]
     pub terms: Vec<[f64; MOST_TERMS]>,
-    /// True where a model left its stated range.
+    /// True if a model is outside its stated range.
     pub outside: bool,
     /// Why a loss has no value: number of the part and the reason.
     pub undefined: Option<(usize, Undefined)>,
-    /// Passes over the loss models.
+    /// Number of iterations over the loss models.
     pub passes: usize,
     /// Evaluations of the point on the way to its temperature.
     pub evaluations: usize,
@@ -233,8 +233,8 @@ impl Points {
     }
 }
 
-/// Solves all points and holds them. `progress` hears how many more are solved; where it answers false the work is broken
-/// off, and there is no result.
+/// Solves all points and stores them. `progress` hears how many more are solved; where it answers false the work is broken off, and there
+/// is no result.
 ///
 /// # Errors
 /// If the case does not fit.

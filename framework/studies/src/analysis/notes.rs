@@ -45,7 +45,7 @@ pub struct Stated {
     /// Upper end; null where it is not finite.
     #[schemars(with = "Option<f64>")]
     pub greatest: f64,
-    /// Where it comes from.
+    /// Provenance.
     pub origin: &'static str,
 }
 

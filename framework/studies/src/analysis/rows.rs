@@ -60,7 +60,7 @@ impl Rows<'_> {
     /// The transmissions of a choice: one for each combination of bound values.
     ///
     /// # Errors
-    /// Everything that resolving and building find.
+    /// All errors of resolving and building.
     pub fn build(&self, language: &Language, gearbox: &Gearbox, choice: &Choice) -> Result<Vec<BuiltFrom>, Findings> {
         let of = |bound: &&Vec<String>| {
             let mut choice = choice.clone();

@@ -115,7 +115,7 @@ fn hour() -> f64 {
     3600.0
 }
 
-/// A duty as read.
+/// A cycle as read.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Duty {
     /// A series over time.

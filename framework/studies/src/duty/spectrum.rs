@@ -34,7 +34,7 @@ pub struct SpectrumPoint {
     /// Time. [s]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub time: Option<f64>,
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil_temperature: Option<f64>,
 }

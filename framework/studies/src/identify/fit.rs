@@ -102,7 +102,7 @@ impl Fitted {
     }
 }
 
-/// An interval by profile, or why there is none.
+/// A profile interval, or why there is none.
 pub type Profiled = Result<ProfileInterval, String>;
 
 impl<'s> Settings<'s> {

@@ -23,9 +23,9 @@ pub struct HoldOut {
     pub fitted: Measured,
     /// Rows that are predicted afterwards.
     pub held_out: Measured,
-    /// How they were chosen, in words.
+    /// Their selection as text.
     pub words: String,
-    /// Rows that are fitted because they lack what the condition asks for.
+    /// Rows that are fitted because they lack a value that the condition uses.
     pub undecided: usize,
 }
 
@@ -185,7 +185,7 @@ fn column_place(measured: &Measured, name: &str) -> Result<usize, Diagnostic> {
     })
 }
 
-/// By what rows are grouped, in words that follow `without its own`.
+/// Grouping of rows as text.
 pub fn group_words(entry: &FoldsEntry) -> String {
     match entry {
         FoldsEntry::Torques(_) => "band of torque".to_owned(),

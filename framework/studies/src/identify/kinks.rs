@@ -6,7 +6,7 @@ use gearloss_numerics::least_squares::{Fit, Kink};
 /// Change of a part's loss over the loss, below which nothing jumps there but rounding and the iterated flow of power. \[-\]
 const LEAST: f64 = 1e-9;
 
-/// A model whose loss or slope jumps at the minimum.
+/// A model whose loss or slope is discontinuous at the minimum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelKink {
     /// Path of the part, such as `gears.G4.drag.churning`.
@@ -15,7 +15,7 @@ pub struct ModelKink {
     pub model: String,
     /// Regimes on the lower and on the upper side in the model's words; absent where it says none that change.
     pub regimes: Option<[String; 2]>,
-    /// Whether the loss itself jumps, rather than its slope alone.
+    /// Whether the loss is discontinuous, not only its slope.
     pub jumps: bool,
     /// Greatest change of the part's loss between both sides that no straight line explains, over its loss. \[-\]
     pub change: f64,

@@ -20,7 +20,7 @@ pub struct Candidate {
     pub torque: f64,
     /// Speed. \[rad/s\]
     pub speed: f64,
-    /// Temperature of the oil; absent, that of the study. \[degC\]
+    /// Oil temperature; absent: from the study. \[degC\]
     pub oil: Option<f64>,
 }
 

@@ -79,15 +79,15 @@ pub struct Identified {
     pub target: Target,
     /// Unit of its numbers.
     pub unit: &'static Unit,
-    /// Value of the gearbox or the rig, before anything is fitted; absent where none is stated.
+    /// Value of the gearbox or the rig before the fit; absent if not stated.
     pub stated: Option<f64>,
     /// Where the search begins.
     pub start: f64,
     /// Least and greatest value.
     pub bounds: [f64; 2],
-    /// How it is counted.
+    /// Scale.
     pub scale: ScaleEntry,
-    /// What is known of it beside the points.
+    /// Prior.
     pub prior: Option<Prior>,
     /// Size by which its interval is judged, where its value may be zero so that it tells none: `usual_size` for a path; for an
     /// offset of a torque meter the median of the measured loss torques there, to which it adds.
@@ -217,12 +217,7 @@ impl Identified {
                 if start < bounds[0] || start > bounds[1] {
                     return Err(fault(
                         &place("start"),
-                        format!(
-                            "{} is outside of {} to {}",
-                            said(start),
-                            said(bounds[0]),
-                            said(bounds[1])
-                        ),
+                        format!("{} is outside {} to {}", said(start), said(bounds[0]), said(bounds[1])),
                         "begin between the bounds",
                     ));
                 }
@@ -251,7 +246,7 @@ impl Identified {
             return Err(fault(
                 &place("prior"),
                 format!(
-                    "its mean, {}, is outside of {} to {}",
+                    "its mean, {}, is outside {} to {}",
                     said(prior.mean),
                     said(bounds[0]),
                     said(bounds[1])
@@ -295,7 +290,7 @@ impl Identified {
             return Err(fault(
                 &place("over.torques"),
                 "the torques do not rise",
-                "sort them, and name each once",
+                "sort them and remove duplicates",
             ));
         }
         let own = |place: usize| curve.as_ref().and_then(|list| list.get(place).copied());
@@ -414,7 +409,7 @@ impl Identified {
                     return Some(fault(
                         &format!("parameters.{}.path", one.base_name()),
                         format!("`{}` moves `{what}` too", other.base_name()),
-                        "name every value once",
+                        "list every value once",
                     ));
                 }
             }

@@ -18,7 +18,7 @@ pub struct Posterior {
     pub marginals: Vec<Option<Marginal>>,
     /// The draws of the free parameters.
     pub draws: Draws,
-    /// Whether every walker ran long enough for its draws to be trusted.
+    /// Whether the sampling has converged.
     pub is_settled: bool,
 }
 

@@ -18,14 +18,14 @@ pub struct PredictedNumber {
     /// Row of the measurement held out, quantity, and standard deviation of one measurement: the stated accuracy, or the scatter
     /// of the fitted points. Not finite where neither is known.
     pub observation: Observation,
-    /// Measured, without what the identified rig adds, and predicted.
+    /// Measured, without the contribution of the identified rig, and predicted.
     pub pair: Pair,
     /// 95 % band of the measurement, about the predicted value; absent where the fitted points do not determine it.
     pub band: Option<[f64; 2]>,
 }
 
 impl PredictedNumber {
-    /// Whether the measurement lies inside of its band.
+    /// Whether the measurement is inside its band.
     pub fn is_inside(&self) -> Option<bool> {
         self.band
             .map(|[low, high]| low <= self.pair.measured && self.pair.measured <= high)
@@ -38,11 +38,11 @@ pub struct Predictions {
     pub numbers: Vec<PredictedNumber>,
     /// What the gearbox does at the rows.
     pub calculated: Calculated,
-    /// Rows that have no calculated value, and why.
+    /// Rows without a calculated value, with the reason.
     pub missing: Vec<String>,
-    /// By how much bands are wider than the fit itself says.
+    /// Widening of the bands relative to the fit.
     pub widening: Widening,
-    /// Why there are no bands, where there are none.
+    /// Why there are no bands, if there are none.
     pub no_bands: Option<String>,
 }
 

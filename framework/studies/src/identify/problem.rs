@@ -17,7 +17,7 @@ use super::{Identified, RigQuantity, Target};
 pub struct Observation {
     /// Number of the row.
     pub row: usize,
-    /// What was measured.
+    /// Measured values.
     pub quantity: Quantity,
     /// Standard deviation of the measurement, its weight counted in: efficiencies as shares, temperatures in K. Without any
     /// accuracy the unit in which residuals are counted: an efficiency point, 1 W, 1 Nm or 1 K.
@@ -188,7 +188,7 @@ impl<'a> Identification<'a> {
         self.accuracy
     }
 
-    /// What a user should know of the points.
+    /// Notes on the points.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
@@ -401,7 +401,7 @@ impl<'a> Identification<'a> {
                 ));
             }
             if found.len() == before {
-                let help = "name a column of it, or columns of torque and speed at both ports";
+                let help = "add a column of it, or columns of torque and speed at both ports";
                 return Err(data(format!("nothing gives a measured {what}"), help));
             }
             if *quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {

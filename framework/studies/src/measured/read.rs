@@ -57,7 +57,7 @@ impl MeasuredEntry {
             faults.push(MeasuredFault::new(
                 "accuracies.oil_temperature",
                 "the accuracy of the oil temperature is stated twice, here and under `rig`",
-                "leave one of them out",
+                "delete one of them",
             ));
         }
         if let Some(steady) = &self.steady {

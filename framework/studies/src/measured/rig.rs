@@ -34,7 +34,7 @@ pub struct RigEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub speed_out: f64,
-    /// Accuracy of the temperature of the oil. [K]
+    /// Accuracy of the oil temperature. [K]
     #[schemars(range(min = 1e-6, max = 1000.0))]
     pub oil_temperature: Option<f64>,
 }

@@ -7,7 +7,7 @@ use crate::study::{Difference, Quantity};
 /// What was measured, from whichever columns give it, without what the rig adds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seen {
-    /// Power out over power in. \[-\]
+    /// Output power over input power. \[-\]
     pub efficiency: Option<f64>,
     /// \[W\]
     pub loss: Option<f64>,

@@ -5,14 +5,14 @@ use serde::Deserialize;
 
 use gearloss_framework::thermal::network::Scheme;
 
-/// What is driven, and how.
+/// Cycles and settings of the simulation.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct DriveEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
     /// Gear state where a duty names none; absent, the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Duties, of those under `cycles` of the study.

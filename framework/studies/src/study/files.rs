@@ -258,7 +258,7 @@ impl Study {
     /// place in the study: what is wrong with a change is told there.
     ///
     /// # Errors
-    /// Everything that resolving and building find.
+    /// All errors of resolving and building.
     pub fn built(
         &self,
         language: &Language,

@@ -13,10 +13,10 @@ pub use hold_out::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
 /// One parameter.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct IdentifiedEntry {
-    /// Resolved path; with `*` all that it meets move together. Of the rig: `rig.torque_offset_in`, `rig.torque_offset_out`,
+    /// Resolved path; with `*` all matches change together. Of the rig: `rig.torque_offset_in`, `rig.torque_offset_out`,
     /// `rig.support_in.torque`, `rig.support_out.torque`.
     pub path: String,
-    /// How several quantities move together.
+    /// How several quantities change together.
     #[serde(default)]
     pub tie: Tie,
     /// Where the search begins; absent, the value of the gearbox or the rig.
@@ -28,7 +28,7 @@ pub struct IdentifiedEntry {
     /// How it is counted: `log` for factors above zero that may vary by more than three to one.
     #[serde(default)]
     pub scale: ScaleEntry,
-    /// What is known of it beside the points.
+    /// Prior.
     pub prior: Option<PriorEntry>,
     /// For load factors: one factor at each of these torques, linear in between, in place of a single one.
     pub over: Option<OverEntry>,

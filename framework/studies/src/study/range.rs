@@ -9,9 +9,9 @@ use crate::varied::Tie;
 /// One quantity and its range: `plus_minus`, `percent`, or `from` and `to`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct RangeEntry {
-    /// Resolved path; with `*` all that it meets move together.
+    /// Resolved path; with `*` all matches change together.
     pub path: String,
-    /// How several quantities move together.
+    /// How several quantities change together.
     #[serde(default)]
     pub tie: Tie,
     /// Half of the range about the value of the gearbox, as a quantity of the path: `0.1 um`.

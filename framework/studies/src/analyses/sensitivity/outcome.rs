@@ -17,7 +17,7 @@ use crate::varied::Varied;
 /// What the losses over a grid depend on, under each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SensitivityOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
@@ -212,7 +212,7 @@ fn columns() -> [Column; 20] {
     let of_output = "unit of the output";
     [
         Column::text("model_set", "Model set"),
-        Column::text("gear", "Gear state"),
+        Column::text("gear", "Gear"),
         Column::text("output", "Output"),
         Column::text("kind", "What the output is"),
         Column::text("unit", "Unit of the output"),

@@ -20,7 +20,7 @@ pub enum OutputKind {
     Mechanism,
     /// Those of a named term of a mechanism.
     Term,
-    /// Power out over power in.
+    /// Output power over input power.
     Efficiency,
     /// Root of the mean square, over the points, of the relative change of the loss at each point from the values of the gearbox: what
     /// moves loss from one region to another is seen here, while the mean may stay.

@@ -16,7 +16,7 @@ use crate::table::{Cell, Column, Table};
 /// Losses and efficiency at every value under each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SweepOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set at each value: the values of the second path outermost, the sets innermost.
@@ -55,7 +55,7 @@ pub struct SweepOfValue {
     pub shares: Vec<String>,
     /// The points: torques outermost.
     pub points: Vec<PointOfSweep>,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
     /// Number of the value and of the second value in the study, from zero.
     #[serde(skip)]
@@ -78,13 +78,13 @@ pub struct PointOfSweep {
     pub torque_nm: f64,
     /// Speed. [rpm]
     pub speed_rpm: f64,
-    /// Temperature of the oil; absent where no balance was found. [degC]
+    /// Oil temperature; absent if no balance was found. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// What became of the balance; absent where the temperature is given.
+    /// Status of the heat balance; absent if the temperature is given.
     pub balance: Option<thermal::Outcome>,
-    /// What the transmission does.
+    /// State of the transmission.
     pub status: Status,
-    /// Power out over power in. [-]
+    /// Output power over input power. [-]
     pub efficiency: Option<f64>,
     /// Loss. [W]
     pub loss_w: Option<f64>,
@@ -144,20 +144,17 @@ impl Outcome for SweepOutcome {
         let first = self.sweep.first();
         let second = first.and_then(|value| value.second.as_ref());
         let shares = first.map_or(&[][..], |value| &value.shares);
-        let mut columns = vec![
-            Column::text("model_set", "Model set"),
-            Column::text("gear", "Gear state"),
-        ];
+        let mut columns = vec![Column::text("model_set", "Model set"), Column::text("gear", "Gear")];
         let paths = first.map(|value| &value.path).into_iter();
         let paths = paths.chain(second.map(|second| &second.path));
         columns.extend(paths.map(|path| Column::text(path, "Value of the path as the study writes it")));
         columns.extend([
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-            Column::text("balance", "What became of the balance"),
-            Column::text("status", "What the transmission does"),
-            Column::number("efficiency", "-", "Power out over power in"),
+            Column::number("oil_temperature_degc", "degC", "Oil temperature"),
+            Column::text("balance", "Status of the heat balance"),
+            Column::text("status", "State of the transmission"),
+            Column::number("efficiency", "-", "Output power over input power"),
             Column::number("loss_w", "W", "Loss"),
         ]);
         let share = |share: &String| Column::number(format!("{share}_w"), "W", format!("Loss of {share}"));

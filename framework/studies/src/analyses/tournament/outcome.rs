@@ -11,7 +11,7 @@ use super::super::Head;
 /// Every combination of the models of some mechanisms.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct TournamentOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// The ranking, or the spread.

@@ -28,7 +28,7 @@ impl TournamentEntry {
         let gear = cx.one_gear(&path, grid, t)?;
         if !grid.bind.is_empty() || grid.envelope.is_some() {
             let message = "a tournament takes a grid without bound values and envelope";
-            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+            return Err(cx.wrong(&path, message, "give it its own grid"));
         }
         let (torques, speeds) = grid_axes(cx, grid_name, grid, t)?;
         let points = cx.points(t, &gear, torques.clone(), speeds.clone());

@@ -116,7 +116,7 @@ fn shortlist(name: &str, ranking: &Ranking) -> Table {
     let mut table = Table::new(
         format!("{name}-shortlist"),
         [
-            Column::text("gear", "Gear state"),
+            Column::text("gear", "Gear"),
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
             Column::number("measured_loss_w", "W", "Measured loss"),
@@ -155,7 +155,7 @@ fn points(name: &str, spread: &Spread) -> Table {
     let mut table = Table::new(
         name,
         [
-            Column::text("gear", "Gear state"),
+            Column::text("gear", "Gear"),
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
             Column::number("least_loss_w", "W", "The smallest loss of all combinations"),

@@ -10,7 +10,7 @@ use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Built, Context, Stopped};
 use crate::analysis::{PointResult, Points, correlation, quantile};
 
-/// Shares of the samples below the ends and the middle of a band.
+/// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
 /// Values of the inputs, the solved points, and the stated ranges outside which the sample lies.
@@ -86,7 +86,7 @@ pub fn solve(
     }
     if solved.len() < 2 {
         let message = format!(
-            "hardly a sample could be built: {}",
+            "hardly any sample could be built: {}",
             failed.first().map_or("", String::as_str)
         );
         return Err(cx.wrong("analyses", message, "narrow the ranges of the inputs"));

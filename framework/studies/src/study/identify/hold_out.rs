@@ -48,7 +48,7 @@ pub struct HoldOutRows {
     pub seed: Option<u32>,
 }
 
-/// Groups of rows of which each is predicted from the others.
+/// Groups of rows for cross-validation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FoldsEntry {
