@@ -3,7 +3,9 @@
 
 use serde_json::{Map, Value};
 
-use super::diagnostic::{Code, Diagnostic, did_you_mean};
+use super::code::Code;
+use super::codes;
+use super::diagnostic::{Diagnostic, did_you_mean};
 use super::misplaced;
 use super::node::{Content, Key, Node};
 use super::places::{Place, Places};
@@ -105,7 +107,9 @@ pub fn walk_shape<'a>(node: &Node, schema: &'a Schema, shape: &'a Shape, path: &
 
 /// What a walk has found: where nothing else is said, a value is wrong.
 fn found(list: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    list.into_iter().map(|finding| finding.code(Code::Value)).collect()
+    list.into_iter()
+        .map(|finding| finding.code(codes::WRONG_TYPE))
+        .collect()
 }
 
 /// Name of the `type` of a record, with all types that it could have.
@@ -147,6 +151,13 @@ impl<'a> Walker<'a> {
     fn report(&mut self, node: &Node, message: impl Into<String>, help: impl Into<String>) {
         let finding = Diagnostic::error(self.path.clone(), message).at(node.span).help(help);
         self.findings.push(finding);
+    }
+
+    /// The finding that was just reported has this code.
+    fn last_is(&mut self, code: Code) {
+        if let Some(last) = self.findings.last_mut() {
+            last.code = Some(code);
+        }
     }
 
     fn within<T>(&mut self, key: &str, walk: impl FnOnce(&mut Self) -> T) -> T {
@@ -221,6 +232,7 @@ impl<'a> Walker<'a> {
                         fault.message,
                         fault.help.unwrap_or_else(|| "write a smaller number".to_owned()),
                     );
+                    self.last_is(codes::WRONG_UNIT);
                     return None;
                 }
             },
@@ -235,6 +247,7 @@ impl<'a> Walker<'a> {
         };
         if !shown.is_finite() {
             self.report(node, "the number is too large", "write a number of a size that occurs");
+            self.last_is(codes::OUT_OF_BOUNDS);
             return None;
         }
         // A text is compared after conversion there and back: allow for its rounding.
@@ -259,6 +272,7 @@ impl<'a> Walker<'a> {
                 format!("{}{unit_name} is out of range", tidy(shown)),
                 format!("write {range}"),
             );
+            self.last_is(codes::OUT_OF_BOUNDS);
             return None;
         }
         if whole {
@@ -311,7 +325,7 @@ impl<'a> Walker<'a> {
             .at(node.span)
             .note(format!("words: {}", words.join(", ")))
             .help(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
-            self.findings.push(finding.code(Code::UnknownName));
+            self.findings.push(finding.code(codes::UNKNOWN_TYPE));
             return None;
         }
         Some(Value::from(text.as_str()))
@@ -415,6 +429,7 @@ impl<'a> Walker<'a> {
                     };
                     w.findings
                         .push(Diagnostic::error(w.path.clone(), message).at(key.span).help(help));
+                    w.last_is(codes::WRONG_NAME);
                 }
                 w.places.0.insert(
                     w.path.clone(),
@@ -486,7 +501,7 @@ impl<'a> Walker<'a> {
                         .at(node.span)
                         .note(format!("linked here: {}", names().collect::<Vec<_>>().join(", ")))
                         .help("a `model:` replaces the default wholly: write its `type`, too");
-                    self.findings.push(finding.code(Code::MissingKey));
+                    self.findings.push(finding.code(codes::MISSING_KEY));
                     None
                 }
                 Some(tag) => match tag.text() {
@@ -519,7 +534,7 @@ impl<'a> Walker<'a> {
                 Some(close) => format!("write `{close}`"),
                 None => "choose one of them; `gearloss models` says what they are".to_owned(),
             });
-        self.findings.push(finding.code(Code::UnknownName));
+        self.findings.push(finding.code(codes::UNKNOWN_TYPE));
     }
 
     fn either(&mut self, node: &Node, shapes: &'a [Shape]) -> Option<Value> {
@@ -618,7 +633,7 @@ impl<'a> Walker<'a> {
                         let finding = Diagnostic::error(self.path.clone(), format!("`{name}` is missing"))
                             .at(node.span)
                             .help(format!("add `{name}:` ({first_sentence})"));
-                        self.findings.push(finding.code(Code::MissingKey));
+                        self.findings.push(finding.code(codes::MISSING_KEY));
                         None
                     }
                     None => None,
@@ -683,7 +698,7 @@ impl<'a> Walker<'a> {
                     .help("choose one of these keys, or remove it"),
             }
         };
-        self.findings.push(finding.at(key.span).code(Code::UnknownKey));
+        self.findings.push(finding.at(key.span).code(codes::UNKNOWN_KEY));
         meant
     }
 

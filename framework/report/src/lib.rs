@@ -1,5 +1,6 @@
 //! Text, figures, pages and files of results.
 
+pub mod codes;
 mod contours;
 pub mod csv;
 pub mod deviations;

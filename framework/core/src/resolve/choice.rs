@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::language::Language;
 
@@ -119,6 +120,7 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
                 .last()
                 .map_or_else(|| "model_sets".to_owned(), |last| format!("model_sets.{last}.extends"));
             let error = Diagnostic::error(path, format!("no set of models is called `{name}`"))
+                .code(codes::UNKNOWN_NAME)
                 .note(format!("there are: {}", names.join(", ")));
             return Err(match did_you_mean(name, names.iter().copied()) {
                 Some(close) => error.help(format!("write `{close}`")),
@@ -130,6 +132,7 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
                 format!("model_sets.{known}.extends"),
                 "sets extend each other in a circle",
             )
+            .code(codes::EXTENDS)
             .note(format!("the circle: {}", chain.join(", ")))
             .help("leave one `extends` out"));
         }

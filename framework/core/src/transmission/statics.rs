@@ -6,6 +6,7 @@ use super::gearing::MeshSeat;
 use super::members::Members;
 use super::planets::orbit;
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
+use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
@@ -240,6 +241,7 @@ fn unsupported(
                 let what = if members.loose[i] { "gear" } else { "shaft" };
                 found.push(
                     Diagnostic::error(path, format!("the {what} is loaded and has no bearings"))
+                        .code(codes::NO_BEARING)
                         .note("without them its bearing loads and losses would be missing from every result")
                         .help(
                             "add its bearings, with `model: none` where they lose nothing; or write `bearings: none` here",
@@ -260,6 +262,7 @@ fn unsupported(
                 if !taken {
                     warnings.push(
                         Diagnostic::warning(path.clone(), format!("no bearing takes thrust towards {words} places"))
+                            .code(codes::THRUST)
                             .help("set `axial:` of a bearing to left, right or both"),
                     );
                 }
@@ -281,6 +284,7 @@ fn unsupported(
                         bare.join(", ")
                     ),
                 )
+                .code(codes::UNCOUNTED)
                 .help("add bearings between the planets and the carrier, or write `bearings: none` at these shafts"),
             );
         }

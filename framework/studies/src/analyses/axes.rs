@@ -4,6 +4,7 @@ use crate::study::{Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 
 use super::{Context, Stopped};
+use crate::codes;
 
 /// Values of an axis, or the fault with its path.
 pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Stopped> {
@@ -13,7 +14,7 @@ pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, String>) -> R
         } else {
             "give a step that leads from one end to the other"
         };
-        cx.wrong(path, reason, help)
+        cx.wrong_as(codes::AXIS, path, reason, help)
     })
 }
 
@@ -31,12 +32,17 @@ pub fn grid_axes(cx: &Context<'_>, name: &str, grid: &Grid, t: &Transmission) ->
         let along = |rises: bool| list.windows(2).all(|w| if rises { w[0] < w[1] } else { w[0] > w[1] });
         if !along(true) && !along(false) {
             let message = "the values of a grid's axis neither rise nor fall all along";
-            return Err(cx.wrong(&format!("{path}.{key}"), message, "sort them, and name each once"));
+            return Err(cx.wrong_as(
+                codes::AXIS,
+                &format!("{path}.{key}"),
+                message,
+                "sort them, and name each once",
+            ));
         }
     }
     if own.0.len().saturating_mul(own.1.len()) > MOST_POINTS {
         let message = format!("the grid has more than {MOST_POINTS} points");
-        return Err(cx.wrong(&path, message, "take wider steps"));
+        return Err(cx.wrong_as(codes::AXIS, &path, message, "take wider steps"));
     }
     Ok(own)
 }

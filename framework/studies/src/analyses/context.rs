@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Code, Diagnostic};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
@@ -13,6 +13,7 @@ use serde_json::Value;
 use super::head::{Head, InputFile};
 use super::progress::{Progress, Running};
 use crate::analysis::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
+use crate::codes;
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
 use crate::tasks::{Task, TaskResults};
@@ -401,7 +402,12 @@ impl<'a> Context<'a> {
 
     /// A fault of the study at a path.
     pub fn wrong(&self, path: &str, message: impl Into<String>, help: &str) -> Stopped {
-        self.found(vec![Diagnostic::error(path, message.into()).help(help)])
+        self.wrong_as(codes::ANALYSIS, path, message, help)
+    }
+
+    /// As [`Context::wrong`], with the code of its kind.
+    pub fn wrong_as(&self, code: Code, path: &str, message: impl Into<String>, help: &str) -> Stopped {
+        self.found(vec![Diagnostic::error(path, message.into()).help(help).code(code)])
     }
 
     /// Findings about the study.
@@ -423,7 +429,8 @@ impl<'a> Context<'a> {
             format!(", {points},")
         };
         let message = format!("more points{of} than the {MOST_HELD} that an analysis can hold");
-        Err(self.wrong(
+        Err(self.wrong_as(
+            codes::TOO_LARGE,
             path,
             message,
             "take fewer samples, values or points; a `map` over a grid takes more, piece by piece",

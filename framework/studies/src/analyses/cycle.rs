@@ -16,6 +16,7 @@ use super::numbers::tidy;
 use super::shares::{Shares, together};
 use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
 use crate::analysis::Note;
+use crate::codes;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::{Cell, Column, Table};
@@ -188,7 +189,11 @@ impl Outcome for CycleOutcome {
             duty.cycle, broken.time_s, broken.reason
         );
         let error = Diagnostic::error(format!("analyses.{}", self.head.analysis), message);
-        Some(error.help("the results up to there are kept; look at the point with `explain`"))
+        Some(
+            error
+                .help("the results up to there are kept; look at the point with `explain`")
+                .code(codes::BROKEN_OFF),
+        )
     }
 }
 

@@ -1,9 +1,10 @@
 //! Duties of a study: read, and driven through a transmission.
 
 use crate::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
+use crate::codes;
 use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
 use crate::study::{By, Conditions, DriveEntry};
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Diagnostic, classify};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
@@ -41,13 +42,13 @@ impl<'a> Duties<'a> {
         let study = &cx.study.entry;
         if entry.step.is_some() && entry.tolerance.is_some() {
             let message = "both `step` and `tolerance` are given";
-            return Err(cx.wrong(path, message, "leave one of them out"));
+            return Err(cx.wrong_as(codes::DUTY, path, message, "leave one of them out"));
         }
         let mut found = Vec::new();
         if entry.vehicle.is_none() && study.vehicles.len() > 1 {
             let names: Vec<&str> = study.vehicles.ids().collect();
             let message = format!("the study has several vehicles: {}", names.join(", "));
-            return Err(cx.wrong(path, message, "name one, such as `vehicle: car`"));
+            return Err(cx.wrong_as(codes::DUTY, path, message, "name one, such as `vehicle: car`"));
         }
         let own = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
         let vehicle = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
@@ -73,7 +74,7 @@ impl<'a> Duties<'a> {
                     found.extend(
                         faults
                             .into_iter()
-                            .map(|f| Diagnostic::error(&at, f.message).help(f.help)),
+                            .map(|f| Diagnostic::error(&at, f.message).help(f.help).code(codes::DUTY)),
                     );
                     continue;
                 }
@@ -86,10 +87,11 @@ impl<'a> Duties<'a> {
                     port: cycle.port().map(str::to_owned),
                     about: cycle.about().map(str::to_owned),
                 }),
-                Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help)),
+                Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help).code(codes::DUTY)),
             }
         }
         if !found.is_empty() {
+            classify(&mut found, codes::DUTY);
             return Err(cx.study.findings(found).into());
         }
         Ok(Self {
@@ -115,7 +117,7 @@ impl<'a> Duties<'a> {
                 read.name
             );
             let help = "write `thermal: { mode: network, network: auto }` in the gearbox, or `conditions: { oil_temperature: ... }`";
-            return Err(cx.wrong(path, message, help));
+            return Err(cx.wrong_as(codes::DUTY, path, message, help));
         }
         // Keys that need temperatures that go on, or that follow.
         let goes_on = oil == OilTemperature::Network && in_time.is_some();
@@ -139,7 +141,7 @@ impl<'a> Duties<'a> {
                 OilTemperature::Network => "leave it out",
                 _ => "leave it out, or let the gearbox have a thermal network",
             };
-            return Err(cx.wrong(&format!("{path}.{key}"), message, help));
+            return Err(cx.wrong_as(codes::DUTY, &format!("{path}.{key}"), message, help));
         }
         let told = |read: &&Read| read.intervals.iter().any(|i| i.given.oil_temperature.is_some());
         if let (OilTemperature::Network, Some(read)) = (oil, self.list.iter().find(told)) {
@@ -148,7 +150,7 @@ impl<'a> Duties<'a> {
                 read.name
             );
             let help = "leave them out, or give all of them by `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is compared";
-            return Err(cx.wrong(&format!("cycles.{}", read.name), message, help));
+            return Err(cx.wrong_as(codes::DUTY, &format!("cycles.{}", read.name), message, help));
         }
         for read in &self.list {
             can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(cx, read, list))?;
@@ -177,7 +179,7 @@ impl<'a> Duties<'a> {
                 };
                 let message = format!("`{column}` of `{}` needs {what}", read.name);
                 let help = "leave the column out, or describe what uses it";
-                return Err(cx.wrong(&format!("cycles.{}.columns", read.name), message, help));
+                return Err(cx.wrong_as(codes::DUTY, &format!("cycles.{}.columns", read.name), message, help));
             }
             let Duty::Trace(trace) = &read.duty else { continue };
             let nodes: Vec<&str> = match network {
@@ -329,7 +331,8 @@ impl Duties<'_> {
 pub fn sums_energies(cx: &Context<'_>, path: &str, by: By) -> Result<(), Stopped> {
     if matches!(by, By::Term | By::Sum) {
         let message = "the energies of a duty are summed by mechanism, component or stage";
-        return Err(cx.wrong(
+        return Err(cx.wrong_as(
+            codes::DUTY,
             &format!("{path}.by"),
             message,
             "write `by: mechanism`, `component` or `stage`",

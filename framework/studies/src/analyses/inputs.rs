@@ -1,5 +1,6 @@
 //! Uncertain inputs: quantities of the description with distributions.
 
+use crate::codes;
 use crate::study::{Shape, ToleranceEntry};
 use gearloss_numerics::sampling::Distribution;
 
@@ -42,7 +43,7 @@ impl Input {
         };
         let wrong = |reason: String| {
             let message = format!("{}: {reason}", entry.range.path);
-            cx.wrong(path, message, "give a range that is wider than nothing")
+            cx.wrong_as(codes::VARIED, path, message, "give a range that is wider than nothing")
         };
         Ok(Self {
             distribution: distribution.map_err(wrong)?,

@@ -1,5 +1,6 @@
 //! Quantities that a study varies over ranges.
 
+use crate::codes;
 use crate::study::RangeEntry;
 use crate::varied::Varied;
 use serde_json::Value;
@@ -17,7 +18,8 @@ pub struct Range {
 impl Range {
     /// `path` is the entry's place in the study.
     pub fn new(cx: &Context<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
-        let wrong = |message: String, help: &str| cx.wrong(path, format!("{}: {message}", entry.path), help);
+        let wrong =
+            |message: String, help: &str| cx.wrong_as(codes::VARIED, path, format!("{}: {message}", entry.path), help);
         let varied = varied(cx, path, (&entry.path, entry.tie), b)?;
         let about = || {
             varied.start().ok_or_else(|| {
@@ -73,7 +75,7 @@ impl Range {
             self.varied.words(low),
             self.varied.words(high)
         );
-        Err(cx.wrong(path, said, "narrow the range"))
+        Err(cx.wrong_as(codes::VARIED, path, said, "narrow the range"))
     }
 
     /// The value at a share of the range.
@@ -118,7 +120,7 @@ pub fn varied(
     let fixed = cx.study.entry.conditions.oil_temperature.is_some();
     if fixed && varied.paths.iter().any(|path| path == "thermal.oil") {
         let message = "the conditions fix the temperature, so it cannot change";
-        return Err(cx.wrong(path, message, "leave `conditions.oil_temperature` out"));
+        return Err(cx.wrong_as(codes::VARIED, path, message, "leave `conditions.oil_temperature` out"));
     }
     Ok(varied)
 }
@@ -129,7 +131,7 @@ pub fn once(cx: &Context<'_>, place: &str, all: &[&Varied]) -> Result<(), Stoppe
         let twice = |other: &&&Varied| other.paths.iter().any(|p| own.paths.contains(p));
         if let Some(other) = all[..i].iter().find(twice) {
             let message = format!("`{}` and `{}` change the same value", other.pattern, own.pattern);
-            return Err(cx.wrong(&format!("{place}.{i}"), message, "name every value once"));
+            return Err(cx.wrong_as(codes::VARIED, &format!("{place}.{i}"), message, "name every value once"));
         }
     }
     Ok(())

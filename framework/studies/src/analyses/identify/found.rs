@@ -10,6 +10,7 @@ use super::next::{self, Candidates, Next};
 use super::posterior::{self, PosteriorOfSet};
 use crate::analyses::{Context, Stopped};
 use crate::analysis::{Note, merge, notes};
+use crate::codes;
 use crate::identify::{
     Calculated, Fitted, HoldOut, Identification, Identified, Observation, Pair, Profiled, Settings, ShareBands,
 };
@@ -92,7 +93,14 @@ impl Found {
         prepared: Prepared<'_>,
     ) -> Result<(Self, Beside), Stopped> {
         let path = cx.path();
-        let failed = |reason: String| cx.wrong(&path, reason, "begin with other values, or narrow the bounds");
+        let failed = |reason: String| {
+            cx.wrong_as(
+                codes::NO_CONVERGENCE,
+                &path,
+                reason,
+                "begin with other values, or narrow the bounds",
+            )
+        };
         let at = |theta: &[f64]| -> Result<(Calculated, Vec<Pair>), String> {
             let calculated = identification.calculate(theta)?;
             let pairs = identification.pairs(&calculated)?;
@@ -135,7 +143,7 @@ impl Found {
         });
         let held_out = held_out.transpose().map_err(|reason| {
             let help = "hold out rows in which what is fitted was measured and the gearbox has a value";
-            cx.wrong(&format!("{path}.hold_out"), reason, help)
+            cx.wrong_as(codes::HOLD_OUT, &format!("{path}.hold_out"), reason, help)
         })?;
         let transmission = &after.solved.transmissions[0].1;
         let mut seen = after.solved.seen.clone();
