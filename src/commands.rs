@@ -1,17 +1,14 @@
 //! The commands, one file each.
 
-mod card;
 pub mod catalogue;
 pub mod check;
 pub mod eval;
 pub mod explain;
 pub mod fit;
 pub mod import;
-mod locking;
 pub mod merge;
 pub mod models;
 mod needs;
-mod network;
 pub mod new;
 mod point;
 pub mod run;

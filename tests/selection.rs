@@ -9,7 +9,7 @@ use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_numerics::inference::{Decision, PointSet, folds};
 use gearloss_numerics::sampling::inverse_normal;
-use gearloss_numerics::selection::{Combination, Losses, MeasuredLosses, rank, stand, validate, winner};
+use gearloss_numerics::selection::{Combination, Losses, MeasuredLosses, compare_pair, rank, validate, winner};
 use gearloss_studies::analysis::{Field, OilTemperature, Points, run_grid};
 use serde_json::{Value, json};
 
@@ -256,7 +256,7 @@ fn decisions_are_rarely_wrong() {
                 .map(|m| m.iter().map(Vec::as_slice).collect())
                 .collect(),
         };
-        let truth = losses.all(&[0, 0], &[1.0, 1.0]);
+        let truth = losses.of_combination(&[0, 0], &[1.0, 1.0]);
         let floor = 0.01 * rms(&truth);
         // A gain and an offset of the rig, which the accuracy holds beside the noise, as that of an instrument does.
         let [gain, offset] = [noise, floor].map(|x| [0.0, 1.0, 3.0][kind] * x);
@@ -280,7 +280,10 @@ fn decisions_are_rarely_wrong() {
             let of_truth = |c: &Combination| validate(&losses, &exact, bounds, c.places.clone()).unwrap();
             let fitted: Vec<Combination> = ranked.iter().map(of_truth).collect();
             let errors: Vec<f64> = fitted.iter().map(|c| c.predicted).collect();
-            let predictions: Vec<Vec<f64>> = fitted.iter().map(|c| losses.all(&c.places, &c.factors)).collect();
+            let predictions: Vec<Vec<f64>> = fitted
+                .iter()
+                .map(|c| losses.of_combination(&c.places, &c.factors))
+                .collect();
             let is_true = |c: &Combination| c.places == [0, 0];
             rates.sets += 1;
             let of_truth = ranked.iter().position(is_true).unwrap();
@@ -288,7 +291,7 @@ fn decisions_are_rarely_wrong() {
                 usize::from(found.standings[of_truth].decision == Decision::Better && of_truth != found.place);
             for a in 0..ranked.len() {
                 for b in a + 1..ranked.len() {
-                    let standing = stand([&ranked[a], &ranked[b]], &losses, &measured, &found.errors);
+                    let standing = compare_pair([&ranked[a], &ranked[b]], &losses, &measured, &found.errors);
                     let is_wrong = |decision: Decision| match decision {
                         Decision::Better => errors[a] > errors[b] || is_true(&ranked[b]),
                         Decision::Worse => errors[a] < errors[b] || is_true(&ranked[a]),
@@ -349,7 +352,7 @@ fn the_order_is_the_same_for_every_quantity() {
             .map(|m| m.iter().map(Vec::as_slice).collect())
             .collect(),
     };
-    let truth = losses.all(&[1, 1], &[1.0, 1.0]);
+    let truth = losses.of_combination(&[1, 1], &[1.0, 1.0]);
     let mut random = Random(5);
     for _ in 0..5 {
         let points: Vec<f64> = truth.iter().map(|x| x * (1.0 + 0.05 * random.normal())).collect();

@@ -12,11 +12,12 @@ use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::transmission::Transmission;
+use gearloss_report::card::{card, stage_lines};
+use gearloss_report::page::outside;
+use gearloss_report::point::remarks;
 use gearloss_studies::analysis::{Note, STATIC_SAFETY, evidence, merge, notes};
 
-use super::card::{card, figures};
 use super::set;
-use super::solve::outside;
 use crate::args::{CheckArgs, ChoiceArgs, Format};
 use crate::output::{End, Failure, Out};
 
@@ -185,7 +186,7 @@ fn gearbox(
                 text.push_str("# derived geometry\n");
                 for stage in transmission.stages() {
                     text.push_str(&format!("# {}:\n", stage.mesh));
-                    for figure in figures(&stage) {
+                    for figure in stage_lines(&stage) {
                         text.push_str(&format!("#   {figure}\n"));
                     }
                 }
@@ -216,19 +217,8 @@ fn gearbox(
         let line = line.trim_start_matches("outside: ");
         text.push_str(&format!("  at the rated torque: {line}\n"));
     }
-    for line in resolved.unreached.iter().chain(&resolved.without) {
-        text.push_str(&format!("  note: {line}\n"));
-    }
-    for changed in changed_from_source(&transmission, &resolved) {
-        text.push_str(&format!("  note: {changed}\n"));
-    }
-    if let Some(weak) = known.first() {
-        text.push_str(&format!(
-            "  lowest evidence grade: {} ({}: {})\n",
-            weak.grade.name(),
-            weak.what,
-            weak.because
-        ));
+    for line in remarks(&resolved, &changed_from_source(&transmission, &resolved), &known) {
+        text.push_str(&format!("  {line}\n"));
     }
     Ok((text, weakest))
 }

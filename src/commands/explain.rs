@@ -1,17 +1,12 @@
-//! `explain`: every calculation step of the loss of one component, in the symbols and units of the source.
+//! `explain`: every step of the loss of one component, in the symbols and units of the source.
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::loss::{Step, Trace};
-use gearloss_framework::resolve::{Came, Resolved, lookup};
-use gearloss_framework::transmission::{PartInfo, Transmission};
-use serde_json::Value;
+use gearloss_framework::transmission::Transmission;
+use gearloss_report::point::{explain_heat_path, explain_part, heading, locking_text, temperature_text};
 
-use super::card::figures;
-use super::locking;
 use super::point::prepare;
-use super::solve::{RPM, heading, of_warmth};
 use super::{set, warn};
 use crate::args::ExplainArgs;
 use crate::output::{End, Failure, Out, significant};
@@ -29,107 +24,33 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
     };
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
-    let point = prepared.point();
-    let warm = prepared.oil.find(&transmission, &prepared.case, &point, &mut scratch);
-    let solution = transmission.evaluate(&prepared.case, &point, warm.temperatures(), &mut scratch);
-    out.text(&heading(
-        &transmission,
-        &solution,
-        &prepared,
-        &format!("oil {} degC", significant(warm.oil)),
-    ))?;
-    if let Some(locking) = locking::find(&transmission, &prepared, &solution, warm.temperatures()) {
-        out.line(locking.words())?;
+    let solved = prepared.solve(&transmission, &mut scratch);
+    let (solution, found) = (&solved.solution, &solved.found);
+    let at = format!("oil {} degC", significant(found.oil));
+    out.text(&heading(&transmission, solution, &prepared, &at))?;
+    if let Some(locking) = &solved.locking {
+        out.line(locking_text(locking))?;
     }
-    if warm.outcome().is_some() {
-        out.text(&of_warmth(&transmission, &warm))?;
-        out.line("")?;
+    if found.outcome().is_some() {
+        out.line(temperature_text(&transmission, found))?;
     }
     let changed = changed_from_source(&transmission, &resolved);
     for way in ways {
-        let surface = warm.balance.as_ref().and_then(|b| b.surface).unwrap_or(warm.oil);
-        explain_way(&transmission, &gearbox, &resolved, way, (warm.oil, surface), out)?;
+        let surface = found.balance.as_ref().and_then(|b| b.surface).unwrap_or(found.oil);
+        let text = explain_heat_path(&transmission, &gearbox, &resolved, way, (found.oil, surface));
+        out.text(&text)?;
     }
     for part in chosen {
-        let info = &transmission.parts()[part];
-        let (loss, trace) = solution.explain(part);
-        out.text(&source(&transmission, info))?;
-        let factor = match info.loss_factor {
-            1.0 => String::new(),
-            factor => format!(", loss factor {}", significant(factor)),
-        };
-        out.line(format!(
-            "relative speed {} rpm, {} copies{factor}",
-            significant(loss.speed * RPM),
-            significant(info.count)
+        out.text(&explain_part(
+            &transmission,
+            &gearbox,
+            &resolved,
+            solution,
+            part,
+            &changed,
         ))?;
-        steps(&transmission, trace, out)?;
-        match loss.result {
-            Ok(_) => {
-                for term in transmission.instances()[info.notes.instance()].entry.terms {
-                    out.line(format!(
-                        "  {}: {} W",
-                        term.name,
-                        significant(loss.term_watts(term.index))
-                    ))?;
-                }
-                let moment = loss.moment().unwrap_or(0.0);
-                out.line(format!(
-                    "  sum: {} W, {} Nm for one copy",
-                    significant(loss.watts()),
-                    significant(moment)
-                ))?;
-            }
-            Err(undefined) => out.line(format!("  {undefined}"))?,
-        }
-        out.line("  sees:")?;
-        for reading in solution.readings(part) {
-            let unit = if reading.unit.symbol == "-" {
-                ""
-            } else {
-                reading.unit.symbol
-            };
-            out.line(format!("    {} = {} {unit}", reading.name, significant(reading.value)).trim_end())?;
-        }
-        if let Some(stage) = transmission.stages().find(|stage| stage.mesh == info.path) {
-            out.line("  geometry:")?;
-            for figure in figures(&stage) {
-                out.line(format!("    {figure}"))?;
-            }
-        }
-        let base = base_path(info);
-        for changed in changed.iter().filter_map(|changed| changed.below(base)) {
-            out.line(format!("  note: {changed}"))?;
-        }
-        out.line("  inputs (SI, temperatures in degC):")?;
-        if let Some(entry) = lookup(&resolved.value, base) {
-            inputs(base, entry, &gearbox, &resolved, out)?;
-        }
-        out.line("")?;
     }
     Ok(End::Fine)
-}
-
-/// The steps of a model, with the path of each nested model.
-fn steps(transmission: &Transmission, trace: Trace, out: &mut Out) -> Result<(), Failure> {
-    let mut last = usize::MAX;
-    for step in trace.into_steps() {
-        if step.instance() != last {
-            last = step.instance();
-            let instance = &transmission.instances()[last];
-            out.line(format!("  {} ({})", instance.path, instance.entry.name))?;
-        }
-        match step {
-            Step::Value {
-                symbol, unit, value, ..
-            } => {
-                let unit = if unit == "-" { "" } else { unit };
-                out.line(format!("    {symbol} = {} {unit}", significant(value)).trim_end())?;
-            }
-            Step::Branch { taken, .. } => out.line(format!("    branch: {taken}"))?,
-        }
-    }
-    Ok(())
 }
 
 /// Heat paths by path, by name, or all below `thermal`.
@@ -138,94 +59,6 @@ fn ways_of(transmission: &Transmission, name: &str) -> Vec<usize> {
         |path: &str| path == name || path.starts_with(&format!("{name}.")) || path.split('.').nth(2) == Some(name);
     let ways = transmission.housing().ways().iter().enumerate();
     ways.filter(|(_, way)| fits(&way.path)).map(|(i, _)| i).collect()
-}
-
-fn explain_way(
-    transmission: &Transmission,
-    gearbox: &Gearbox,
-    resolved: &Resolved,
-    way: usize,
-    (oil, surface): (f64, f64),
-    out: &mut Out,
-) -> Result<(), Failure> {
-    let path = &transmission.housing().ways()[way].path;
-    if let Some(instance) = transmission.instances().iter().find(|i| i.path == *path) {
-        let entry = &instance.entry;
-        out.line(format!(
-            "{path}: {} `{}`\n  {}\n  source: {}",
-            entry.mechanism,
-            entry.name,
-            entry.meaning(),
-            entry.source
-        ))?;
-    }
-    out.line(format!(
-        "oil {} degC, surface {} degC",
-        significant(oil),
-        significant(surface)
-    ))?;
-    let (heat, trace) = transmission.explain_way(way, oil, surface);
-    steps(transmission, trace, out)?;
-    match heat {
-        Ok(heat) => out.line(format!("  heat: {} W", significant(heat)))?,
-        Err(undefined) => out.line(format!("  {undefined}"))?,
-    }
-    out.line("  inputs (SI, temperatures in degC):")?;
-    for place in [path.as_str(), "housing.outside"] {
-        if let Some(entry) = lookup(&resolved.value, place) {
-            inputs(place, entry, gearbox, resolved, out)?;
-        }
-    }
-    out.line("")?;
-    Ok(())
-}
-
-/// Path of the component that a part belongs to; a drag belongs to its slot.
-fn base_path(info: &PartInfo) -> &str {
-    &info.path
-}
-
-fn source(transmission: &Transmission, info: &PartInfo) -> String {
-    let entry = &transmission.instances()[info.notes.instance()].entry;
-    format!(
-        "{}: {} `{}`\n  {}\n  source: {}\n",
-        info.path,
-        info.mechanism,
-        entry.name,
-        entry.meaning(),
-        entry.source
-    )
-}
-
-/// All values below a path with their origin.
-fn inputs(path: &str, value: &Value, gearbox: &Gearbox, resolved: &Resolved, out: &mut Out) -> Result<(), Failure> {
-    match value {
-        Value::Object(map) => {
-            for (key, inner) in map {
-                inputs(&format!("{path}.{key}"), inner, gearbox, resolved, out)?;
-            }
-        }
-        Value::Null => {}
-        leaf => {
-            let from = match resolved.came(path) {
-                Came::Override => "override".to_owned(),
-                Came::Catalogue {
-                    designation,
-                    confidence,
-                } => format!("catalogue {designation}, confidence {confidence}"),
-                Came::Models => "models".to_owned(),
-                Came::Set(name) => format!("set {name}"),
-                Came::Surface => "surface".to_owned(),
-                Came::Network => "network: auto".to_owned(),
-                Came::Document => match gearbox.places.get(path).and_then(|p| gearbox.sources.locate(p.value)) {
-                    Some((file, line, column)) => format!("{file}:{line}:{column}"),
-                    None => "default".to_owned(),
-                },
-            };
-            out.line(format!("    {path} = {leaf} ({from})"))?;
-        }
-    }
-    Ok(())
 }
 
 /// Component paths that match a path, an id, or the start of a path.

@@ -56,7 +56,7 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
                 "give the folder under `postProcessing` with the output of the function object",
             )
         })?;
-        let mean = Mean::over(&samples, *axis as usize, window)
+        let mean = Mean::over_time(&samples, *axis as usize, window)
             .map_err(|fault| told(fault, "choose --from and --to within the times of the run"))?;
         means.push(mean.times(*factor));
     }

@@ -25,10 +25,10 @@ pub fn run(args: &NewArgs, out: &mut Out) -> Result<End, Failure> {
 /// Writes a new file and prints its name; an existing file is an error.
 fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
     use std::io::Write as _;
-    let told = |what: String, help: String| Err(Failure::input(what, help));
+    let refuse = |what: String, help: String| Err(Failure::input(what, help));
     let folder = folder(file);
     if !folder.is_dir() {
-        return told(
+        return refuse(
             format!(
                 "cannot write {}: the folder {} does not exist",
                 file.display(),
@@ -38,7 +38,7 @@ fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
         );
     }
     if file.is_dir() {
-        return told(
+        return refuse(
             format!("cannot write {}: it is a folder", file.display()),
             "choose a file in it with -o".to_owned(),
         );
@@ -49,11 +49,11 @@ fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
             out.line(format!("wrote {}", file.display()))?;
             Ok(())
         }
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => told(
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => refuse(
             format!("{} exists and is not overwritten", file.display()),
             "choose another file, such as -o other.yaml".to_owned(),
         ),
-        Err(error) => told(
+        Err(error) => refuse(
             format!("cannot write {}: {error}", file.display()),
             "choose another file with -o".to_owned(),
         ),
@@ -106,7 +106,7 @@ fn word(path: &Path) -> String {
 }
 
 /// Prints the commands to type next.
-fn next(commands: &[String], out: &mut Out) -> Result<(), Failure> {
+fn print_next(commands: &[String], out: &mut Out) -> Result<(), Failure> {
     out.line("next:")?;
     for command in commands {
         out.line(format!("  gearloss {command}"))?;

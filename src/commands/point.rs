@@ -1,35 +1,13 @@
 //! One operating point from the arguments.
 
 use gearloss_framework::document::{Unit, parse_quantity};
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::transmission::{Case, Transmission};
-use gearloss_studies::analysis::OilTemperature;
+use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analysis::{OilTemperature, PreparedPoint};
 
 use crate::args::{FlowArg, PointArgs};
 use crate::output::Failure;
-
-/// A point with its case.
-pub struct Prepared {
-    pub case: Case,
-    pub gear: String,
-    pub speeds: Vec<f64>,
-    pub torques: Vec<f64>,
-    pub oil: OilTemperature,
-    pub flow: PowerFlow,
-}
-
-impl Prepared {
-    pub fn point(&self) -> Point<'_> {
-        Point {
-            speeds: &self.speeds,
-            torques: &self.torques,
-            flow: self.flow,
-            tolerance: Tolerance::default(),
-        }
-    }
-}
 
 /// A quantity of an option in SI.
 pub fn quantity(option: &str, text: &str, unit: &'static str) -> Result<f64, Failure> {
@@ -57,7 +35,7 @@ fn at_port<'a>(option: &str, text: &'a str, unit: &'static str) -> Result<(&'a s
 }
 
 /// Prepares the point of the arguments.
-pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission) -> Result<Prepared, Failure> {
+pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission) -> Result<PreparedPoint, Failure> {
     let gear = match (&args.gear, transmission.states()) {
         (Some(gear), _) => gear.clone(),
         (None, [only]) => only.name.clone(),
@@ -124,7 +102,7 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
         }
         None => None,
     };
-    Ok(Prepared {
+    Ok(PreparedPoint {
         case,
         gear,
         speeds: speeds.iter().map(|s| s.1).collect(),

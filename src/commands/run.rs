@@ -69,7 +69,7 @@ impl Reported {
     }
 
     /// The part of a failure that was not reported yet.
-    fn rest(&self, failure: Failure) -> Option<Failure> {
+    fn unreported(&self, failure: Failure) -> Option<Failure> {
         let Failure::Found(mut findings) = failure else {
             return Some(failure);
         };
@@ -101,7 +101,7 @@ pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
     }
     for (name, analysis) in study.entry.analyses.iter() {
         if let Err(failure) = runner.attempt(name, analysis, &mut Out::nowhere()) {
-            let Some(failure) = reported.rest(failure) else {
+            let Some(failure) = reported.unreported(failure) else {
                 continue;
             };
             let text = failure.text();
@@ -228,7 +228,7 @@ pub(super) fn all(
                 write::remove(&runner, name);
                 out.line(format!("{name}: failed"))?;
                 runner.in_section(|section| section.text.push_str(&format!("failed\n{text}")));
-                if let Some(text) = reported.rest(failure).and_then(|rest| rest.text()) {
+                if let Some(text) = reported.unreported(failure).and_then(|rest| rest.text()) {
                     Out::error().text(&text)?;
                 }
             }

@@ -414,7 +414,7 @@ impl Chain<'_> {
             Ok(text) => {
                 let inner = file.parent().unwrap_or(Path::new(""));
                 let base = self.read(&text, &file.display().to_string(), inner, span)?;
-                Some(read.node.over(base))
+                Some(read.node.merged_over(base))
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use gearloss_document::Ordered;
 use gearloss_document::data::cells::Form;
-use gearloss_document::data::sheet::{Sheet, Wanted, told};
+use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
 use gearloss_document::data::{MeasuredFault, fault};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -174,7 +174,7 @@ impl MotorMap {
             }
         }
         if !faulty.is_empty() {
-            return Err(told(faulty, "correct the cell, or remove the row"));
+            return Err(limited_faults(faulty, "correct the cell, or remove the row"));
         }
         let mut notes = sheet.notes.clone();
         if silent > 0 {

@@ -1,12 +1,12 @@
-//! Records of which a `type` says what keys they have: models, analyses.
+//! Records whose `type` determines their keys: models, analyses.
 //!
-//! schemars writes them as one record among several, `oneOf`. An editor cannot tell there which of them was meant: it complains
-//! about the keys of another one, and leaves out of completion those that want more than their type. Published is a record with
-//! the types to choose from, and for each of them a condition: if the type is this, then these are the keys.
+//! schemars writes them as `oneOf`. Editors cannot determine which alternative is meant: they report errors for the keys of another one,
+//! and omit alternatives with required keys from completion. The published schema is therefore one record with the possible types, and a
+//! condition for each type: if the type is this, then these are the keys.
 
 use serde_json::{Map, Value, json};
 
-/// Turns every choice among records with a `type` into conditions, here and below.
+/// Converts every choice among records with a `type` into conditions, recursively.
 pub(super) fn choose_by_type(schema: &mut Value) {
     match schema {
         Value::Object(object) => {
@@ -43,7 +43,7 @@ fn conditions(object: &mut Map<String, Value>) {
     }
     let choice = json!({
         "type": "object",
-        "properties": { "type": { "description": "Which one; the other keys hang on it.", "oneOf": types } },
+        "properties": { "type": { "description": "The type; it determines the other keys.", "oneOf": types } },
         "required": ["type"],
         "allOf": branches,
     });
@@ -51,13 +51,13 @@ fn conditions(object: &mut Map<String, Value>) {
         object.shift_remove("oneOf");
         object.extend(choice.as_object().cloned().unwrap_or_default());
     } else {
-        // The record comes first: it is what an editor compares with where nothing fits.
+        // The record is first, because editors compare with it if nothing matches.
         let either: Vec<Value> = std::iter::once(choice).chain(others).collect();
         object.insert("oneOf".to_owned(), Value::Array(either));
     }
 }
 
-/// The records by `type` of a published schema that is a choice among them, or of which one alternative is.
+/// The records by `type` of a published schema that is a choice among them, or that has such an alternative.
 pub fn records_by_type(schema: &Value) -> Vec<(&str, &Value)> {
     let alternatives = schema.get("oneOf").and_then(Value::as_array).into_iter().flatten();
     std::iter::once(schema)

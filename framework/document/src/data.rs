@@ -1,4 +1,4 @@
-//! Files of data: from bytes to cells, and the columns that hold quantities.
+//! Data files: from bytes to cells, and the columns of quantities.
 
 pub mod cells;
 pub mod sheet;
@@ -7,7 +7,7 @@ use crate::{Unit, did_you_mean};
 
 pub use cells::{Decimal, Encoding, Separator};
 
-/// What a fault belongs to.
+/// The key that a fault refers to.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FaultPlace {
     /// The key of the measurement at this path inside its entry.
@@ -16,19 +16,19 @@ pub enum FaultPlace {
     Bind(String),
 }
 
-/// What is wrong with a file, and how to fix it.
+/// An error in a file and its help.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeasuredFault {
-    /// What it belongs to.
+    /// The key that it refers to.
     pub place: FaultPlace,
-    /// What is wrong, with line and column.
+    /// Message with line and column.
     pub message: String,
     /// How to fix it.
     pub help: String,
 }
 
 impl MeasuredFault {
-    /// A fault at a key of the measurement.
+    /// An error at a key of the measurement.
     pub fn new(key: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             place: FaultPlace::Entry(key.into()),
@@ -38,7 +38,7 @@ impl MeasuredFault {
     }
 }
 
-/// A fault that belongs to no key of its own.
+/// An error without a key.
 pub fn fault(message: impl Into<String>, help: impl Into<String>) -> MeasuredFault {
     MeasuredFault::new("", message, help)
 }
@@ -53,11 +53,11 @@ pub fn scale((name, due): (&str, &str), unit: Option<&str>, header: &str) -> Res
             Some("-" | "1") => Ok((1.0, 0.0)),
             None if ["weight", "share"].contains(&name) => Ok((1.0, 0.0)),
             Some(other) => fault(
-                format!("column `{header}`: `{other}` is no unit of {name}"),
+                format!("column `{header}`: `{other}` is not a unit of {name}"),
                 help("\"%\""),
             ),
             None => fault(
-                format!("column `{header}`: no unit says whether it is in percent"),
+                format!("column `{header}` has no unit: fraction or percent?"),
                 help("\"%\""),
             ),
         };
@@ -65,7 +65,7 @@ pub fn scale((name, due): (&str, &str), unit: Option<&str>, header: &str) -> Res
     let Some(symbol) = unit else {
         return fault(format!("column `{header}` has no unit"), help(due));
     };
-    // A temperature in kelvins; elsewhere K is a difference of temperatures.
+    // A temperature in kelvins; elsewhere K is a temperature difference.
     if due == "degC" && symbol == "K" {
         return Ok((1.0, -273.15));
     }
@@ -76,7 +76,7 @@ pub fn scale((name, due): (&str, &str), unit: Option<&str>, header: &str) -> Res
             let close = did_you_mean(symbol, Unit::symbols(wanted.dimension));
             fault(
                 format!(
-                    "column `{header}`: `{symbol}` is no unit of {}",
+                    "column `{header}`: `{symbol}` is not a unit of {}",
                     wanted.dimension.name()
                 ),
                 help(close.unwrap_or(due)),

@@ -1,4 +1,4 @@
-//! What is wrong, where, and how to fix it.
+//! Findings: message, place and help.
 
 use std::fmt;
 
@@ -9,30 +9,30 @@ use super::code::Code;
 use super::codes;
 use super::node::Span;
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Severity {
     /// The document cannot be used.
     Error,
-    /// The document can be used; something deserves a look.
+    /// The document can be used, but should be checked.
     Warning,
 }
 
 /// One finding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// Severity.
     pub severity: Severity,
-    /// What kind of finding it is, where its author or a stage has said so.
+    /// Kind of finding, if assigned.
     pub code: Option<Code>,
-    /// Path in the document; empty where there is none.
+    /// Path in the document; empty if there is none.
     pub path: String,
-    /// What is wrong.
+    /// Message.
     pub message: String,
-    /// Places in the text: the first is the place itself, the others say why.
+    /// Places in the text: the first is the place of the finding, the others give reasons.
     pub spans: Vec<(Span, String)>,
-    /// More about it.
+    /// Notes.
     pub notes: Vec<String>,
     /// How to fix it.
     pub help: Option<String>,
@@ -60,7 +60,7 @@ impl Diagnostic {
         }
     }
 
-    /// Says what kind of finding it is, unless it was said.
+    /// Assigns a kind unless one was assigned.
     pub fn code(mut self, code: Code) -> Self {
         self.code.get_or_insert(code);
         self
@@ -88,13 +88,13 @@ impl Diagnostic {
         self
     }
 
-    /// Says how to fix it.
+    /// Adds the help.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// The finding about a path at another place: that of the change which led to it.
+    /// Moves a finding about a path to another place: to the change that caused it.
     pub fn moved(self, place: impl Into<String>, path: &str) -> Self {
         Self {
             path: place.into(),
@@ -104,7 +104,7 @@ impl Diagnostic {
         }
     }
 
-    /// The finding in one line: path and message.
+    /// The finding as one line: path and message.
     pub fn title(&self) -> String {
         if self.path.is_empty() {
             self.message.clone()
@@ -184,7 +184,7 @@ pub struct FilePlace {
 pub struct Sources(Vec<(String, String)>);
 
 impl Sources {
-    /// Adds a text with the name to print; returns its number.
+    /// Adds a text with its printed name; returns its number.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> u16 {
         self.0.push((name.into(), text.into()));
         (self.0.len() - 1) as u16
@@ -238,7 +238,7 @@ impl Sources {
         }
     }
 
-    /// A finding with the excerpt of its text, plain, without colours.
+    /// A finding with an excerpt of its text, without colours.
     pub fn render(&self, finding: &Diagnostic) -> String {
         let level = match finding.severity {
             Severity::Error => Level::ERROR,
@@ -288,7 +288,7 @@ impl Sources {
     }
 }
 
-/// A range of the text at character boundaries, at least one character where there is one.
+/// A range of the text at character boundaries, at least one character if there is one.
 fn clip(text: &str, span: Span) -> std::ops::Range<usize> {
     let floor = |mut at: usize| {
         at = at.min(text.len());
@@ -299,13 +299,13 @@ fn clip(text: &str, span: Span) -> std::ops::Range<usize> {
     };
     let start = floor(span.start as usize);
     let end = floor(span.end as usize).max(start);
-    // A span over several lines is shown by its first.
+    // A span over several lines is shown by its first line.
     let line = text[start..end].find('\n').map_or(end, |newline| start + newline);
     start..line.max(start)
 }
 
-/// The candidate that was probably meant: one letter differs, or it is the only one of which the word is a part, as `pitch` of
-/// `pitch_point`, or at most a third of its letters differ.
+/// The candidate that was probably meant: one letter differs, or it is the only candidate with the word as a part (`pitch` in
+/// `pitch_point`), or at most a third of its letters differ.
 pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&'a str> = candidates.into_iter().collect();
     let misspelt = misspelt(word, &candidates);
@@ -314,12 +314,12 @@ pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
     close.or(misspelt).map(|(_, candidate)| candidate)
 }
 
-/// The only candidate that has the word between its underscores.
+/// The only candidate with the word between its underscores.
 fn abbreviated<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let word = word.to_lowercase();
     let has_part = |candidate: &&&str| candidate.to_lowercase().split('_').any(|part| part == word);
     let mut found = candidates.iter().filter(has_part);
-    // Parts of one or two letters are numbers and sides, which many names have.
+    // Parts of one or two letters are too common.
     let first = found.next().filter(|_| word.chars().count() > 2)?;
     found.all(|other| other == first).then_some(first)
 }
@@ -340,7 +340,7 @@ fn misspelt<'a>(word: &str, candidates: &[&'a str]) -> Option<(usize, &'a str)> 
         .min_by_key(|(away, _)| *away)
 }
 
-/// Edits, with a swap of neighbours as one (optimal string alignment).
+/// Edit distance, with a swap of neighbours as one edit (optimal string alignment).
 pub fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.to_lowercase().chars().collect(), b.to_lowercase().chars().collect());
     let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];

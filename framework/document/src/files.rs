@@ -1,4 +1,4 @@
-//! Files that a user names, opened in one place: regular files only, and none longer than what holds it in memory may be.
+//! The only module that opens files of users: regular files with a limited length.
 //! A [`FileSource`] replaces the disk by texts in memory, an archive or a database.
 
 use std::collections::BTreeMap;
@@ -8,14 +8,14 @@ use std::io::{Error, ErrorKind, Read as _, Result};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// The longest description, study, input of `eval` or template of a report. \[byte\]
+/// Maximum length of a description, study, input of `eval` or template of a report. \[byte\]
 ///
-/// The tree that is read from a text takes some fifty times its length.
+/// The tree of a text needs about fifty times its length.
 pub const LONGEST_TEXT: u64 = 4 << 20;
 
-/// The longest file of data: measured points, series, tables, catalogues. \[byte\]
+/// Maximum length of a data file: measured points, series, tables, catalogues. \[byte\]
 ///
-/// The cells of a table take up to twenty times the length of its text.
+/// The cells of a table need up to twenty times the length of its text.
 pub const LONGEST_DATA: u64 = 256 << 20;
 
 /// Where the files that documents name are read from. The readers of gearboxes and studies read through it only.
@@ -126,10 +126,9 @@ fn without_dots(path: &Path) -> PathBuf {
 /// Opens a file for reading. A link to a file is followed.
 ///
 /// # Errors
-/// What the system says, or that it is no regular file: a folder holds no text, a device may have no end, and a pipe may
-/// never say anything.
+/// Errors of the system, or if it is not a regular file: a device may be endless, and a pipe may block.
 pub fn open_regular(path: &Path) -> Result<File> {
-    // Before it is opened, because opening a pipe waits for its writer.
+    // Before opening, because opening a pipe waits for its writer.
     regular(std::fs::metadata(path)?.file_type())?;
     let file = File::open(path)?;
     regular(file.metadata()?.file_type())?;
@@ -148,16 +147,16 @@ fn regular(kind: FileType) -> Result<()> {
     Err(Error::other(format!("it is {what}, not a file")))
 }
 
-/// The bytes of a regular file of at most so many.
+/// The bytes of a regular file of at most `longest` bytes.
 ///
 /// # Errors
-/// As [`open_regular`], or that it is longer.
+/// As [`open_regular`], or if it is longer.
 pub fn read_bytes(path: &Path, longest: u64) -> Result<Vec<u8>> {
     let file = open_regular(path)?;
     let told = file.metadata()?.len();
     let mut bytes = Vec::new();
     if told <= longest {
-        // What a file says of its length need not be true.
+        // The reported length of a file may be wrong.
         file.take(longest + 1).read_to_end(&mut bytes)?;
     }
     within(told.max(bytes.len() as u64), longest)?;
@@ -170,20 +169,20 @@ fn within(length: u64, longest: u64) -> Result<()> {
         return Ok(());
     }
     let [length, longest] = [length, longest].map(|bytes| bytes.div_ceil(1 << 20));
-    let message = format!("it has {length} MB, and no more than {longest} MB are read");
+    let message = format!("it has {length} MB; at most {longest} MB are read");
     Err(Error::other(message))
 }
 
-/// The text of a regular file of at most so many bytes.
+/// The text of a regular file of at most `longest` bytes.
 ///
 /// # Errors
-/// As [`read_bytes`], or that it is no UTF-8.
+/// As [`read_bytes`], or if it is not UTF-8.
 pub fn read_text(path: &Path, longest: u64) -> Result<String> {
     text_from(read_bytes(path, longest)?)
 }
 
 fn text_from(bytes: Vec<u8>) -> Result<String> {
-    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is no text in UTF-8"))
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
 #[cfg(test)]
@@ -205,7 +204,7 @@ mod tests {
         std::fs::write(&file, "seventeen letters").unwrap();
         assert_eq!(refused(&file), "it has 1 MB, and no more than 1 MB are read");
         std::fs::write(&file, [0xff]).unwrap();
-        assert_eq!(refused(&file), "it is no text in UTF-8");
+        assert_eq!(refused(&file), "it is not UTF-8 text");
         assert_eq!(refused(&folder), "it is a folder, not a file");
         assert!(refused(folder.join("nowhere")).contains("No such file") || cfg!(windows));
         std::fs::remove_dir_all(&folder).unwrap();

@@ -1,4 +1,4 @@
-//! Documents: YAML text to nodes with places, one collecting walk along a compiled schema, values in SI.
+//! Documents: from YAML text to nodes with places, and to values in SI by one walk along a compiled schema that collects all errors.
 
 mod by_type;
 mod code;

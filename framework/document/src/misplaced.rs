@@ -1,21 +1,21 @@
-//! Where an unknown key belongs: below a neighbour, under a longer name, at another model, or elsewhere in the document.
+//! Finds where an unknown key belongs: below a neighbour, under a longer name, at another model, or elsewhere in the document.
 
 use super::diagnostic::{did_you_mean, distance};
 use super::schema::{Field, Schema, Shape};
 
-/// How many records lie in one another where a key is looked for.
+/// Maximum depth of the search for a key.
 const DEPTH: usize = 4;
 
-/// What to do about an unknown key.
+/// Help for an unknown key.
 pub(super) struct Help {
     /// The key of the record that was probably meant.
     pub meant: Option<String>,
-    /// How to fix it; absent where nothing is known.
+    /// Text of the help; absent if nothing is known.
     pub words: Option<String>,
 }
 
-/// Looks for what was meant by a key that a record does not have. `open` are the keys of the record that are not written yet, `inside`
-/// tells that the record is not the document itself.
+/// Finds the intended key. `open` are the keys of the record that are not written yet; `inside` is true unless the record is the document
+/// itself.
 pub(super) fn help(schema: &Schema, fields: &[(String, Field)], open: &[&str], key: &str, inside: bool) -> Help {
     let meant = |name: &str| Help {
         meant: Some(name.to_owned()),
@@ -26,7 +26,7 @@ pub(super) fn help(schema: &Schema, fields: &[(String, Field)], open: &[&str], k
         words: Some(words),
     };
     let close = did_you_mean(key, open.iter().copied());
-    // `facewdith` is a slip of the hand, `module` the last word of `normal_module` and no misspelt `model`.
+    // `facewdith` is a typing error; `module` is the last word of `normal_module`, not a misspelt `model`.
     if let Some(close) = close.filter(|close| distance(key, close) == 1) {
         return meant(close);
     }
@@ -44,9 +44,9 @@ pub(super) fn help(schema: &Schema, fields: &[(String, Field)], open: &[&str], k
             .skip(1)
             .fold(format!("{key}: ..."), |inner, name| format!("{name}: {{ {inner} }}"));
         return Help {
-            // Or the record that holds it would be told as missing, too.
+            // Otherwise the record that contains it would also be reported as missing.
             meant: path.split('.').next().map(str::to_owned),
-            words: Some(format!("it belongs deeper: write `{written}`")),
+            words: Some(format!("it belongs to a nested record: write `{written}`")),
         };
     }
     if let Some(close) = close {
@@ -56,9 +56,7 @@ pub(super) fn help(schema: &Schema, fields: &[(String, Field)], open: &[&str], k
         let mut all = Vec::new();
         if let Shape::Record(fields) = schema.follow(&schema.root) {
             if fields.iter().any(|(name, _)| name == key) {
-                return words(format!(
-                    "`{key}:` is a key of the document itself: write it at the left margin"
-                ));
+                return words(format!("`{key}:` is a top-level key: write it without indentation"));
             }
             for (name, field) in fields {
                 search(schema, &field.shape, key, name, DEPTH, &mut all);
@@ -75,7 +73,7 @@ pub(super) fn help(schema: &Schema, fields: &[(String, Field)], open: &[&str], k
     }
 }
 
-/// Paths of a key in records below a shape; models, whose keys depend on their `type`, are left out.
+/// Paths of a key in records below a shape, except models, whose keys depend on their `type`.
 fn search(schema: &Schema, shape: &Shape, key: &str, path: &str, depth: usize, found: &mut Vec<String>) {
     if depth == 0 {
         return;

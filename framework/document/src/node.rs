@@ -1,4 +1,4 @@
-//! The tree of a document: what was written, and where.
+//! The tree of a document: values and their places.
 
 use serde_json::Value;
 
@@ -9,12 +9,12 @@ pub struct Span {
     pub source: u16,
     /// First byte.
     pub start: u32,
-    /// Byte behind the last.
+    /// Byte after the last.
     pub end: u32,
 }
 
 impl Span {
-    /// The place of values that were not written in a text.
+    /// The place of values without a text.
     pub const NOWHERE: Self = Self {
         source: u16::MAX,
         start: 0,
@@ -25,22 +25,22 @@ impl Span {
 /// A value with its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
-    /// What was written.
+    /// Content.
     pub content: Content,
-    /// Where.
+    /// Place.
     pub span: Span,
 }
 
-/// What was written.
+/// Content.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Content {
     /// Nothing.
     Null,
     /// `true` or `false`.
     Bool(bool),
-    /// A plain decimal number; infinite where it is too large.
+    /// A plain decimal number; infinite if it is too large.
     Number(f64),
-    /// Everything else that is not a list or a map.
+    /// Any other scalar.
     Text {
         /// The text.
         text: String,
@@ -58,12 +58,12 @@ pub enum Content {
 pub struct Key {
     /// The key.
     pub name: String,
-    /// Where.
+    /// Place.
     pub span: Span,
 }
 
 impl Node {
-    /// What it is, for messages.
+    /// Kind, for messages.
     pub fn kind(&self) -> &'static str {
         match self.content {
             Content::Null => "nothing",
@@ -91,7 +91,7 @@ impl Node {
         }
     }
 
-    /// Nodes of a value that was not written in a text.
+    /// Nodes of a JSON value.
     pub fn from_json(value: &Value) -> Self {
         let content = match value {
             Value::Null => Content::Null,
@@ -122,7 +122,7 @@ impl Node {
         }
     }
 
-    /// The value without places, as a validator of the published schema sees it.
+    /// The value without places, for a validator of the published schema.
     pub fn to_json(&self) -> Value {
         match &self.content {
             Content::Null => Value::Null,
@@ -139,15 +139,15 @@ impl Node {
         }
     }
 
-    /// This document laid over a base: maps are merged key by key, everything else replaces.
-    pub fn over(self, base: Node) -> Node {
+    /// Merges this document into a base: maps key by key; other values replace those of the base.
+    pub fn merged_over(self, base: Node) -> Node {
         match (self.content, base.content) {
             (Content::Map(own), Content::Map(mut entries)) => {
                 for (key, node) in own {
                     match entries.iter().position(|(k, _)| k.name == key.name) {
                         Some(i) => {
                             let (_, under) = std::mem::replace(&mut entries[i], (key.clone(), NOTHING));
-                            entries[i] = (key, node.over(under));
+                            entries[i] = (key, node.merged_over(under));
                         }
                         None => entries.push((key, node)),
                     }

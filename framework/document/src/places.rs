@@ -1,11 +1,11 @@
-//! Where each path of a walked document was written.
+//! Places of the paths of a walked document.
 
 use std::collections::BTreeMap;
 
 use super::diagnostic::Diagnostic;
 use super::node::Span;
 
-/// Where a path was written.
+/// Place of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// The value.
@@ -14,12 +14,12 @@ pub struct Place {
     pub key: Span,
 }
 
-/// Places of everything written, by path. What is absent came from a default.
+/// Places of all written values by path. Absent paths have defaults.
 #[derive(Debug, Clone, Default)]
 pub struct Places(pub(super) BTreeMap<String, Place>);
 
 impl Places {
-    /// Where a path was written, if it was.
+    /// The place of a path if it was written.
     pub fn get(&self, path: &str) -> Option<Place> {
         self.0.get(path).copied()
     }
@@ -44,7 +44,7 @@ impl Places {
         None
     }
 
-    /// Gives a finding without a place the place of its path.
+    /// Adds the place of its path to a finding without a place.
     pub fn place(&self, finding: Diagnostic) -> Diagnostic {
         match self.locate(&finding.path) {
             Some(span) if finding.spans.is_empty() => finding.at(span),

@@ -1,25 +1,25 @@
-//! From generated schemas to the published one: quantities may carry units, records are closed, defaults are in the
-//! documented unit, and editors are told what to say where something is wrong.
+//! From generated schemas to the published one: quantities may have units, records are closed, defaults are in the documented unit, and
+//! error messages for editors are added.
 
 use serde_json::{Map, Value, json};
 
 use super::by_type::choose_by_type;
 use super::unit::{Dimension, Unit};
 
-/// Pattern of ids. Words that many YAML readers turn into booleans are no ids.
+/// Pattern of ids. Words that many YAML readers convert into booleans are excluded.
 pub(super) const ID: &str = "^(?!([yY]|[nN]|[yY]es|YES|[nN]o|NO|[oO]n|ON|[oO]ff|OFF|[tT]rue|TRUE|[fF]alse|FALSE|[nN]ull|NULL)$)[A-Za-z][A-Za-z0-9_]*$";
 
-/// Names of gear states: ids that may begin with a digit, or be one.
+/// Names of gear states: ids that may start with a digit.
 pub(super) const STATE_ID: &str = "^(?!([yY]|[nN]|[yY]es|YES|[nN]o|NO|[oO]n|ON|[oO]ff|OFF|[tT]rue|TRUE|[fF]alse|FALSE|[nN]ull|NULL)$)[A-Za-z0-9][A-Za-z0-9_]*$";
 
-/// Mark of a map in a generated schema whose ids may begin with a digit.
+/// Mark of a map in a generated schema whose ids may start with a digit.
 const DIGITS_FIRST: &str = "x-digits-first";
 
-/// What editors say of a key that names no gear state.
-const NO_STATE_ID: &str = "The name of a gear has letters, digits and `_`; words such as `on`, `no` and `y` are booleans to many YAML readers.";
+/// Editor message for an invalid name of a gear state.
+const NO_STATE_ID: &str = "The name of a gear consists of letters, digits and `_`; many YAML readers treat words such as `on`, `no` and `y` as booleans.";
 
-/// What editors say of a key that is no id.
-const NO_ID: &str = "An id starts with a letter and goes on in letters, digits and `_`. Words such as `on`, `no` and `y` are booleans to \
+/// Editor message for an invalid id.
+const NO_ID: &str = "An id starts with a letter and consists of letters, digits and `_`. Words such as `on`, `no` and `y` are booleans to \
                      many YAML readers.";
 
 /// Publishes a composed schema.
@@ -79,7 +79,7 @@ fn visit(schema: &mut Value, inherited: Option<&'static Unit>) {
     }
 }
 
-/// `Option` allows null; in a document an optional key is left out instead.
+/// `Option` allows null; in a document an optional key is omitted instead.
 fn drop_null(object: &mut Map<String, Value>) {
     if let Some(types) = object.get_mut("type").and_then(Value::as_array_mut) {
         types.retain(|t| t != "null");
@@ -132,7 +132,7 @@ fn quantity(object: &mut Map<String, Value>, unit: Option<&'static Unit>) {
             symbols.join(", ")
         )
     };
-    // Not of JSON Schema; the language servers of YAML and JSON show it for a wrong type and a text that does not match.
+    // Not part of JSON Schema; the language servers of YAML and JSON show it for a wrong type or a text that does not match.
     object.insert("errorMessage".to_owned(), json!(message));
 }
 
@@ -161,7 +161,7 @@ fn in_unit(value: &Value, unit: &Unit) -> Value {
     match value {
         Value::Number(n) => {
             let x = unit.from_si(n.as_f64().unwrap_or(0.0));
-            // A default such as 20 deg comes back from radians with rounding in its last digit.
+            // The conversion of a default such as 20 deg from radians has a rounding error in its last digit.
             let rounded = (x * 1e9).round() / 1e9;
             json!(if (rounded - x).abs() <= 1e-12 * x.abs() {
                 rounded

@@ -2,10 +2,10 @@
 
 use super::unit::{Dimension, Unit};
 
-/// What is wrong with a quantity.
+/// An error in a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuantityFault {
-    /// What is wrong.
+    /// Message.
     pub message: String,
     /// How to fix it.
     pub help: Option<String>,
@@ -20,8 +20,7 @@ impl QuantityFault {
     }
 }
 
-/// Length of the plain decimal number at the start of a text; zero where there is none. One grammar for parser, pattern
-/// and formula.
+/// Length of the plain decimal number at the start of a text; zero if there is none. Parser, pattern and formula share this grammar.
 pub fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |mut at: usize| {
@@ -52,10 +51,10 @@ pub fn number_length(text: &str) -> usize {
     end
 }
 
-/// The SI value of a quantity written as text, for a place whose documented unit is given.
+/// The SI value of a quantity written as text, for a key with the given documented unit.
 ///
 /// # Errors
-/// A decimal comma, a number without unit, an unknown unit, a wrong dimension, a value that is not finite.
+/// If the text has a decimal comma, no unit, an unknown unit or a wrong dimension, or if the value is not finite.
 pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFault> {
     let number = number_length(text);
     if number == 0 {
@@ -67,7 +66,7 @@ pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFa
     let (digits, rest) = text.split_at(number);
     if let Some(behind) = rest.strip_prefix(',') {
         let point = text.replacen(',', ".", 1);
-        // Three digits may be thousands as well.
+        // Three digits may also be thousands.
         let thousands = behind.bytes().take_while(u8::is_ascii_digit).count() == 3;
         return Err(QuantityFault::new(
             if thousands {
@@ -76,7 +75,7 @@ pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFa
                 "a decimal comma"
             },
             if thousands {
-                format!("write `{}` or `{point}`, whichever is meant", text.replacen(',', "", 1))
+                format!("write `{}` or `{point}`", text.replacen(',', "", 1))
             } else {
                 format!("write `{point}`")
             },

@@ -1,4 +1,4 @@
-//! The published schema compiled once into what the walk follows. What the walk could not check is an error here.
+//! The published schema, compiled for the walk. Constructs that the walk cannot check are errors.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -14,16 +14,16 @@ use super::unit::Unit;
 pub enum Shape {
     /// A number; bounds in the documented unit.
     Number {
-        /// Documented unit; a text may give another of its dimension.
+        /// Documented unit; a text may use another unit of its dimension.
         unit: &'static Unit,
-        /// Least value.
+        /// Minimum.
         least: f64,
-        /// Greatest value.
+        /// Maximum.
         greatest: f64,
         /// A whole number without unit.
         whole: bool,
     },
-    /// A text; one of the list unless that is empty.
+    /// A text; one of the list unless the list is empty.
     Text(Vec<String>),
     /// `true` or `false`.
     Bool,
@@ -35,7 +35,7 @@ pub enum Shape {
     Ids {
         /// Shape of each value.
         item: Box<Shape>,
-        /// True where they may begin with a digit.
+        /// True if they may start with a digit.
         digits_first: bool,
     },
     /// Any paths as keys, anything as values.
@@ -44,23 +44,23 @@ pub enum Shape {
     List {
         /// Shape of each item.
         item: Box<Shape>,
-        /// Fewest items.
+        /// Minimum number of items.
         least: usize,
-        /// Most items.
+        /// Maximum number of items.
         most: usize,
     },
-    /// A record whose `type` says which keys it has, or one of some short words.
+    /// A record whose `type` determines its keys, or one of some short words.
     Tagged {
-        /// What it is, for messages.
+        /// Kind, for messages.
         what: String,
         /// Records by `type`.
         variants: Vec<(String, Shape)>,
-        /// Words that stand for themselves.
+        /// Allowed words instead of a record.
         short: Vec<String>,
     },
-    /// One of several shapes, told apart by the kind of value.
+    /// One of several shapes, distinguished by the kind of value.
     Either(Vec<Shape>),
-    /// A definition by its name; lets shapes nest and recur.
+    /// A definition by its name, for nested and recursive shapes.
     Named(String),
 }
 
@@ -71,16 +71,16 @@ pub struct Field {
     pub shape: Shape,
     /// True when it must be written.
     pub required: bool,
-    /// What holds when it is not written, in the documented unit.
+    /// Default in the documented unit.
     pub default: Option<Value>,
-    /// What it is.
+    /// Description.
     pub doc: String,
 }
 
 /// A construct that the walk cannot check.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unsupported {
-    /// Where in the schema: mechanism, model and field.
+    /// Place in the schema: mechanism, model and field.
     pub place: String,
     /// Why.
     pub why: String,
@@ -126,9 +126,9 @@ impl Schema {
         }
     }
 
-    /// A shape with names followed.
+    /// A shape with references resolved.
     pub(super) fn follow<'a>(&'a self, mut shape: &'a Shape) -> &'a Shape {
-        // Definitions may name each other; a chain longer than their number would be a circle.
+        // Definitions may refer to each other; a chain longer than their number is circular.
         for _ in 0..=self.definitions.len() {
             match shape {
                 Shape::Named(name) => match self.definitions.get(name) {
@@ -141,7 +141,7 @@ impl Schema {
         shape
     }
 
-    /// The shape at a path of the document, where there is one. In a tagged record, `type` picks the variant.
+    /// The shape at a path of the document if there is one. In a tagged record, `type` selects the variant.
     pub fn shape_at(&self, path: &str, tag: impl Fn(&str) -> Option<String>) -> Option<&Shape> {
         let mut shape = self.follow(&self.root);
         let mut so_far = String::new();
@@ -288,7 +288,7 @@ impl Compiler {
                 };
             }
         }
-        // What only a document that extends no other must have.
+        // Keys that are required unless the document extends another.
         let otherwise = object.get("else").and_then(|schema| schema.get("required"));
         let required = [words(object.get("required")), words(otherwise)].concat();
         let fields = object

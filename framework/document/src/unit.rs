@@ -1,6 +1,6 @@
-//! Units of quantities. Inside, everything is SI; temperatures are degC.
+//! Units of quantities. Internally all values are SI; temperatures are degC.
 
-/// What a unit measures. Quantities of different dimensions never convert.
+/// Dimension of a unit. Quantities of different dimensions never convert.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Dimension {
     /// A plain number.
@@ -74,7 +74,7 @@ pub enum Dimension {
 }
 
 impl Dimension {
-    /// Its name with its article, for messages.
+    /// Name with article, for messages.
     pub fn with_article(self) -> String {
         let name = self.name();
         let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) {
@@ -85,7 +85,7 @@ impl Dimension {
         format!("{article} {name}")
     }
 
-    /// What it is called in a sentence.
+    /// Name in a sentence.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "plain number",
@@ -126,12 +126,12 @@ impl Dimension {
     }
 }
 
-/// One way to write a unit.
+/// One spelling of a unit.
 #[derive(Debug, PartialEq)]
 pub struct Unit {
-    /// As written.
+    /// Symbol.
     pub symbol: &'static str,
-    /// What it measures.
+    /// Dimension.
     pub dimension: Dimension,
     /// SI value of one.
     pub factor: f64,
@@ -279,7 +279,7 @@ impl Unit {
         UNITS.iter().find(|u| u.symbol == symbol)
     }
 
-    /// The unit in which quantities of a dimension are held: one of it is one in SI.
+    /// The SI unit of a dimension.
     pub fn si(dimension: Dimension) -> Option<&'static Unit> {
         let own = |u: &&Unit| u.dimension == dimension && u.factor.to_bits() == 1.0_f64.to_bits() && u.offset == 0.0;
         UNITS.iter().find(own)

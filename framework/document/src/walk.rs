@@ -1,5 +1,5 @@
-//! The one walk over a document: every unknown key, missing key, wrong kind, wrong dimension, value out of range and
-//! unknown `type` in one run; defaults filled; quantities in SI.
+//! The walk over a document: collects every unknown key, missing key, wrong kind, wrong dimension, value out of range and unknown `type`;
+//! fills in defaults; converts quantities to SI.
 
 use serde_json::{Map, Value};
 
@@ -16,11 +16,11 @@ use super::unit::{Dimension, Unit};
 /// A walked document.
 #[derive(Debug, Clone)]
 pub struct Walked {
-    /// The value, SI, with defaults; complete only without findings.
+    /// The value in SI with defaults; complete only without findings.
     pub value: Value,
-    /// What is wrong.
+    /// Message.
     pub findings: Vec<Diagnostic>,
-    /// Where each path was written.
+    /// Place of each path.
     pub places: Places,
 }
 
@@ -40,8 +40,7 @@ pub fn walk(node: &Node, schema: &Schema) -> Walked {
     }
 }
 
-/// Walks a value as if it stood at a path of a document. A tagged record on the way counts as having the keys of all of its
-/// variants.
+/// Walks a value as if it were at a path of a document. A tagged record on the way has the keys of all its variants.
 pub fn walk_at(node: &Node, schema: &Schema, path: &str) -> Walked {
     let mut walker = Walker {
         schema,
@@ -52,7 +51,7 @@ pub fn walk_at(node: &Node, schema: &Schema, path: &str) -> Walked {
     let shapes = walker.shapes_at(path);
     let value = match shapes.as_slice() {
         [] => {
-            let error = Diagnostic::error(path, "there is no such place in the document");
+            let error = Diagnostic::error(path, "there is no such path in the document");
             walker
                 .findings
                 .push(error.help("`gearloss check --resolved` prints every path"));
@@ -60,7 +59,7 @@ pub fn walk_at(node: &Node, schema: &Schema, path: &str) -> Walked {
         }
         [first, rest @ ..] => {
             let value = walker.value(node, first);
-            // The same key may mean another thing in another variant: one that fits is enough.
+            // The same key may have another meaning in another variant: one match is sufficient.
             for shape in rest {
                 if walker.findings.is_empty() {
                     break;
@@ -89,7 +88,7 @@ pub fn walk_at(node: &Node, schema: &Schema, path: &str) -> Walked {
     }
 }
 
-/// Walks a value at a path whose shape is known.
+/// Walks a value at a path with a known shape.
 pub fn walk_shape<'a>(node: &Node, schema: &'a Schema, shape: &'a Shape, path: &str) -> Walked {
     let mut walker = Walker {
         schema,
@@ -105,17 +104,17 @@ pub fn walk_shape<'a>(node: &Node, schema: &'a Schema, shape: &'a Shape, path: &
     }
 }
 
-/// What a walk has found: where nothing else is said, a value is wrong.
+/// Findings of a walk; the default code is [`codes::WRONG_TYPE`].
 fn found(list: Vec<Diagnostic>) -> Vec<Diagnostic> {
     list.into_iter()
         .map(|finding| finding.code(codes::WRONG_TYPE))
         .collect()
 }
 
-/// Name of the `type` of a record, with all types that it could have.
+/// Name of the `type` of a record, with all possible types.
 type Tag<'a> = (&'a str, &'a [(String, Shape)]);
 
-/// A bare number and a quantity with its unit, with nothing but a comma between them: both halves, and where the second one is.
+/// A number and a quantity with its unit that are separated only by a comma: both halves, and the place of the second one.
 fn split_number(pair: &[Node]) -> Option<(String, &str, &Node)> {
     let [first, second] = pair else { return None };
     let (Content::Number(whole), Some(text)) = (&first.content, second.text()) else {
@@ -132,7 +131,7 @@ struct Walker<'a> {
     path: String,
 }
 
-/// Words that many YAML readers turn into booleans.
+/// Words that many YAML readers convert into booleans.
 fn is_boolean_trap(text: &str) -> bool {
     ["y", "n", "yes", "no", "on", "off", "true", "false"].contains(&text.to_ascii_lowercase().as_str())
 }
@@ -207,11 +206,11 @@ impl<'a> Walker<'a> {
         self.expected(node, wanted, help)
     }
 
-    /// Another kind of value than the wanted one.
+    /// A value of another kind than expected.
     fn expected(&mut self, node: &Node, wanted: &str, help: String) -> Option<Value> {
         if matches!(node.content, Content::Null) {
-            let message = format!("has no value; {wanted} is due");
-            self.report(node, message, "write a value, or leave the key out");
+            let message = format!("has no value; expected {wanted}");
+            self.report(node, message, "write a value, or omit the key");
         } else {
             self.report(node, format!("expected {wanted}, found {}", node.kind()), help);
         }
@@ -246,11 +245,11 @@ impl<'a> Walker<'a> {
             }
         };
         if !shown.is_finite() {
-            self.report(node, "the number is too large", "write a number of a size that occurs");
+            self.report(node, "the number is too large", "write a number of realistic size");
             self.last_is(codes::OUT_OF_BOUNDS);
             return None;
         }
-        // A text is compared after conversion there and back: allow for its rounding.
+        // A text is compared after a round-trip conversion: allow for rounding.
         let slack = if matches!(node.content, Content::Text { .. }) {
             1e-12 * shown.abs()
         } else {
@@ -295,7 +294,7 @@ impl<'a> Walker<'a> {
                 if *plain && is_boolean_trap(text) {
                     self.report(
                         node,
-                        format!("`{text}` is a boolean to many YAML readers"),
+                        format!("many YAML readers treat `{text}` as a boolean"),
                         "choose another name, or write it in quotes",
                     );
                     return None;
@@ -318,13 +317,10 @@ impl<'a> Walker<'a> {
         };
         if !words.is_empty() && !words.contains(text) {
             let close = did_you_mean(text, words.iter().map(String::as_str)).map(str::to_owned);
-            let finding = Diagnostic::error(
-                self.path.clone(),
-                format!("`{text}` is not one of the words for this key"),
-            )
-            .at(node.span)
-            .note(format!("words: {}", words.join(", ")))
-            .help(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
+            let finding = Diagnostic::error(self.path.clone(), format!("`{text}` is not an allowed value"))
+                .at(node.span)
+                .note(format!("allowed values: {}", words.join(", ")))
+                .help(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
             self.findings.push(finding.code(codes::UNKNOWN_TYPE));
             return None;
         }
@@ -336,7 +332,11 @@ impl<'a> Walker<'a> {
             Content::Bool(b) => Some(Value::Bool(*b)),
             Content::Text { text, .. } if is_boolean_trap(text) => {
                 let good = ["y", "yes", "on", "true"].contains(&text.to_ascii_lowercase().as_str());
-                self.report(node, format!("`{text}` is a text here"), format!("write {good}"));
+                self.report(
+                    node,
+                    format!("`{text}` is a text, which is not allowed here"),
+                    format!("write {good}"),
+                );
                 None
             }
             _ => self.wrong(node, "`true` or `false`"),
@@ -357,7 +357,7 @@ impl<'a> Walker<'a> {
             self.report(
                 rest,
                 "a decimal comma splits the number before it",
-                format!("write `{whole}.{text}`, or a space behind the comma if these are two values"),
+                format!("write `{whole}.{text}`, or a space after the comma if these are two values"),
             );
             return None;
         }
@@ -370,11 +370,11 @@ impl<'a> Walker<'a> {
                             .is_some_and(|t| t.starts_with(|c: char| c.is_ascii_digit()))
                 });
             let help = if commas {
-                "a decimal comma splits a number in two: write a point".to_owned()
+                "a decimal comma splits a number: write a decimal point".to_owned()
             } else if least == most {
                 format!("write {least} entries")
             } else {
-                format!("write {least} entries or more")
+                format!("write at least {least} entries")
             };
             let noun = if list.len() == 1 { "entry" } else { "entries" };
             self.report(node, format!("has {} {noun}", list.len()), help);
@@ -413,18 +413,18 @@ impl<'a> Walker<'a> {
                 if !is_id(&key.name, digits_first) {
                     let (message, help) = if is_boolean_trap(&key.name) {
                         (
-                            format!("`{}` is a boolean to many YAML readers", key.name),
+                            format!("many YAML readers treat `{}` as a boolean", key.name),
                             "choose another name",
                         )
                     } else if digits_first {
                         (
-                            format!("`{}` is no name of a gear", key.name),
+                            format!("`{}` is not a valid name of a gear", key.name),
                             "write letters, digits and _",
                         )
                     } else {
                         (
-                            format!("`{}` is no id", key.name),
-                            "begin with a letter and go on with letters, digits and _",
+                            format!("`{}` is not a valid id", key.name),
+                            "start with a letter, followed by letters, digits and _",
                         )
                     };
                     w.findings
@@ -446,7 +446,7 @@ impl<'a> Walker<'a> {
         Some(Value::Object(map))
     }
 
-    /// True for changes to a base file that are written inside a section, which is reported: `set` is a key of the document itself.
+    /// Reports changes to a base file inside a section, because `set` is a top-level key; returns whether there are any.
     fn is_change(&mut self, node: &Node) -> bool {
         let schema = self.schema;
         let of_document = |fields: &[(String, Field)]| {
@@ -463,7 +463,7 @@ impl<'a> Walker<'a> {
         if self.path.is_empty() || self.path.contains('.') || !of_document(fields) {
             return false;
         }
-        // An entry may be called `set`, too; its keys are no paths.
+        // An entry may also have the name `set`; its keys are not paths.
         let Some((first, _)) = changes.first().filter(|(key, _)| key.name.contains('.')) else {
             return false;
         };
@@ -473,8 +473,8 @@ impl<'a> Walker<'a> {
         } else {
             format!("{}.{first}", self.path)
         };
-        let help = format!("write it at the left margin, with whole paths: `set: {{ {whole}: ... }}`");
-        let error = Diagnostic::error(format!("{}.set", self.path), "`set` is a key of the document itself");
+        let help = format!("write it without indentation, with full paths: `set: {{ {whole}: ... }}`");
+        let error = Diagnostic::error(format!("{}.set", self.path), "`set` is a top-level key");
         self.findings.push(error.at(node.span).help(help));
         true
     }
@@ -487,7 +487,7 @@ impl<'a> Walker<'a> {
                 if names().any(|name| name == text) {
                     self.report(
                         node,
-                        format!("`{text}` is a text here"),
+                        format!("`{text}` is a text, which is not allowed here"),
                         format!("write {{ type: {text} }}"),
                     );
                 } else {
@@ -499,8 +499,8 @@ impl<'a> Walker<'a> {
                 None => {
                     let finding = Diagnostic::error(self.path.clone(), format!("a {what} needs a `type`"))
                         .at(node.span)
-                        .note(format!("linked here: {}", names().collect::<Vec<_>>().join(", ")))
-                        .help("a `model:` replaces the default wholly: write its `type`, too");
+                        .note(format!("linked: {}", names().collect::<Vec<_>>().join(", ")))
+                        .help("`model:` replaces the complete default: add its `type`");
                     self.findings.push(finding.code(codes::MISSING_KEY));
                     None
                 }
@@ -527,12 +527,12 @@ impl<'a> Walker<'a> {
     }
 
     fn unknown_type(&mut self, node: &Node, what: &str, name: &str, names: &[&str]) {
-        let finding = Diagnostic::error(self.path.clone(), format!("no {what} is called `{name}`"))
+        let finding = Diagnostic::error(self.path.clone(), format!("there is no {what} `{name}`"))
             .at(node.span)
-            .note(format!("linked here: {}", names.join(", ")))
+            .note(format!("linked: {}", names.join(", ")))
             .help(match did_you_mean(name, names.iter().copied()) {
                 Some(close) => format!("write `{close}`"),
-                None => "choose one of them; `gearloss models` says what they are".to_owned(),
+                None => "choose one of them; `gearloss models` describes them".to_owned(),
             });
         self.findings.push(finding.code(codes::UNKNOWN_TYPE));
     }
@@ -552,7 +552,7 @@ impl<'a> Walker<'a> {
             .iter()
             .filter(|s| matches!(schema.follow(s), Shape::Text(_)))
             .find(fits);
-        // Of several records that one which knows most of the keys; the first of equals.
+        // The first record with the most known keys.
         let known = |shape: &&'a Shape| match (schema.follow(shape), &node.content) {
             (Shape::Record(fields), Content::Map(entries)) => {
                 let is_known = |name: &str| fields.iter().any(|(field, _)| field == name);
@@ -620,13 +620,13 @@ impl<'a> Walker<'a> {
                         for finding in &mut self.findings[before..] {
                             finding.message = format!("the default of `{name}`: {}", finding.message);
                             finding.help = Some(
-                                "help the default: it is in SI, the range in the unit of the parameter's doc comment"
+                                "correct the default: it is in SI, the range in the unit of the parameter's doc comment"
                                     .to_owned(),
                             );
                         }
                         value
                     }
-                    // A misspelt key is one error, not two.
+                    // A misspelt key is reported once.
                     None if field.required && meant.contains(name) => None,
                     None if field.required => {
                         let first_sentence = field.doc.split(". ").next().unwrap_or_default().trim_end_matches('.');
@@ -673,7 +673,7 @@ impl<'a> Walker<'a> {
                 .filter(|name| entries.iter().all(|(k, _)| k.name != *name))
                 .collect();
             let error = Diagnostic::error(path, format!("unknown key `{}`", key.name));
-            // The keys of a model are those of its `type`: another one may have this key.
+            // The key may belong to a model of another `type`.
             let of_others = tag.map(|(own, variants)| {
                 let has =
                     |shape: &Shape| matches!(shape, Shape::Record(f) if f.iter().any(|(name, _)| *name == key.name));
@@ -694,7 +694,7 @@ impl<'a> Walker<'a> {
                         others.join(", ")
                     )),
                 _ => error
-                    .note(format!("keys here: {}", names().collect::<Vec<_>>().join(", ")))
+                    .note(format!("known keys: {}", names().collect::<Vec<_>>().join(", ")))
                     .help("choose one of these keys, or remove it"),
             }
         };
@@ -702,7 +702,7 @@ impl<'a> Walker<'a> {
         meant
     }
 
-    /// All shapes that a path may have; several where tagged records lie on the way.
+    /// All possible shapes of a path; several if it contains tagged records.
     fn shapes_at(&self, path: &str) -> Vec<&'a Shape> {
         let schema = self.schema;
         let mut shapes = vec![schema.follow(&schema.root)];
@@ -733,7 +733,7 @@ impl<'a> Walker<'a> {
     }
 }
 
-/// A number without the noise of conversions, with a power of ten where it has many digits.
+/// A number without rounding errors of conversions, with a power of ten if it has many digits.
 fn tidy(x: f64) -> String {
     let rounded: f64 = format!("{x:.9e}").parse().unwrap_or(x);
     if x != 0.0 && !(1e-9..1e15).contains(&x.abs()) {

@@ -1,6 +1,6 @@
-//! Text to nodes by the events of a YAML parser.
+//! From text to nodes by the events of a YAML parser.
 //!
-//! Anchors, aliases, tags and second documents are refused by name. Numbers are plain decimals: `no`, `0x10`, `1_000`,
+//! Anchors, aliases, tags and second documents are rejected with specific messages. Numbers are plain decimals: `no`, `0x10`, `1_000`,
 //! `010` and `16:83` are texts.
 
 use granit_parser::{Event, Parser, ScalarStyle};
@@ -11,19 +11,19 @@ use super::node::{Content, Key, Node, Span};
 use super::quantity::number_length;
 use crate::files::LONGEST_TEXT;
 
-/// The most levels that a document may nest.
+/// Maximum nesting depth of a document.
 const DEEPEST: usize = 40;
 
-/// What was read.
+/// Result of reading.
 #[derive(Debug, Clone)]
 pub struct Read {
-    /// The tree; as far as it was understood.
+    /// The tree, incomplete after errors.
     pub node: Node,
-    /// What is wrong with the text itself.
+    /// Errors in the text.
     pub findings: Vec<Diagnostic>,
 }
 
-/// Reads a YAML text; `source` is its number for spans. Never fails: what is wrong is in the findings.
+/// Reads a YAML text; `source` is its number for spans. Errors are returned as findings.
 pub fn read_yaml(source: u16, text: &str) -> Read {
     if text.len() as u64 > LONGEST_TEXT {
         let span = Span {
@@ -32,7 +32,7 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
             end: 0,
         };
         let error = Diagnostic::error("", format!("the text has {} MB", text.len() >> 20));
-        let help = "a description has some kilobytes: put measured data into CSV files";
+        let help = "a description has some kilobytes: move measured data to CSV files";
         return Read {
             node: Node {
                 content: Content::Null,
@@ -72,7 +72,7 @@ struct Reader<'a> {
     findings: Vec<Diagnostic>,
 }
 
-/// The text cannot be read further; the reason is among the findings.
+/// The text cannot be read further; the findings contain the reason.
 struct Broken;
 
 impl<'a> Reader<'a> {
@@ -90,11 +90,11 @@ impl<'a> Reader<'a> {
                     .lines()
                     .any(|line| line.trim_start_matches(' ').starts_with('\t'));
                 let help = if tabs {
-                    "indent with spaces; YAML has no tabs"
+                    "indent with spaces; YAML does not allow tabs"
                 } else {
-                    "look at this place and just before it: a bracket, brace, quote or colon is missing, or the indentation is off"
+                    "check this place and the text before it: a bracket, brace, quote or colon is missing, or the indentation is wrong"
                 };
-                let finding = Diagnostic::error("", format!("this is not YAML: {}", error.info()))
+                let finding = Diagnostic::error("", format!("this is not valid YAML: {}", error.info()))
                     .at(span)
                     .help(help);
                 self.findings.push(finding);
@@ -127,7 +127,7 @@ impl<'a> Reader<'a> {
                     self.report(
                         span,
                         "a second document in one file",
-                        "write one document per file, without `---` in between",
+                        "write one document per file, without `---`",
                     );
                     break;
                 }
@@ -138,7 +138,7 @@ impl<'a> Reader<'a> {
             self.report(
                 self.span(0, 0),
                 "the document is empty",
-                "begin with `gearloss: gearbox/1` or `gearloss: study/1`",
+                "start with `gearloss: gearbox/1` or `gearloss: study/1`",
             );
         }
         first.ok_or(Broken)
@@ -146,11 +146,7 @@ impl<'a> Reader<'a> {
 
     fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> Result<Node, Broken> {
         if depth > DEEPEST {
-            self.report(
-                span,
-                "nested too deeply",
-                "a description needs no more than a dozen levels",
-            );
+            self.report(span, "nested too deeply", "a description needs at most a dozen levels");
             return Err(Broken);
         }
         match event {
@@ -192,7 +188,7 @@ impl<'a> Reader<'a> {
                 self.report(
                     span,
                     "an alias",
-                    "write the value itself; `extends:` takes over whole descriptions",
+                    "write the value itself; `extends:` reuses complete descriptions",
                 );
                 Ok(Node {
                     content: Content::Null,
@@ -236,11 +232,11 @@ impl<'a> Reader<'a> {
             let Some(name) = name else { continue };
             match entries.iter().find(|(key, _)| key.name == name) {
                 Some((key, _)) => self.findings.push(
-                    Diagnostic::error("", format!("the key `{name}` stands twice"))
+                    Diagnostic::error("", format!("the key `{name}` occurs twice"))
                         .at(key_span)
                         .code(codes::DUPLICATE_KEY)
-                        .label(key.span, "first here")
-                        .help("rename one of them or merge both"),
+                        .label(key.span, "first occurrence")
+                        .help("rename one of them or merge them"),
                 ),
                 None => entries.push((Key { name, span: key_span }, value)),
             }
@@ -252,11 +248,11 @@ impl<'a> Reader<'a> {
             self.report(
                 span,
                 "an anchor",
-                "write the value where it is used; `extends:` takes over whole descriptions",
+                "write the value where it is used; `extends:` reuses complete descriptions",
             );
         }
         if tag {
-            self.report(span, "a tag", "leave the tag out; the kind of each value is known");
+            self.report(span, "a tag", "delete the tag; the kind of each value is known");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What to measure next: points that tell most about the parameters of a fit.
+//! Experimental design: the most informative next measurements for the parameters of a fit.
 //!
 //! Sources: Fedorov: Theory of Optimal Experiments (Academic Press 1972); Atkinson, Donev, Tobias: Optimum Experimental Designs,
 //! with SAS (Oxford 2007), chapters 10 to 12.

@@ -6,7 +6,7 @@ pub use squares::{Estimate, Squares};
 
 use nalgebra::{DMatrix, DVector};
 
-/// A power law `factor * product of (x / reference)^exponent` with how well it meets its points.
+/// A power law `factor * product of (x / reference)^exponent` with its residuals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PowerFit {
     /// Value at the reference.
@@ -15,18 +15,18 @@ pub struct PowerFit {
     pub reference: Vec<f64>,
     /// Exponent of each quantity.
     pub exponents: Vec<f64>,
-    /// For each point what the law says over the point, minus one.
+    /// Relative residual of each point: value of the law over the point, minus one.
     pub residuals: Vec<f64>,
 }
 
 impl PowerFit {
-    /// Root of the mean square of the residuals.
+    /// Root mean square of the residuals.
     pub fn rms(&self) -> f64 {
         let squares: f64 = self.residuals.iter().map(|r| r * r).sum();
         (squares / self.residuals.len() as f64).sqrt()
     }
 
-    /// The residual that is farthest from zero.
+    /// The residual with the largest magnitude.
     pub fn worst(&self) -> f64 {
         let farther = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
         self.residuals.iter().fold(0.0, farther)
@@ -41,10 +41,10 @@ impl PowerFit {
     }
 }
 
-/// Fits a power law to points: coordinates and a value each, all above zero.
+/// Fits a power law to points with positive coordinates and values.
 ///
 /// # Errors
-/// If a number is not above zero, or the points do not tell the exponents apart.
+/// If a number is not positive, or the points do not identify the exponents.
 pub fn power_law(points: &[(Vec<f64>, f64)]) -> Result<PowerFit, String> {
     let width = points.first().map_or(0, |(x, _)| x.len());
     if points.len() <= width {
@@ -65,7 +65,7 @@ pub fn power_law(points: &[(Vec<f64>, f64)]) -> Result<PowerFit, String> {
     let largest = svd.singular_values.iter().copied().fold(0.0, f64::max);
     if width > 0 && svd.singular_values.iter().any(|s| *s <= 1e-9 * largest.max(1e-300)) {
         return Err(
-            "the points do not tell the exponents apart: a quantity never changes, or only with another".to_owned(),
+            "the points do not identify the exponents: a quantity is constant, or changes only with another".to_owned(),
         );
     }
     let exponents = svd.solve(&answers, 0.0).map_err(str::to_owned)?;

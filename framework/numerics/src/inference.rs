@@ -1,7 +1,7 @@
-//! What a fit says of its parameters: covariance, intervals, verdicts, checks of residuals, comparison of models.
+//! Inference on the parameters of a fit: covariance, intervals, verdicts, checks of residuals, comparison of models.
 //!
-//! Everything starts from the residuals and their central Jacobian at the optimum, [`Fit`]; no solver is needed. Profiles take
-//! a function that refits.
+//! All functions use the residuals and their central Jacobian at the optimum, [`Fit`]; no solver is needed. Profiles need a function that
+//! refits.
 
 mod derived;
 mod ensemble;

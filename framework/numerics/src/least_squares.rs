@@ -1,22 +1,20 @@
-//! Bounded nonlinear least squares: parameters that bring calculated values as near to measured ones as their
-//! uncertainties ask for.
+//! Bounded nonlinear least squares: parameters that fit calculated values to measured ones, weighted by their uncertainties.
 //!
-//! Minimised is F = 1/2 sum c^2 rho((r/c)^2) + 1/2 sum of the squares of the rows of priors, inside bounds. A row r is
-//! calculated minus measured over the standard uncertainty, a pure number; parameters carry their own units, and inside,
-//! a coordinate u is the parameter or its logarithm.
+//! The solver minimises F = 1/2 sum c^2 rho((r/c)^2) + 1/2 sum of the squares of the rows of priors, within bounds. A row r is calculated
+//! minus measured over the standard uncertainty, a pure number; parameters have their own units, and internally a coordinate u is the
+//! parameter or its logarithm.
 //!
-//! The method is Gauss-Newton in a trust region: a ball in the metric of the column norms, together with the bounds. What
-//! is least inside both is a second-order cone program, solved with Clarabel (Goulart and Chen, "Clarabel: An interior-point
-//! solver for conic programs with quadratic objectives", 2024) and sharpened on its active set. Radius and
-//! acceptance follow Moré, "The Levenberg-Marquardt algorithm" (1978) and Conn, Gould and Toint, "Trust-Region Methods"
-//! (2000); the second-order correction is that of Transtrum and Sethna, arXiv:1201.5885; the test by relative offset that of
-//! Bates and Watts, "Nonlinear Regression Analysis" (1988).
+//! The method is Gauss-Newton in a trust region: a ball in the metric of the column norms, together with the bounds. The minimum inside
+//! both is a second-order cone program, solved with Clarabel (Goulart and Chen, "Clarabel: An interior-point solver for conic programs with
+//! quadratic objectives", 2024) and refined on its active set. Radius and acceptance follow Moré, "The Levenberg-Marquardt algorithm"
+//! (1978) and Conn, Gould and Toint, "Trust-Region Methods" (2000); the second-order correction is that of Transtrum and Sethna,
+//! arXiv:1201.5885; the test by relative offset that of Bates and Watts, "Nonlinear Regression Analysis" (1988).
 //!
-//! Where laws with kinks and jumps stop a search, [`Options::polish`] finishes it without derivatives, by implicit filtering in steps of
-//! standard errors, and the fit names the kinks that hold its minimum, [`Fit::kinks`].
+//! If laws with kinks and jumps stop a search, [`Options::polish`] completes it without derivatives, by implicit filtering in steps of
+//! standard errors, and the fit lists the kinks at its minimum, [`Fit::kinks`].
 //!
-//! There is no clock and no chance in any decision, and sums run in the order of their indices: the same problem gives the
-//! same bits on any number of threads.
+//! Decisions do not depend on time or random numbers, and sums follow the order of their indices: the same problem gives the same bits on
+//! any number of threads.
 //!
 //! ```
 //! use gearloss_numerics::least_squares::{Options, Parameter, Problem, solve};

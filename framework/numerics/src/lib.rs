@@ -1,4 +1,4 @@
-//! Numerical methods of gearloss: least squares, what a fit says, sampling, sensitivity. It knows no gear.
+//! Numerical methods of gearloss, independent of gears: least squares, inference, sampling, sensitivity.
 
 pub mod design;
 pub mod fit;

@@ -1,6 +1,6 @@
-//! Points at which uncertain or unknown quantities are tried: Sobol points, and distributions that turn them into values.
+//! Samples of uncertain quantities: Sobol points, and distributions that convert them into values.
 //!
-//! There is no random source: a point is known by its index alone, and drawn numbers follow from a seed.
+//! There is no random source: a point depends only on its index, and random numbers on a seed.
 
 mod directions;
 mod distribution;

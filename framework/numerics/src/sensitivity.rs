@@ -1,7 +1,7 @@
-//! What a result depends on: screening, shares of the variance, local slopes.
+//! Sensitivity analysis: screening, shares of the variance, local slopes.
 //!
-//! All functions take several outputs at once (a total and its parts, say), evaluate in parallel and add up in the order of
-//! the points: the same bits on any number of threads.
+//! All functions support several outputs (for example a total and its parts), evaluate in parallel and sum in the order of the points: the
+//! same bits on any number of threads.
 
 mod indices;
 mod local;

@@ -1,31 +1,30 @@
-//! Figures of a list of differences, and bands of them.
+//! Statistics of a list of differences, and bands.
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// Figures of a list of differences.
+/// Statistics of a list of differences.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Statistics {
     /// Number of differences. [-]
     pub count: usize,
-    /// Least.
+    /// Minimum.
     pub least: f64,
-    /// Greatest.
+    /// Maximum.
     pub greatest: f64,
     /// Mean.
     pub mean: f64,
-    /// Root of the mean square.
+    /// Root mean square.
     pub rms: f64,
 }
 
 impl Statistics {
-    /// Of a list; absent where it is empty.
-    pub fn of(list: impl IntoIterator<Item = f64>) -> Option<Self> {
+    /// Statistics of a list; absent if it is empty.
+    pub fn from_values(list: impl IntoIterator<Item = f64>) -> Option<Self> {
         Self::weighted(list.into_iter().map(|x| (x, 1.0)))
     }
 
-    /// Of values with their weights, which count in the mean and the root of the mean square; what is no number, or has no
-    /// weight, is left out.
+    /// Statistics of values with weights, which apply to mean and root mean square; NaN and values without weight are omitted.
     pub fn weighted(list: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
         let (mut count, mut whole, mut sum, mut squares) = (0_usize, 0.0, 0.0, 0.0);
         let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -47,7 +46,7 @@ impl Statistics {
     }
 }
 
-/// The value below which a share of a sorted list lies, straight between its members.
+/// Quantile of a sorted list with linear interpolation.
 ///
 /// # Panics
 /// If the list is empty: a bug of the caller.
@@ -58,7 +57,7 @@ pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     sorted[low] + part * (sorted[high] - sorted[low])
 }
 
-/// Correlation of two lists of equal length; absent where one of them does not change.
+/// Correlation of two lists of equal length; absent if one of them is constant.
 pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
     let n = a.len() as f64;
     let (mean_a, mean_b) = (a.iter().sum::<f64>() / n, b.iter().sum::<f64>() / n);
@@ -72,11 +71,11 @@ pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
     (aa > 0.0 && bb > 0.0).then(|| ab / (aa * bb).sqrt())
 }
 
-/// The most bands that values make of themselves.
+/// Maximum number of distinct values with a band each.
 const MOST: usize = 8;
 
-/// Places of points by the value of a coordinate, ascending: those within two percent of the first count as one value,
-/// because what a rig holds scatters about what it was told.
+/// Indices of points by the value of a coordinate, ascending: values within two percent of the first are equal, because measured values
+/// scatter about their setpoint.
 pub fn levels(coordinates: &[f64]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..coordinates.len()).collect();
     order.sort_by(|a, b| coordinates[*a].total_cmp(&coordinates[*b]));
@@ -94,8 +93,8 @@ pub fn levels(coordinates: &[f64]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// Bands over a coordinate: one for each value where there are few, else bands of about as many points each. Lower and upper
-/// end, and the places of the points in it.
+/// Bands over a coordinate: one for each value if there are few, otherwise bands with about equal numbers of points. Lower and upper end,
+/// and the indices of the points in each.
 pub fn bands(coordinates: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
     let mut groups = levels(coordinates);
     if groups.len() > MOST {
@@ -107,10 +106,10 @@ pub fn bands(coordinates: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
     groups.into_iter().map(|group| (ends(&group), group)).collect()
 }
 
-/// Counts in cells of one width: lower end of the first cell, width, counts. The number of cells goes with the root of the
-/// number of values.
+/// Histogram with equal bins: lower end of the first bin, width, counts. The number of bins is proportional to the root of the number of
+/// values.
 pub fn histogram(values: &[f64]) -> (f64, f64, Vec<usize>) {
-    let Some(of) = Statistics::of(values.iter().copied()) else {
+    let Some(of) = Statistics::from_values(values.iter().copied()) else {
         return (0.0, 1.0, Vec::new());
     };
     let cells = ((of.count as f64).sqrt().ceil() as usize).clamp(1, 40);
@@ -131,7 +130,7 @@ mod tests {
 
     #[test]
     fn figures_of_a_list() {
-        let of = Statistics::of([1.0, -1.0, 3.0, 1.0]);
+        let of = Statistics::from_values([1.0, -1.0, 3.0, 1.0]);
         let expected = Statistics {
             count: 4,
             least: -1.0,
@@ -140,7 +139,7 @@ mod tests {
             rms: 3.0_f64.sqrt(),
         };
         assert_eq!(of, Some(expected));
-        assert_eq!(Statistics::of([]), None);
+        assert_eq!(Statistics::from_values([]), None);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Text, figures, pages and files of results.
 
+pub mod card;
 pub mod codes;
 mod contours;
 pub mod csv;
@@ -10,6 +11,7 @@ pub mod html;
 pub mod page;
 pub mod parquet;
 pub mod plot;
+pub mod point;
 mod schematic;
 pub mod text;
 pub mod views;

@@ -116,7 +116,7 @@ impl Page {
     }
 
     /// The page of an outcome.
-    pub fn of(outcome: &dyn AnyOutcome) -> Self {
+    pub fn from_outcome(outcome: &dyn AnyOutcome) -> Self {
         let mut page = Self::default();
         page.verdicts.extend(outcome.head().about_data.iter().cloned());
         let own: &dyn Any = outcome.as_any();

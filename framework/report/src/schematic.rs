@@ -33,7 +33,7 @@ pub fn schematic(transmission: &Transmission, resolved: &Value) -> String {
     let things = Things::new(transmission, resolved);
     let (scale, along, axes) = laid_out(&things);
     let mut canvas = Canvas::default();
-    draw::all(&mut canvas, &things, &along, &axes, scale);
+    draw::draw_all(&mut canvas, &things, &along, &axes, scale);
     canvas.finish(&format!("Schematic of {}", transmission.title()))
 }
 

@@ -6,6 +6,29 @@ pub use gearloss_studies::analyses::numbers::spread_over;
 use std::fmt::Write as _;
 
 pub use gearloss_studies::analyses::numbers::{beyond, figures, fixed, significant};
+
+/// Text that grows line by line.
+#[derive(Debug, Default)]
+pub struct Lines(String);
+
+impl Lines {
+    /// Adds a line.
+    pub fn line(&mut self, line: impl AsRef<str>) {
+        self.0.push_str(line.as_ref());
+        self.0.push('\n');
+    }
+
+    /// Adds a text as it is.
+    pub fn text(&mut self, text: &str) {
+        self.0.push_str(text);
+    }
+
+    /// The text.
+    pub fn into_text(self) -> String {
+        self.0
+    }
+}
+
 /// A table of texts; columns of numbers are right-aligned.
 pub struct TextTable {
     rows: Vec<Vec<String>>,

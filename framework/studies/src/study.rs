@@ -188,7 +188,7 @@ impl Gears {
     }
 
     /// The names for a gearbox: its first gear state where none is written.
-    pub fn of(&self, transmission: &Transmission) -> Vec<String> {
+    pub fn selected(&self, transmission: &Transmission) -> Vec<String> {
         match (self.names(), transmission.states()) {
             ([], [first, ..]) => vec![first.name.clone()],
             (names, _) => names.to_vec(),

@@ -33,7 +33,7 @@ pub struct Mean {
 
 impl Mean {
     /// Mean between two times, weighted by the length of the time steps.
-    pub fn over(samples: &[Sample], axis: usize, [from, to]: [f64; 2]) -> Result<Self, String> {
+    pub fn over_time(samples: &[Sample], axis: usize, [from, to]: [f64; 2]) -> Result<Self, String> {
         let inside: Vec<&Sample> = samples.iter().filter(|s| s.time >= from && s.time <= to).collect();
         if inside.len() < 2 {
             let range = match (samples.first(), samples.last()) {
@@ -194,14 +194,14 @@ mod tests {
     fn means_weigh_by_time_and_faults_name_the_line() {
         let all =
             samples("0 0 0 0 9 0 0 0 0 0\n1 0 0 0 1 0 0 1 0 0\n2 0 0 0 1 0 0 1 0 0\n6 0 0 0 3 0 0 1 0 0\n").unwrap();
-        let mean = Mean::over(&all, 0, [1.0, f64::INFINITY]).unwrap();
+        let mean = Mean::over_time(&all, 0, [1.0, f64::INFINITY]).unwrap();
         assert_eq!(
             (mean.pressure, mean.viscous, mean.samples),
             ((1.0 + 4.0 * 2.0) / 5.0, 1.0, 3)
         );
         assert!(mean.spread > 0.0 && mean.times(2.0).total() == 2.0 * mean.total());
         assert!(
-            Mean::over(&all, 0, [3.0, 7.0])
+            Mean::over_time(&all, 0, [3.0, 7.0])
                 .unwrap_err()
                 .contains("1 samples in the asked time; times are 0 to 6 s")
         );

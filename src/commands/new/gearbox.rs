@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use gearloss_framework::language::Kind;
 
-use super::{next, schema_beside, word, write};
+use super::{print_next, schema_beside, word, write};
 use crate::args::{Layout, NewGearboxArgs};
 use crate::output::{End, Failure, Out};
 
@@ -16,7 +16,7 @@ struct Start {
 }
 
 impl Start {
-    fn of(layout: Layout) -> Self {
+    fn for_layout(layout: Layout) -> Self {
         let (text, point) = match layout {
             Layout::SingleStage => (
                 include_str!("layouts/single-stage.yaml"),
@@ -47,7 +47,7 @@ pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
     let Some(layout) = args.layout else {
         return Err(unnamed());
     };
-    let start = Start::of(layout);
+    let start = Start::for_layout(layout);
     let file = args.output.as_path();
     write(file, start.text, out)?;
     schema_beside(
@@ -58,7 +58,7 @@ pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
         out,
     )?;
     let name = word(file);
-    next(
+    print_next(
         &[
             format!("check {name}"),
             format!("solve {name} {}", start.point),

@@ -33,11 +33,11 @@ pub fn run(args: &NewPluginArgs, out: &mut Out) -> Result<End, Failure> {
     }
     let home = args.output.clone().unwrap_or_else(|| PathBuf::from(&args.name));
     make(&home)?;
-    let source = Source::of(args.gearloss.as_deref(), &home)?;
+    let source = Source::choose(args.gearloss.as_deref(), &home)?;
     for (file, template) in FILES {
         write(&home.join(file), &filled(template, &args.name, &source)?, out)?;
     }
-    out.line(source.told())?;
+    out.line(source.description())?;
     out.line("next:")?;
     if home != Path::new(".") {
         out.line(format!("  cd {}", word(&home)))?;
@@ -152,7 +152,7 @@ enum Source {
 }
 
 impl Source {
-    fn of(named: Option<&Path>, home: &Path) -> Result<Self, Failure> {
+    fn choose(named: Option<&Path>, home: &Path) -> Result<Self, Failure> {
         let own = Path::new(env!("CARGO_MANIFEST_DIR"));
         Ok(match named {
             // Links are resolved, because `..` after a link leads elsewhere.
@@ -188,7 +188,7 @@ impl Source {
         Ok([line(path)?, line(&path.join("framework/core"))?])
     }
 
-    fn told(&self) -> String {
+    fn description(&self) -> String {
         match self {
             Self::Named(path) => format!("it uses gearloss from {}", path.display()),
             Self::Own(path) => format!(
@@ -241,7 +241,7 @@ mod tests {
     fn without_a_checkout_the_lines_are_plain_versions() {
         let version = format!("\"{}\"", env!("CARGO_PKG_VERSION"));
         assert_eq!(Source::Registry.dependencies().unwrap(), [version.clone(), version]);
-        assert!(Source::Registry.told().contains("--gearloss PATH"));
+        assert!(Source::Registry.description().contains("--gearloss PATH"));
     }
 
     #[test]

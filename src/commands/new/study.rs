@@ -8,7 +8,7 @@ use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
-use super::{folder, next, schema_beside, word, write};
+use super::{folder, print_next, schema_beside, word, write};
 use crate::args::NewStudyArgs;
 use crate::output::{End, Failure, Out, figures};
 
@@ -36,7 +36,7 @@ pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
         gearbox.transmission(language, &choice).is_ok()
     };
     let unfit = SHIPPED.into_iter().find(|set| !fits(set));
-    let start = Start::of(&transmission, unfit.is_none())?;
+    let start = Start::from_transmission(&transmission, unfit.is_none())?;
     let file = args.output.as_path();
     let path = seen_from(folder(file), &args.gearbox);
     write(file, &start.study(&path), out)?;
@@ -55,7 +55,7 @@ pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
         out.line("the gearbox has no `rating`: the torques and speeds in the study are placeholders, replace them")?;
     }
     let name = word(file);
-    next(&[format!("check {name}"), format!("run {name}")], out)?;
+    print_next(&[format!("check {name}"), format!("run {name}")], out)?;
     Ok(End::Fine)
 }
 
@@ -71,7 +71,7 @@ struct Start {
 }
 
 impl Start {
-    fn of(transmission: &Transmission, shipped: bool) -> Result<Self, Failure> {
+    fn from_transmission(transmission: &Transmission, shipped: bool) -> Result<Self, Failure> {
         let port = transmission.ports()[transmission.reference_port()].name.clone();
         // A gear transmits torque if torque and speed at one port determine a point; neutral needs the speeds of both ports.
         let drives = |gear: &str| transmission.case(gear, &[port.as_str()], &[port.as_str()]).is_ok();

@@ -30,7 +30,7 @@ impl Held {
         let mark = folder.join(MARK);
         fs::create_dir_all(folder).map_err(|e| cannot(folder, &e))?;
         loop {
-            let left = own(&mark).map_err(|e| cannot(&mark, &e))?;
+            let left = is_regular(&mark).map_err(|e| cannot(&mark, &e))?;
             let opened = OpenOptions::new()
                 .read(true)
                 .write(true)
@@ -108,7 +108,7 @@ pub fn cannot(path: &Path, e: &dyn std::fmt::Display) -> Failure {
 ///
 /// # Errors
 /// If something else exists there, such as a link.
-pub fn own(path: &Path) -> io::Result<bool> {
+pub fn is_regular(path: &Path) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Ok(data) if data.is_file() => Ok(true),
         Ok(_) => Err(io::Error::other("a link or a folder has this name")),
@@ -136,7 +136,7 @@ fn clear(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
         let name = entry.file_name();
-        if name.to_str().is_some_and(is_temporary) && own(&path).is_ok_and(|is| is) {
+        if name.to_str().is_some_and(is_temporary) && is_regular(&path).is_ok_and(|is| is) {
             let _ = fs::remove_file(path);
         }
     }

@@ -37,7 +37,7 @@ pub const MANIFEST: &str = "shard.json";
 
 impl Manifest {
     /// The current manifest of a shard of a study.
-    pub fn of(language: &Language, study: &Study, shard: Shard) -> Self {
+    pub fn for_shard(language: &Language, study: &Study, shard: Shard) -> Self {
         let mut all: BTreeMap<String, String> = BTreeMap::new();
         for input in inputs(study) {
             let name = [input.gearbox.unwrap_or_default(), input.file]

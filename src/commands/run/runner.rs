@@ -179,7 +179,7 @@ impl Runner<'_> {
         for (path, name) in samples {
             self.keep_outside_at_samples(path, name);
         }
-        let page = Page::of(outcome);
+        let page = Page::from_outcome(outcome);
         self.run.in_section(|section| section.add_text(&page));
         for text in &page.text {
             if let Text::Everywhere(text) = text {

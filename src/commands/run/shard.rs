@@ -52,7 +52,7 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
     let beside = study.folder.join("shards");
     let own = || beside.join(format!("{}-of-{}", shard.number, shard.of));
     let folder = args.results.output.clone().unwrap_or_else(own);
-    let manifest = Manifest::of(language, study, shard);
+    let manifest = Manifest::for_shard(language, study, shard);
     let held = manifest.claim(&folder)?;
     // Finished results of other shards allow later stages.
     let mut others = if args.results.output.is_none() {
@@ -133,7 +133,7 @@ pub fn gather(language: &Language, study: &Study, named: &[PathBuf], file: &Path
     } else {
         named.to_vec()
     };
-    let manifest = Manifest::of(language, study, Shard { number: 0, of: 0 });
+    let manifest = Manifest::for_shard(language, study, Shard { number: 0, of: 0 });
     let mut first: Option<(usize, &Path)> = None;
     let mut finished = Vec::new();
     for folder in &folders {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use gearloss_framework::files::{LONGEST_DATA, open_regular};
 use gearloss_studies::analyses::head::fnv1a_64;
 
-use super::folder::own;
+use super::folder::is_regular;
 
 /// Length and hash, followed by stage, number and bytes of a result.
 const HEAD: usize = 16;
@@ -28,7 +28,7 @@ pub struct TaskFile {
 impl TaskFile {
     /// Opens a file for continuation; bytes after its last complete result are overwritten.
     pub fn reopen(path: &Path) -> io::Result<Self> {
-        own(path)?;
+        is_regular(path)?;
         let mut options = OpenOptions::new();
         let file = options.read(true).write(true).create(true).truncate(false).open(path)?;
         let file = Self::scanned(file, path)?;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{MeasuredFault, fault};
 use crate::Unit;
 
-/// What separates cells.
+/// Cell separator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Separator {
@@ -60,10 +60,10 @@ pub enum Encoding {
     Latin1,
 }
 
-/// What is stated of how a file is written; the rest is recognised.
+/// The stated format of a file; unstated properties are detected.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Form {
-    /// What separates cells.
+    /// Cell separator.
     pub separator: Option<Separator>,
     /// The decimal sign.
     pub decimal: Option<Decimal>,
@@ -75,7 +75,7 @@ pub struct Form {
 pub struct Table {
     /// Headers.
     pub names: Vec<String>,
-    /// Unit of each column, where the header or a row of units states it.
+    /// Unit of each column if the header or a row of units states it.
     pub units: Vec<Option<String>>,
     /// Line of the header.
     pub header_line: u64,
@@ -85,7 +85,7 @@ pub struct Table {
     pub decimal: Decimal,
 }
 
-/// The number in a cell, or what stands there instead.
+/// The number in a cell, or an error with its content.
 pub fn number(
     decimal: Decimal,
     (line, cells): (u64, &[String]),
@@ -109,17 +109,17 @@ fn decoded(bytes: &[u8], encoding: Option<Encoding>, notes: &mut Vec<String>) ->
         (Some(Encoding::Latin1), _) => Ok(latin()),
         (_, Ok(text)) => Ok(text.to_owned()),
         (None, Err(_)) => {
-            notes.push("read as Latin-1: it is no UTF-8".to_owned());
+            notes.push("read as Latin-1, because it is not UTF-8".to_owned());
             Ok(latin())
         }
         (Some(Encoding::Utf8), Err(e)) => Err(fault(
-            format!("byte {} is no UTF-8", e.valid_up_to() + 1),
+            format!("byte {} is not UTF-8", e.valid_up_to() + 1),
             "write `encoding: latin1`, or convert the file",
         )),
     }
 }
 
-/// The separator of which the header holds most; a semicolon or tabulator wins over commas, which may be decimal.
+/// The most frequent separator of the header; a semicolon or tabulator has priority over commas, which may be decimal.
 fn separator(header: &str) -> Separator {
     let count = |c: char| header.chars().filter(|x| *x == c).count();
     if count(';') > 0 {
@@ -153,7 +153,7 @@ fn is_unit(cell: &str) -> bool {
     matches!(bare, "" | "%" | "-" | "1") || Unit::of_symbol(bare).is_some()
 }
 
-/// Line of a record: its position is that of the comments and empty lines before it.
+/// Line of a record; its position includes the comments and empty lines before it.
 fn line_of(text: &str, at: &csv::Position) -> u64 {
     let rest = usize::try_from(at.byte()).ok().and_then(|byte| text.get(byte..));
     let skipped = rest.unwrap_or_default().lines();
@@ -163,17 +163,17 @@ fn line_of(text: &str, at: &csv::Position) -> u64 {
             .count() as u64
 }
 
-/// Reads the cells of a text and notes how it was understood.
+/// Reads the cells of a text and notes the detected format.
 ///
 /// # Errors
-/// The first fault, with its line.
+/// The first error with its line.
 pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
     let text = decoded(bytes, form.encoding, notes)?;
     let Some(first) = text
         .lines()
         .find(|line| !line.trim().is_empty() && !line.starts_with('#'))
     else {
-        return Err(fault("the file is empty", "name another file"));
+        return Err(fault("the file is empty", "choose another file"));
     };
     let separator = form.separator.unwrap_or_else(|| {
         let found = separator(first);
@@ -202,11 +202,11 @@ pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table,
         rows.push((line, record.iter().map(str::to_owned).collect()));
     }
     if rows.is_empty() {
-        return Err(fault("the file is empty", "name another file"));
+        return Err(fault("the file is empty", "choose another file"));
     }
     let (header_line, header) = rows.remove(0);
     let (names, mut units): (Vec<String>, Vec<Option<String>>) = header.iter().map(|h| name_and_unit(h)).unzip();
-    // A row of units: every cell is a unit, and at least one is no number.
+    // A row of units: every cell is a unit, and at least one is not a number.
     let numeric = |cell: &String| cell.replace(',', ".").parse::<f64>().is_ok();
     let unit_row = rows.first().is_some_and(|(_, cells)| {
         cells.iter().all(|c| is_unit(c)) && cells.iter().any(|c| !c.is_empty() && !numeric(c))
@@ -224,12 +224,8 @@ pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table,
     for (line, cells) in &rows {
         if cells.len() > names.len() {
             return Err(fault(
-                format!(
-                    "line {line}: {} cells where the header has {}",
-                    cells.len(),
-                    names.len()
-                ),
-                "a decimal comma in a file separated by commas? State `separator` or quote such cells",
+                format!("line {line}: {} cells, but the header has {}", cells.len(), names.len()),
+                "if a decimal comma splits numbers, state `separator` or quote such cells",
             ));
         }
     }
@@ -242,7 +238,7 @@ pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table,
     })
 }
 
-/// The decimal sign: a comma where numbers hold commas and none holds a point.
+/// The decimal sign: a comma if numbers contain commas and none contains a point.
 fn decimal(rows: &[(u64, Vec<String>)], form: Form, notes: &mut Vec<String>) -> Result<Decimal, MeasuredFault> {
     if let Some(stated) = form.decimal {
         return Ok(stated);
@@ -264,8 +260,8 @@ fn decimal(rows: &[(u64, Vec<String>)], form: Form, notes: &mut Vec<String>) -> 
     };
     match (with(','), with('.')) {
         (Some(comma), Some(point)) => Err(fault(
-            format!("line {comma} holds a decimal comma and line {point} a decimal point"),
-            "state `decimal: comma` or `decimal: point`, and write numbers without signs between thousands",
+            format!("line {comma} has a decimal comma and line {point} a decimal point"),
+            "state `decimal: comma` or `decimal: point`, and write numbers without thousands separators",
         )),
         (Some(_), None) => {
             notes.push("decimal comma".to_owned());

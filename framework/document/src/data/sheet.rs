@@ -1,16 +1,16 @@
-//! The columns of a file that hold wanted quantities.
+//! The columns of a file with requested quantities.
 
 use super::cells::{Form, Table, number, table};
 use super::{MeasuredFault, fault, scale};
 use crate::{Ordered, did_you_mean};
 
-/// A quantity that a file may hold: name and documented unit, which is empty for texts.
+/// A quantity of a file: name and documented unit, which is empty for texts.
 pub type Wanted<'a> = (&'a str, &'a str);
 
-/// How many faults of one kind are told.
+/// Maximum number of reported errors of one kind.
 pub const TOLD: usize = 5;
 
-/// Beyond this no quantity of a duty has a meaning; products of such numbers stay finite.
+/// Larger values are meaningless in a cycle; products of numbers below it remain finite.
 const MOST: f64 = 1e12;
 
 struct Column {
@@ -20,17 +20,17 @@ struct Column {
     unit: Option<(f64, f64)>,
 }
 
-/// A table with the places of the wanted quantities.
+/// A table with the columns of the requested quantities.
 pub struct Sheet {
     /// All cells.
     pub table: Table,
-    /// How the file was understood.
+    /// Notes on the detected format.
     pub notes: Vec<String>,
     columns: Vec<Option<Column>>,
 }
 
 impl Sheet {
-    /// Reads the bytes and finds a column for each wanted quantity: the one that `columns` names, or the one of the same name.
+    /// Reads the bytes and finds a column for each requested quantity: the one given in `columns`, or the one with the same name.
     pub fn open(
         bytes: &[u8],
         form: Form,
@@ -49,14 +49,14 @@ impl Sheet {
                     Some(close) => format!("write `{close}`; {list}"),
                     None => list,
                 };
-                found.push(fault(format!("`{key}` is no quantity of such a file"), help));
+                found.push(fault(format!("`{key}` is not a quantity of this file"), help));
             }
         }
         let mut places = Vec::new();
         for (name, due) in wanted {
             let written = columns.get(name);
             let header = written.map_or(*name, String::as_str);
-            // A column that is named for another quantity does not count by its own name.
+            // A column that is assigned to another quantity is not used by its own name.
             let taken = written.is_none() && columns.iter().any(|(_, column)| column == name);
             let place = table.names.iter().position(|n| n == header).filter(|_| !taken);
             let column = place.and_then(|place| {
@@ -88,7 +88,7 @@ impl Sheet {
                     ),
                     match did_you_mean(header, table.names.iter().map(String::as_str)) {
                         Some(close) => format!("write `{close}`"),
-                        None => "name one of them".to_owned(),
+                        None => "choose one of them".to_owned(),
                     },
                 ));
             }
@@ -105,12 +105,12 @@ impl Sheet {
         }
     }
 
-    /// True where the file holds the wanted quantity of this place.
+    /// True if the file contains the requested quantity of this index.
     pub fn holds(&self, wanted: usize) -> bool {
         self.columns[wanted].is_some()
     }
 
-    /// A number of a row; absent where the file has no such column.
+    /// A number of a row; absent if the file has no such column.
     pub fn number(&self, row: usize, wanted: usize) -> Result<Option<f64>, String> {
         let Some(column) = &self.columns[wanted] else {
             return Ok(None);
@@ -121,7 +121,7 @@ impl Sheet {
         let number = number * factor + offset;
         if number.abs() > MOST {
             return Err(format!(
-                "{}: `{}` is larger than anything that occurs",
+                "{}: `{}` is unrealistically large",
                 self.at(row, wanted),
                 self.text(row, wanted).unwrap_or_default()
             ));
@@ -129,12 +129,12 @@ impl Sheet {
         Ok(Some(number))
     }
 
-    /// As [`Sheet::number`], refused below zero.
+    /// As [`Sheet::number`]; a negative number is an error.
     pub fn not_negative(&self, row: usize, wanted: usize) -> Result<Option<f64>, String> {
         let number = self.number(row, wanted)?;
         if number.is_some_and(|x| x < 0.0) {
             return Err(format!(
-                "{}: `{}` is below zero",
+                "{}: `{}` is negative",
                 self.at(row, wanted),
                 self.text(row, wanted).unwrap_or_default()
             ));
@@ -142,12 +142,12 @@ impl Sheet {
         Ok(number)
     }
 
-    /// As [`Sheet::number`], refused where no oil, coolant or air is so cold or so warm. \[degC\]
+    /// As [`Sheet::number`]; a temperature outside -60 to 250 degC is an error. \[degC\]
     pub fn temperature(&self, row: usize, wanted: usize) -> Result<Option<f64>, String> {
         let number = self.number(row, wanted)?;
         if number.is_some_and(|t| !(-60.0..=250.0).contains(&t)) {
             return Err(format!(
-                "{}: `{}` lies outside of -60 to 250 degC",
+                "{}: `{}` is outside -60 to 250 degC",
                 self.at(row, wanted),
                 self.text(row, wanted).unwrap_or_default()
             ));
@@ -155,14 +155,14 @@ impl Sheet {
         Ok(number)
     }
 
-    /// A text of a row; absent where the file has no such column, or the cell is empty.
+    /// A text of a row; absent if the file has no such column or the cell is empty.
     pub fn text(&self, row: usize, wanted: usize) -> Option<&str> {
         let column = self.columns[wanted].as_ref()?;
         let cell = self.table.rows[row].1.get(column.place)?;
         (!cell.is_empty()).then_some(cell.as_str())
     }
 
-    /// Line and column in words.
+    /// Line and column as text.
     pub fn at(&self, row: usize, wanted: usize) -> String {
         let line = self.line(row);
         self.columns[wanted].as_ref().map_or_else(
@@ -176,7 +176,7 @@ impl Sheet {
         self.table.rows[row].0
     }
 
-    /// That no column holds what is due.
+    /// The error that no column contains a required quantity.
     pub fn lacks(&self, what: &str, name: &str) -> MeasuredFault {
         fault(
             format!(
@@ -184,17 +184,17 @@ impl Sheet {
                 self.table.header_line,
                 self.table.names.join(", ")
             ),
-            format!("name one under `columns: {{ {name}: ... }}`"),
+            format!("state one under `columns: {{ {name}: ... }}`"),
         )
     }
 }
 
-/// One fault for each of the first messages, and how many there are beyond.
-pub fn told(messages: Vec<String>, help: &str) -> Vec<MeasuredFault> {
+/// One error for each of the first messages, and the number of further ones.
+pub fn limited_faults(messages: Vec<String>, help: &str) -> Vec<MeasuredFault> {
     let beyond = messages.len().saturating_sub(TOLD);
     let mut faults: Vec<_> = messages.into_iter().take(TOLD).map(|m| fault(m, help)).collect();
     if let (Some(last), 1..) = (faults.last_mut(), beyond) {
-        last.message = format!("{}; {beyond} more of this kind follow", last.message);
+        last.message = format!("{}; {beyond} more errors of this kind", last.message);
     }
     faults
 }

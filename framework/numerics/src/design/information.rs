@@ -1,13 +1,13 @@
-//! What is known of parameters, as the triangle of all rows measured so far.
+//! Information on parameters, as the triangular factor of all rows measured so far.
 
 use nalgebra::DMatrix;
 
-/// Diagonal of the triangle over the greatest below which parameters are not told apart.
+/// Ratio of a diagonal entry to the largest below which parameters are not identifiable.
 const REGULAR: f64 = 1e-12;
 
-/// The row of a parameter of which only its range is known: the standard deviation of an even distribution, range/sqrt(12).
+/// The row of a parameter with a known range only: standard deviation of a uniform distribution, range/sqrt(12).
 ///
-/// It keeps what is known so far regular. A parameter with a prior has the row of the prior instead, not both.
+/// It keeps the information regular. A parameter with a prior has the row of the prior instead.
 pub fn uniform_row(parameter: usize, ranges: &[f64]) -> Vec<f64> {
     let mut row = vec![0.0; ranges.len()];
     if let Some((entry, range)) = row.get_mut(parameter).zip(ranges.get(parameter)) {
@@ -16,7 +16,7 @@ pub fn uniform_row(parameter: usize, ranges: &[f64]) -> Vec<f64> {
     row
 }
 
-/// How precisely parameters are known.
+/// Precision of parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Precision {
     /// Logarithm of the determinant of the covariance.
@@ -28,7 +28,7 @@ pub struct Precision {
 }
 
 impl Precision {
-    /// The worst standard deviation over range.
+    /// The largest standard deviation relative to the range.
     pub fn worst(&self) -> f64 {
         self.deviations.iter().copied().fold(0.0, f64::max)
     }
@@ -43,23 +43,22 @@ pub struct Information {
     triangle: Vec<Vec<f64>>,
 }
 
-/// What one more row would do.
+/// Effect of one more row.
 pub(super) struct Step {
-    /// Square of the row in units of what is known: its own variance by the parameters over its noise.
+    /// Variance of the row due to the parameters relative to its noise.
     pub news: f64,
     /// Changes of the parameters, in units of their range.
     pub change: Vec<f64>,
 }
 
 impl Information {
-    /// From the ranges of the parameters and the rows that are known, both in the same units as the candidates will be.
+    /// From the ranges of the parameters and the known rows, in the units of the candidates.
     ///
     /// # Errors
-    /// If a range is not above zero, a row has another length or numbers that are not finite, or the rows do not tell the
-    /// parameters apart.
+    /// If a range is not positive, a row has the wrong length or non-finite numbers, or the rows do not identify the parameters.
     pub fn new(ranges: &[f64], rows: &[Vec<f64>]) -> Result<Self, String> {
         if let Some(bad) = ranges.iter().find(|w| !(**w > 0.0 && w.is_finite())) {
-            return Err(format!("the range of a parameter must be above zero, not {bad}"));
+            return Err(format!("the range of a parameter must be positive, not {bad}"));
         }
         let scaled = rows
             .iter()
@@ -71,7 +70,7 @@ impl Information {
             triangle: if count == 0 {
                 Vec::new()
             } else {
-                // Rows of zeros where there are fewer than parameters, for the triangle to be square.
+                // Rows of zeros if there are fewer rows than parameters, so that the triangle is square.
                 let matrix = DMatrix::from_fn(scaled.len().max(count), count, |i, k| {
                     scaled.get(i).map_or(0.0, |r| r[k])
                 });
@@ -83,7 +82,7 @@ impl Information {
         let greatest = (0..count).map(diagonal).fold(0.0, f64::max);
         if (0..count).any(|k| diagonal(k) <= REGULAR * greatest) || !greatest.is_finite() {
             return Err(
-                "what is known does not tell the parameters apart: give every parameter a range or a prior".to_owned(),
+                "the known rows do not identify the parameters: give every parameter a range or a prior".to_owned(),
             );
         }
         Ok(known)
@@ -94,7 +93,7 @@ impl Information {
         &self.ranges
     }
 
-    /// Adds a row that is in units of the ranges, by rotations.
+    /// Adds a row in units of the ranges, by rotations.
     pub(super) fn add(&mut self, mut row: Vec<f64>) {
         for k in 0..row.len() {
             let length = self.triangle[k][k].hypot(row[k]);
@@ -105,7 +104,7 @@ impl Information {
         }
     }
 
-    /// What a row that is in units of the ranges would do.
+    /// Effect of a row in units of the ranges.
     pub(super) fn step(&self, row: &[f64]) -> Step {
         let count = row.len();
         let mut solved = row.to_vec();
@@ -144,7 +143,7 @@ impl Information {
         variances
     }
 
-    /// How precisely the parameters are known.
+    /// Precision of the parameters.
     pub fn precision(&self) -> Precision {
         let variances = self.variances();
         let terms = self.triangle.iter().enumerate().zip(&self.ranges);
@@ -168,7 +167,7 @@ pub(super) fn scale(row: &[f64], ranges: &[f64]) -> Result<Vec<f64>, String> {
         ));
     }
     let scaled: Vec<f64> = row.iter().zip(ranges).map(|(g, w)| g * w).collect();
-    // Squares are added up later.
+    // Squares are summed later.
     if scaled.iter().all(|g| (g * g).is_finite()) {
         Ok(scaled)
     } else {

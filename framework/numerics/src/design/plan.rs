@@ -1,59 +1,58 @@
-//! Choosing points one after the other, and exchanging them afterwards.
+//! Sequential choice of points, and exchange afterwards.
 
 use super::information::scale;
 use super::{Information, Precision};
 
-/// Improvement from which on a point is exchanged: of the logarithm of the determinant, or of trace and worst deviation relative
-/// to themselves.
+/// Minimum improvement for an exchange of a point: of the logarithm of the determinant, or relative for trace and worst deviation.
 const WORTHWHILE: f64 = 1e-3;
-/// Gain over the worst deviation below which another parameter is the worst one before and after.
+/// Relative gain below which the worst deviation is considered unchanged.
 const FLAT: f64 = 1e-12;
-/// Passes of an exchange; each improves the plan, so they end, and mostly after two or three.
+/// Maximum number of passes of an exchange; usually two or three suffice.
 const PASSES: usize = 50;
 
-/// By what a design is judged.
+/// Criterion of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rule {
-    /// The volume of the joint region: fall of the logarithm of the determinant of the covariance.
+    /// D-optimality, the volume of the joint region: decrease of the logarithm of the determinant of the covariance.
     Determinant,
-    /// The mean: fall of the sum of the variances, each over the square of its range.
+    /// A-optimality, the mean: decrease of the sum of the variances, each relative to the square of its range.
     Trace,
-    /// The worst interval: fall of the greatest standard deviation over range.
+    /// The widest interval: decrease of the largest standard deviation relative to the range.
     Worst,
 }
 
 /// One point of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Choice {
-    /// Number of the candidate, from zero.
+    /// Index of the candidate.
     pub candidate: usize,
-    /// What it gains by the rule after the points before it.
+    /// Gain by the rule, given the previous points.
     pub gain: f64,
-    /// One, and the change-over from the point before.
+    /// One, plus the cost of the change from the previous point.
     pub cost: f64,
-    /// The rule it was chosen by: where the worst interval has a flat spot the trace decides.
+    /// The rule that selected it: if the widest interval does not change, the trace decides.
     pub rule: Rule,
 }
 
-/// Points to be measured, in order.
+/// Proposed points, in order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     /// The points.
     pub choices: Vec<Choice>,
-    /// What is known before.
+    /// Precision before.
     pub before: Precision,
-    /// What will be known after.
+    /// Expected precision after.
     pub after: Precision,
 }
 
 impl Plan {
-    /// Numbers of the candidates in order.
+    /// Indices of the candidates in order.
     pub fn candidates(&self) -> Vec<usize> {
         self.choices.iter().map(|c| c.candidate).collect()
     }
 
-    /// Points of this plan that another lacks, ascending. Plans from the derivatives at other parameters of the joint region show
-    /// so which choices hang on the parameters.
+    /// Points of this plan that are absent from another, ascending. Plans for other parameters of the joint region show which choices
+    /// depend on the parameters.
     pub fn lacking_in(&self, other: &Self) -> Vec<usize> {
         let mut others = other.candidates();
         let mut lacking = self.candidates();
@@ -69,7 +68,7 @@ impl Plan {
     }
 }
 
-/// Candidates with all that a choice among them depends on.
+/// Candidates with the data for a choice.
 #[derive(Debug, Clone)]
 pub struct Design<F> {
     information: Information,
@@ -79,11 +78,11 @@ pub struct Design<F> {
 }
 
 impl<F: Fn(usize, usize) -> f64> Design<F> {
-    /// From what is known, the row of each candidate (gradient over its standard uncertainty) and the cost of changing from
-    /// one candidate to another, beside one for each point.
+    /// From the current information, the row of each candidate (gradient over its standard uncertainty) and the cost of changing from one
+    /// candidate to another, in addition to one for each point.
     ///
     /// # Errors
-    /// If there are no candidates, or a row has another length than there are parameters, or entries that are not finite.
+    /// If there are no candidates, or a row has the wrong length or non-finite entries.
     pub fn new(information: Information, candidates: &[Vec<f64>], rule: Rule, change_over: F) -> Result<Self, String> {
         if candidates.is_empty() {
             return Err("there are no candidates to choose from".to_owned());
@@ -99,11 +98,10 @@ impl<F: Fn(usize, usize) -> f64> Design<F> {
         })
     }
 
-    /// Chooses points one after the other by gain over cost; a point may be measured again, and the lowest number decides
-    /// between equals.
+    /// Chooses points sequentially by gain over cost; points may repeat, and the lowest index decides between equals.
     ///
     /// # Errors
-    /// If a cost is negative or no number.
+    /// If a cost is negative or not a number.
     pub fn greedy(&self, count: usize) -> Result<Plan, String> {
         let mut known = self.information.clone();
         let mut choices: Vec<Choice> = Vec::with_capacity(count);
@@ -123,21 +121,21 @@ impl<F: Fn(usize, usize) -> f64> Design<F> {
         })
     }
 
-    /// What each candidate gains if it is the only one that is measured.
+    /// Gain of each candidate as the only measurement.
     pub fn alone(&self) -> Vec<f64> {
         let variances = self.information.variances();
         let gain = |row: &Vec<f64>| gain(&self.information, &variances, row, self.rule);
         self.rows.iter().map(gain).collect()
     }
 
-    /// Exchanges points of a plan for better ones until none is worth it. The order stays, and the plan never gets dearer.
+    /// Exchanges points of a plan for better ones until no exchange is worthwhile. The order is kept, and the cost never increases.
     ///
     /// # Errors
-    /// If the plan names other candidates, or a cost is negative or no number.
+    /// If the plan contains other candidates, or a cost is negative or not a number.
     pub fn exchange(&self, plan: &Plan) -> Result<Plan, String> {
         let mut places = plan.candidates();
         if places.iter().any(|i| *i >= self.rows.len()) {
-            return Err("the plan was made from other candidates".to_owned());
+            return Err("the plan was made for other candidates".to_owned());
         }
         for _ in 0..PASSES {
             let mut changed = false;
@@ -177,7 +175,7 @@ impl<F: Fn(usize, usize) -> f64> Design<F> {
         self.plan(&places)
     }
 
-    /// The plan of some candidates in order, with what each gains.
+    /// The plan of candidates in order with their gains.
     fn plan(&self, places: &[usize]) -> Result<Plan, String> {
         let mut known = self.information.clone();
         let mut choices: Vec<Choice> = Vec::with_capacity(places.len());
@@ -199,7 +197,7 @@ impl<F: Fn(usize, usize) -> f64> Design<F> {
         })
     }
 
-    /// The candidate of the greatest gain over cost.
+    /// The candidate with the largest gain over cost.
     fn best(&self, known: &Information, before: Option<usize>, rule: Rule) -> Result<Choice, String> {
         let variances = known.variances();
         let choice = |candidate: usize| -> Result<Choice, String> {
@@ -226,7 +224,7 @@ impl<F: Fn(usize, usize) -> f64> Design<F> {
             Ok(1.0 + change)
         } else {
             Err(format!(
-                "a change-over to candidate {} cannot cost {change}",
+                "invalid cost of a change to candidate {}: {change}",
                 candidate + 1
             ))
         }
@@ -242,7 +240,7 @@ impl<F: Fn(usize, usize) -> f64> Design<F> {
     }
 }
 
-/// What a row gains by a rule after what is known.
+/// Gain of a row by a rule, given the current information.
 fn gain(known: &Information, variances: &[f64], row: &[f64], rule: Rule) -> f64 {
     let step = known.step(row);
     let less = || step.change.iter().map(|v| v * v / (1.0 + step.news));
@@ -259,7 +257,7 @@ fn gain(known: &Information, variances: &[f64], row: &[f64], rule: Rule) -> f64 
     }
 }
 
-/// The greatest deviation of some variances.
+/// The largest standard deviation of a list of variances.
 fn worst(variances: impl Iterator<Item = f64>) -> f64 {
     variances.fold(0.0, f64::max).sqrt()
 }

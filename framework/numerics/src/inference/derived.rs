@@ -1,10 +1,10 @@
-//! Quantities that are calculated with identified parameters, and how uncertain that makes them.
+//! Quantities calculated with identified parameters, and their uncertainty.
 //!
-//! The full covariance counts: without the correlations bands are wrong in both directions.
+//! The full covariance is used; without correlations the bands are wrong.
 
 use super::Fit;
 
-/// Deviations from zero or one within which the band of a share goes through its logit.
+/// Distance from zero or one, in deviations, within which the band of a share is computed from its logit.
 const NEAR: f64 = 2.0;
 
 /// A calculated quantity.
@@ -12,18 +12,18 @@ const NEAR: f64 = 2.0;
 pub struct Derived {
     /// Its value.
     pub value: f64,
-    /// Its standard deviation; absent where the data do not determine it.
+    /// Its standard deviation; absent if the data do not determine it.
     pub deviation: Option<f64>,
 }
 
 impl Derived {
-    /// Band of some deviations on either side; absent where the data do not determine it.
+    /// Band of `deviations` standard deviations on either side; absent if the data do not determine it.
     pub fn band(&self, deviations: f64) -> Option<[f64; 2]> {
         let half = deviations * self.deviation?;
         Some([self.value - half, self.value + half])
     }
 
-    /// Band of a share of a whole: inside zero to one where the share is, through its logit where it is near either.
+    /// Band of a share of a whole: within zero to one if the share is; computed from the logit near the limits.
     pub fn share_band(&self, deviations: f64) -> Option<[f64; 2]> {
         let (value, deviation) = (self.value, self.deviation?);
         let near = value - NEAR * deviation < 0.0 || value + NEAR * deviation > 1.0;
@@ -35,13 +35,13 @@ impl Derived {
         Some([middle - half, middle + half].map(|x| 1.0 / (1.0 + (-x).exp())))
     }
 
-    /// Standard deviation of a new measurement of the quantity with an instrument of some standard uncertainty.
+    /// Standard deviation of a new measurement of the quantity with an instrument of the given standard uncertainty.
     pub fn measured_again(&self, sigma: f64) -> Option<f64> {
         Some(self.deviation?.hypot(sigma))
     }
 }
 
-/// The smallest band that holds two. For a parameter on its bound the second comes from an evaluation at its one-sided end.
+/// The smallest band that contains two bands. For a parameter at its bound the second band is evaluated at its one-sided end.
 pub fn hull(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].min(b[0]), a[1].max(b[1])]
 }
@@ -53,7 +53,7 @@ pub struct Breakdown {
     pub parts: Vec<Derived>,
     /// Their sum.
     pub total: Derived,
-    /// Parts over the sum; empty where the sum is zero.
+    /// Parts over the sum; empty if the sum is zero.
     pub shares: Vec<Derived>,
 }
 
@@ -66,10 +66,10 @@ impl Fit {
 
     /// Parts of a whole from their values and gradients over the coordinates, one list for each part.
     ///
-    /// Parameters of the rig may be among the coordinates; they widen the bands without being a part.
+    /// Parameters of the rig may be among the coordinates; they widen the bands.
     ///
     /// # Errors
-    /// If there are not as many gradients as parts, or a gradient is not as long as there are parameters.
+    /// If the number of gradients differs from the number of parts, or the length of a gradient from the number of parameters.
     pub fn breakdown(&self, values: &[f64], gradients: &[Vec<f64>]) -> Result<Breakdown, String> {
         let count = self.parameters().len();
         if values.len() != gradients.len() || gradients.iter().any(|g| g.len() != count) {

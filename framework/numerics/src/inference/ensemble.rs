@@ -1,11 +1,11 @@
-//! Draws from a density that is known up to a factor, by an ensemble of walkers.
+//! Draws from an unnormalised density by an ensemble of walkers.
 //!
-//! It needs no derivatives, which published laws with kinks and jumps do not have everywhere, and correlations between the
-//! coordinates do not slow it down. The draws follow from the seed alone, whatever the number of threads.
+//! It needs no derivatives, which do not exist everywhere for laws with kinks and jumps, and correlations between coordinates do not slow
+//! it down. The draws depend only on the seed, not on the number of threads.
 //!
-//! Sources: Goodman, Weare, Comm. Appl. Math. Comput. Sci. 5 (2010) 65-80 (stretch moves); ter Braak, Stat. Comput. 16 (2006)
-//! 239-249 (moves along differences); Sokal in: Functional Integration (Springer 1997) 131-192 (autocorrelation time); Vehtari et
-//! al., Bayesian Analysis 16 (2021) 667-718 (how many independent draws are enough).
+//! Sources: Goodman, Weare, Comm. Appl. Math. Comput. Sci. 5 (2010) 65-80 (stretch moves); ter Braak, Stat. Comput. 16 (2006) 239-249
+//! (moves along differences); Sokal in: Functional Integration (Springer 1997) 131-192 (autocorrelation time); Vehtari et al., Bayesian
+//! Analysis 16 (2021) 667-718 (required number of independent draws).
 
 use std::ops::ControlFlow;
 
@@ -15,57 +15,57 @@ use rand::{RngExt, SeedableRng};
 
 use crate::statistics::quantile;
 
-/// Share of the steps that are thrown away, in which the walkers leave their beginnings.
+/// Share of the steps that are discarded as burn-in.
 const THROWN_AWAY: f64 = 1.0 / 3.0;
-/// Independent draws that the ends of an interval need.
+/// Number of independent draws required for the ends of an interval.
 const ENOUGH: f64 = 400.0;
-/// Autocorrelation times that a walker has to run, so that the first third has forgotten where it began: a convention.
+/// Minimum number of autocorrelation times of a run (a convention), so that the burn-in is long enough.
 const TIMES: f64 = 20.0;
 /// Relative scatter of the length of moves along differences.
 const SCATTER: f64 = 1e-3;
 /// Shares of the draws below the median and the ends of the interval.
 const SHARES: [f64; 3] = [0.5, 0.025, 0.975];
 
-/// Walkers that draw from a density.
+/// Settings of the sampler.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ensemble {
-    /// Walkers; made even, and at least twice as many as there are coordinates.
+    /// Number of walkers; increased to an even number of at least twice the number of coordinates.
     pub walkers: usize,
-    /// Steps of each walker; the first third is thrown away.
+    /// Steps of each walker; the first third is discarded.
     pub steps: usize,
-    /// Number that the draws follow from.
+    /// Seed.
     pub seed: u64,
 }
 
 /// Draws from a density.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draws {
-    /// Coordinates, all walkers of one step after the other.
+    /// Coordinates, step by step, with all walkers of a step.
     chain: Vec<Vec<f64>>,
     /// Number of walkers.
     pub walkers: usize,
-    /// Steps of each that count.
+    /// Number of retained steps of each walker.
     pub steps: usize,
     /// Share of the moves that were accepted.
     pub acceptance: f64,
 }
 
-/// What the draws say of one coordinate, or of something that rises with it.
+/// Summary of the draws of one coordinate, or of an increasing function of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Marginal {
-    /// Half of the draws lie below.
+    /// Median.
     pub median: f64,
-    /// 95 % of the draws lie between.
+    /// Ends of the 95 % interval.
     pub interval: [f64; 2],
     /// Standard deviation of the draws.
     pub deviation: f64,
-    /// Steps after which a walker has forgotten where it was.
+    /// Integrated autocorrelation time in steps.
     pub autocorrelation: f64,
-    /// Independent draws that tell as much as all of these.
+    /// Effective number of independent draws.
     pub effective: f64,
 }
 
-/// A logarithm of a density as a model of the sampler.
+/// The logarithm of a density as a model of the sampler.
 struct Density<F>(F);
 
 impl<F: Fn(&[f64]) -> f64 + Sync + Send> Model for Density<F> {
@@ -77,7 +77,7 @@ impl<F: Fn(&[f64]) -> f64 + Sync + Send> Model for Density<F> {
     }
 }
 
-/// So many steps, unless somebody wants to stop.
+/// The given number of steps, unless stopped.
 struct Steps<'a> {
     left: usize,
     interrupt: Option<&'a (dyn Fn() -> bool + Sync)>,
@@ -94,8 +94,8 @@ impl Schedule<Vec<f64>> for Steps<'_> {
 }
 
 impl Ensemble {
-    /// Draws from a density, given its logarithm; minus infinity where nothing can lie. Walkers begin anywhere between the ends
-    /// of `begin`, one pair for each coordinate. Absent where somebody wanted to stop, or there is no coordinate.
+    /// Draws from a density, given its logarithm (minus infinity for zero density). Walkers start between the ends of `begin`, one pair for
+    /// each coordinate. Absent if stopped, or without coordinates.
     pub fn draws(
         &self,
         log_density: impl Fn(&[f64]) -> f64 + Sync + Send,
@@ -106,7 +106,7 @@ impl Ensemble {
         if dimension == 0 {
             return None;
         }
-        // Moves along differences take two walkers of the other half.
+        // Moves along differences use two walkers of the other half.
         let walkers = 2 * self.walkers.div_ceil(2).max(dimension).max(2);
         let beginnings = (0..walkers).map(|i| {
             let mut random = Xoshiro256PlusPlus::seed_from_u64(self.seed.wrapping_add(i as u64));
@@ -142,7 +142,7 @@ impl Ensemble {
 }
 
 impl Draws {
-    /// What the draws say of a coordinate; `value` turns it into what is asked for, and rises with it.
+    /// Summary of the draws of a coordinate; `value` is an increasing function that converts it.
     pub fn marginal(&self, place: usize, value: impl Fn(f64) -> f64) -> Marginal {
         let mut draws: Vec<f64> = self.chain.iter().map(|u| value(u[place])).collect();
         let count = draws.len() as f64;
@@ -150,7 +150,7 @@ impl Draws {
         let deviation = (draws.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / count).sqrt();
         draws.sort_by(f64::total_cmp);
         let [median, low, high] = SHARES.map(|share| quantile(&draws, share));
-        // A walker that never moved tells no time: it remembers all of its steps.
+        // A walker that never moved has no autocorrelation time: use all of its steps.
         let time = |walker: usize| {
             let own = (0..self.steps).map(|step| self.chain[step * self.walkers + walker][place]);
             let time = auto_corr_time(own, None, Some(0)).filter(|time| time.is_finite());
@@ -166,8 +166,7 @@ impl Draws {
         }
     }
 
-    /// Whether every walker ran long enough for its draws of these coordinates to be trusted: for 400 independent draws and more, and
-    /// for 20 of its autocorrelation times.
+    /// Whether the run was long enough: at least 400 independent draws, and at least 20 autocorrelation times.
     pub fn is_settled(&self, marginals: impl IntoIterator<Item = Marginal>) -> bool {
         let long = |m: Marginal| m.effective >= ENOUGH && self.steps as f64 >= TIMES * m.autocorrelation;
         marginals.into_iter().all(long)

@@ -1,33 +1,33 @@
-//! Singular values and directions of the columns of a Jacobian that can move.
+//! Singular values and directions of the columns of free parameters of a Jacobian.
 //!
-//! The product of the Jacobian with itself is never formed: it would square the condition and lose the small directions. The
-//! columns are scaled to unit length, factored by Householder reflections, and the triangle is taken apart by singular values;
-//! Belsley, Kuh, Welsch: Regression Diagnostics (Wiley 1980), chapter 3, on why unit columns.
+//! The normal matrix is never formed, because it would square the condition number and lose the small directions. The columns are scaled to
+//! unit length and factored by Householder reflections, followed by a singular value decomposition of the triangle; Belsley, Kuh, Welsch:
+//! Regression Diagnostics (Wiley 1980), chapter 3, on why unit columns.
 
 use nalgebra::DMatrix;
 
-/// Singular value over the greatest below which a direction is not resolved.
+/// Ratio of a singular value to the largest below which a direction is not resolved.
 const RESOLVED: f64 = 1e-9;
 
 /// Unit columns = U S V^T, direction by direction.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Factors {
-    /// Parameters whose columns these are; columns of zeros are left out.
+    /// Parameters of the columns; columns of zeros are omitted.
     pub columns: Vec<usize>,
-    /// Lengths of the columns before they were scaled.
+    /// Lengths of the columns before scaling.
     pub norms: Vec<f64>,
     /// Triangle of the scaled columns.
     triangle: DMatrix<f64>,
-    /// Singular values, the greatest first.
+    /// Singular values in descending order.
     pub singular: Vec<f64>,
     /// Directions V: one row for each column, one column for each singular value.
     pub directions: DMatrix<f64>,
-    /// How many directions are resolved.
+    /// Number of resolved directions.
     pub resolved: usize,
 }
 
 impl Factors {
-    /// Of some columns of a matrix of finite numbers. Absent where the decomposition fails.
+    /// Factors of some columns of a matrix of finite numbers. Absent if the decomposition fails.
     pub fn new(jacobian: &DMatrix<f64>, columns: &[usize]) -> Option<Self> {
         let norms: Vec<f64> = columns.iter().map(|j| jacobian.column(*j).norm()).collect();
         let kept: Vec<usize> = (0..columns.len()).filter(|i| norms[*i] > 0.0).collect();
@@ -48,7 +48,7 @@ impl Factors {
                 resolved,
             });
         }
-        // With fewer rows than columns the triangle is filled up with zeros, so that every column has its directions.
+        // With fewer rows than columns the triangle is padded with zeros, so that every column has directions.
         let triangle = unit.qr().r().resize_vertically(columns.len(), 0.0);
         let (singular, directions) = decompose(triangle.clone())?;
         let greatest = singular.first().copied().unwrap_or(0.0);
@@ -63,7 +63,7 @@ impl Factors {
         })
     }
 
-    /// Singular values of the columns with other lengths than one.
+    /// Singular values of the columns with the given lengths.
     pub fn scaled(&self, lengths: &[f64]) -> Option<Vec<f64>> {
         let mut triangle = self.triangle.clone();
         for (mut column, length) in triangle.column_iter_mut().zip(lengths) {
@@ -72,8 +72,8 @@ impl Factors {
         Some(decompose(triangle)?.0)
     }
 
-    /// Root of the inverse: columns V/S of the resolved directions, each row divided by the length of its column. Times its
-    /// transpose it is the covariance for a variance of one.
+    /// Root of the inverse: columns V/S of the resolved directions, each row divided by the length of its column. Its product with its
+    /// transpose is the covariance for unit variance.
     pub fn root(&self) -> DMatrix<f64> {
         DMatrix::from_fn(self.columns.len(), self.resolved, |i, k| {
             self.directions[(i, k)] / self.singular[k] / self.norms[i]
@@ -98,12 +98,12 @@ impl Factors {
     }
 }
 
-/// Singular values and right directions of a square matrix, the greatest first.
+/// Singular values in descending order and right singular vectors of a square matrix.
 fn decompose(matrix: DMatrix<f64>) -> Option<(Vec<f64>, DMatrix<f64>)> {
     if matrix.is_empty() {
         return Some((Vec::new(), matrix));
     }
-    // With an end: entries that are no numbers would keep the iteration going.
+    // Limited, because the iteration does not terminate if entries are NaN.
     let svd = matrix.try_svd(false, true, f64::EPSILON, 10_000)?;
     let directions = svd.v_t?.transpose();
     Some((svd.singular_values.iter().copied().collect(), directions))

@@ -8,29 +8,29 @@ use nalgebra::DMatrix;
 use super::factors::Factors;
 use super::{Parameter, Standing};
 
-/// Part of a gradient in unresolved directions from which on a quantity counts as not identifiable.
+/// Part of a gradient in unresolved directions above which a quantity is not identifiable.
 const UNRESOLVED: f64 = 0.1;
 
-/// Where the standard uncertainties of the points come from. It is known before the fit and never chosen by its outcome.
+/// Origin of the standard uncertainties of the points. It is chosen before the fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Accuracy {
-    /// From the instruments: residuals are in units of their standard uncertainty.
+    /// Given by the instruments: residuals are in units of their standard uncertainty.
     Given,
-    /// Unknown: residuals are in any common unit, and their scatter tells it.
+    /// Unknown: residuals are in any common unit, and their scatter is used.
     Estimated,
 }
 
-/// A fit, linearised at its optimum. Parameters are counted by their coordinate u.
+/// A fit, linearised at its optimum. Parameters are represented by their coordinate u.
 ///
-/// Functions of one parameter take its place in the list and panic, as an index does, where there is none.
+/// Functions of one parameter take its index and panic if it is out of bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     parameters: Vec<Parameter>,
     accuracy: Accuracy,
     pub(super) factors: Factors,
-    /// One row for each parameter, zero where it has no variance; times its transpose and the variance the covariance.
+    /// One row for each parameter, zero if it has no variance; its product with its transpose and the variance is the covariance.
     root: DMatrix<f64>,
-    /// Lengths of all columns, gradient of half the sum of squares.
+    /// Lengths of all columns, and gradient of half the sum of squares.
     pub(super) norms: Vec<f64>,
     pub(super) gradient: Vec<f64>,
     residuals: Vec<f64>,
@@ -40,17 +40,16 @@ pub struct Fit {
     pub(super) variance: f64,
     /// Standard deviation of a residual.
     pub(super) scatter: f64,
-    /// Whether outliers pull less: the objective then follows no chi-square.
+    /// Whether the loss is robust: the objective is then not chi-square distributed.
     pub(super) robust: bool,
 }
 
 impl Fit {
-    /// From a central Jacobian dr/du, one column for each parameter, and the residuals (calculated less measured, over the
-    /// standard uncertainty). The last rows of both may be those of priors.
+    /// From a central Jacobian dr/du, one column for each parameter, and the residuals (calculated minus measured, over the standard
+    /// uncertainty). The last rows of both may belong to priors.
     ///
     /// # Errors
-    /// If the counts do not fit together, numbers are not finite, or the accuracy is to be estimated without more rows than
-    /// parameters.
+    /// If the dimensions do not match, numbers are not finite, or the accuracy is to be estimated without more rows than parameters.
     pub fn new(
         parameters: Vec<Parameter>,
         jacobian: &DMatrix<f64>,
@@ -69,9 +68,12 @@ impl Fit {
         }
         let norms: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
         for (parameter, norm) in parameters.iter().zip(&norms) {
-            // Steep columns whose squares overflow are refused with those that are no numbers.
+            // Columns whose squares overflow are rejected like columns with NaN.
             if !norm.is_finite() || !parameter.u.is_finite() || parameter.bounds.iter().any(|b| b.is_nan()) {
-                return Err(format!("the derivative or place of {} is not finite", parameter.name));
+                return Err(format!(
+                    "the derivative or coordinate of {} is not finite",
+                    parameter.name
+                ));
             }
         }
         let objective: f64 = residuals.iter().map(|r| r * r).sum();
@@ -92,7 +94,7 @@ impl Fit {
             Accuracy::Estimated if freedom > 0.0 => objective / freedom,
             Accuracy::Estimated => {
                 return Err(format!(
-                    "{rows} points for {} parameters tell nothing of their accuracy",
+                    "{rows} points for {} parameters do not allow an estimate of the accuracy",
                     free.len()
                 ));
             }
@@ -118,7 +120,7 @@ impl Fit {
         Ok(fit)
     }
 
-    /// Takes the covariance from singular values.
+    /// Sets the covariance from singular values.
     pub(super) fn take(&mut self, factors: Factors) {
         let mut root = DMatrix::zeros(self.parameters.len(), factors.resolved);
         for (j, row) in factors.columns.iter().zip(factors.root().row_iter()) {
@@ -132,12 +134,12 @@ impl Fit {
         &self.parameters
     }
 
-    /// Where the uncertainties of the points come from.
+    /// Origin of the uncertainties of the points.
     pub fn accuracy(&self) -> Accuracy {
         self.accuracy
     }
 
-    /// Whether outliers pull less.
+    /// Whether the loss is robust.
     pub fn is_robust(&self) -> bool {
         self.robust
     }
@@ -147,7 +149,7 @@ impl Fit {
         &self.residuals
     }
 
-    /// Share of each point in its own calculated value, from zero to one.
+    /// Leverage of each point, from zero to one.
     pub fn leverage(&self) -> &[f64] {
         &self.leverage
     }
@@ -162,43 +164,43 @@ impl Fit {
         self.objective
     }
 
-    /// Degrees of freedom of the objective: points and priors less the directions that they resolve. It may be negative.
+    /// Degrees of freedom of the objective: points and priors minus resolved directions. It may be negative.
     pub fn freedom(&self) -> f64 {
         (self.residuals.len() + self.priors) as f64 - self.factors.resolved as f64
     }
 
-    /// Standard deviation of a residual: one where the accuracies are given, else estimated; under a robust loss by the median.
+    /// Standard deviation of a residual: one if the accuracies are given, otherwise estimated; with a robust loss by the median.
     pub fn scatter(&self) -> f64 {
         self.scatter
     }
 
-    /// Variance by which the covariance is scaled: one where the accuracies are given, else estimated.
+    /// Variance by which the covariance is scaled: one if the accuracies are given, otherwise estimated.
     pub fn variance(&self) -> f64 {
         self.variance
     }
 
-    /// Derivative of half the objective by the coordinate of a parameter: how hard a bound must hold it.
+    /// Derivative of half the objective by the coordinate of a parameter.
     pub fn gradient(&self, parameter: usize) -> f64 {
         self.gradient[parameter]
     }
 
-    /// Length of the column of a parameter: 1/length is its standard deviation if all others were known, for a variance of one.
+    /// Length of the column of a parameter: 1/length is its conditional standard deviation for unit variance.
     pub fn column(&self, parameter: usize) -> f64 {
         self.norms[parameter]
     }
 
-    /// Entry of the root of the covariance for a variance of one.
+    /// Entry of the root of the covariance for unit variance.
     pub(super) fn root_entry(&self, parameter: usize, direction: usize) -> f64 {
         self.root[(parameter, direction)]
     }
 
-    /// Covariance of two coordinates; zero where one does not move. Of parameters that are not identifiable it is that of the
-    /// resolved directions only.
+    /// Covariance of two coordinates; zero if one is not free. For parameters that are not identifiable it includes the resolved directions
+    /// only.
     pub fn covariance(&self, j: usize, k: usize) -> f64 {
         self.variance * self.root.row(j).dot(&self.root.row(k))
     }
 
-    /// Standard deviation of a coordinate; absent for parameters that are held, active, or not identifiable.
+    /// Standard deviation of a coordinate; absent for parameters that are fixed, at an active bound, or not identifiable.
     pub fn deviation(&self, parameter: usize) -> Option<f64> {
         if self.parameters[parameter].standing != Standing::Free {
             return None;
@@ -208,7 +210,7 @@ impl Fit {
         self.deviation_along(&gradient)
     }
 
-    /// Correlation of two coordinates; absent where one of them has no standard deviation.
+    /// Correlation of two coordinates; absent if one of them has no standard deviation.
     pub fn correlation(&self, j: usize, k: usize) -> Option<f64> {
         let product = self.deviation(j)? * self.deviation(k)?;
         (product > 0.0).then(|| {
@@ -220,11 +222,11 @@ impl Fit {
         })
     }
 
-    /// Standard deviation of a quantity from its gradient over the coordinates; absent where it is not identifiable. It is
-    /// conditional on parameters that are held or active.
+    /// Standard deviation of a quantity from its gradient over the coordinates; absent if it is not identifiable. It is conditional on
+    /// parameters that are fixed or at an active bound.
     ///
-    /// A quantity is not identifiable if more than a tenth of its gradient, in units of columns of length one, lies in
-    /// directions that the data do not resolve, or if it depends on a parameter that no residual depends on.
+    /// A quantity is not identifiable if more than a tenth of its gradient, in units of columns of unit length, is in unresolved
+    /// directions, or if it depends on a parameter without effect on the residuals.
     pub fn deviation_along(&self, gradient: &[f64]) -> Option<f64> {
         let unseen = |j: usize| self.norms[j] == 0.0 && self.parameters[j].standing == Standing::Free;
         if gradient.len() != self.parameters.len() || (0..gradient.len()).any(|j| unseen(j) && gradient[j] != 0.0) {
@@ -257,14 +259,13 @@ impl Fit {
         Some((self.variance * variance).sqrt()).filter(|d| d.is_finite())
     }
 
-    /// Singular values of the columns scaled to unit length, the greatest first: how nearly parallel columns are. Those below
-    /// 1e-9 of the greatest are not resolved.
+    /// Singular values of the columns scaled to unit length, in descending order: a measure of collinearity. Those below 1e-9 of the
+    /// largest are not resolved.
     pub fn singular_values(&self) -> &[f64] {
         &self.factors.singular
     }
 
-    /// Directions of the singular values, over the parameters, zero for those that do not move: entries belong to columns of
-    /// unit length.
+    /// Directions of the singular values over the parameters, zero for those that are not free; entries refer to columns of unit length.
     pub fn direction(&self, place: usize) -> Vec<f64> {
         let mut direction = vec![0.0; self.parameters.len()];
         for (i, j) in self.factors.columns.iter().enumerate() {
@@ -273,28 +274,28 @@ impl Fit {
         direction
     }
 
-    /// Greatest over least singular value of unit columns: above 30 parallel columns are to be watched, above 1000 told. Absent
-    /// where the least is zero.
+    /// Condition number: largest over smallest singular value of unit columns. Above 30 collinearity should be checked, above 1000 it is
+    /// reported. Absent if the smallest is zero.
     pub fn condition(&self) -> Option<f64> {
         let values = self.singular_values();
         let condition = values.first()? / values.last()?;
         condition.is_finite().then_some(condition)
     }
 
-    /// Whether there are directions that the data do not resolve: the end of such a fit is no success.
+    /// Whether there are directions that the data do not resolve: such a fit is not successful.
     pub fn is_singular(&self) -> bool {
         let free = self.parameters.iter().filter(|p| p.standing == Standing::Free).count();
         self.factors.resolved < free
     }
 
-    /// Singular values of the columns times the ranges of the parameters, over the standard deviation of a residual, the greatest
-    /// first. Along a direction of value s the half-width of the 95 % interval is 1.96/s of the range.
+    /// Singular values of the columns times the ranges of the parameters, over the standard deviation of a residual, in descending order.
+    /// Along a direction of value s the half-width of the 95 % interval is 1.96/s of the range.
     pub fn ranged_singular_values(&self) -> Vec<f64> {
         self.scaled_singular_values(Parameter::range)
     }
 
-    /// The same with the sizes of the parameters in place of their ranges, [`Parameter::own_size`]: values above four tell how many
-    /// combinations the data resolve, whatever the bounds are.
+    /// The same with the sizes of the parameters, [`Parameter::own_size`], instead of their ranges: the number of values above four is the
+    /// number of identifiable combinations, independent of the bounds.
     pub fn sized_singular_values(&self) -> Vec<f64> {
         self.scaled_singular_values(Parameter::own_size)
     }

@@ -1,29 +1,28 @@
 //! Cross-validation by blocks of neighbouring points, or by other groups.
 //!
-//! Single points are not left out alone: neighbours are correlated and would give the answer away (Roberts et al., Ecography
-//! 40 (2017) 913-929).
+//! Points are not left out singly: neighbours are correlated and would reveal the result (Roberts et al., Ecography 40 (2017) 913-929).
 
 use crate::sampling::Generator;
 use crate::statistics::levels;
 
-/// Folds at most, unless more are asked for.
+/// Default number of folds.
 pub const FOLDS: usize = 5;
-/// Error of a fold over that of the fit from which on a model does not extrapolate.
+/// Ratio of the error of a fold to that of the fit above which a model does not extrapolate.
 const EXTRAPOLATES: f64 = 1.5;
 
 /// Points that are left out together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fold {
-    /// What its points have in common, where that is no band.
+    /// Common property of its points if it is not a band.
     pub label: Option<String>,
-    /// Least and greatest value of the coordinate; absent for groups by labels or lot.
+    /// Minimum and maximum of the coordinate; absent for groups by labels or random groups.
     pub band: Option<[f64; 2]>,
-    /// Places of the points, ascending.
+    /// Indices of the points, ascending.
     pub points: Vec<usize>,
 }
 
-/// Folds of neighbouring values of a coordinate, of torque as a rule: as many as asked for, or one for each value where there
-/// are fewer. Values within two percent count as one.
+/// Folds of neighbouring values of a coordinate, usually torque: `most` folds, or one for each value if there are fewer. Values within two
+/// percent are considered equal.
 ///
 /// # Errors
 /// If there are fewer than two values or folds, or a value is not finite.
@@ -35,7 +34,7 @@ pub fn folds(coordinate: &[f64], most: usize) -> Result<Vec<Fold>, String> {
     let count = most.min(levels.len());
     if count < 2 {
         return Err(format!(
-            "{} values in {most} folds: leaving a fold out needs two of either",
+            "{} values in {most} folds: cross-validation needs at least two of both",
             levels.len()
         ));
     }
@@ -73,18 +72,17 @@ pub fn labelled_folds(labels: &[String]) -> Result<Vec<Fold>, String> {
         [only] => {
             let label = only.label.as_deref().unwrap_or_default();
             Err(format!(
-                "all points belong to one group, `{label}`: leaving it out leaves nothing"
+                "all points belong to one group, `{label}`: cross-validation needs at least two"
             ))
         }
         _ => Ok(folds),
     }
 }
 
-/// Folds drawn by lot, the same for the same seed. Points of one row, which share its meters' errors, stay together.
+/// Random folds, determined by the seed. Points of one row, which share the errors of its instruments, stay together.
 ///
-/// Neighbouring points err together, in a rig and even more in a model. A random fold has fitted neighbours on all sides, so its
-/// error says how well the model fills gaps, and hardly anything of how it does beyond what was measured: it is too optimistic
-/// (Roberts et al. 2017).
+/// Errors of neighbouring points are correlated. A random fold has fitted neighbours on all sides, so its error describes interpolation
+/// only and is too optimistic for extrapolation (Roberts et al. 2017).
 ///
 /// # Errors
 /// If there are fewer than two rows or folds.
@@ -95,7 +93,7 @@ pub fn random_folds(rows: &[usize], most: usize, seed: u64) -> Result<Vec<Fold>,
     let count = most.min(order.len());
     if count < 2 {
         return Err(format!(
-            "{} rows in {most} folds: leaving a fold out needs two of either",
+            "{} rows in {most} folds: cross-validation needs at least two of both",
             order.len()
         ));
     }
@@ -116,15 +114,15 @@ pub fn random_folds(rows: &[usize], most: usize, seed: u64) -> Result<Vec<Fold>,
 pub struct Validation {
     /// Mean square of each fold.
     pub mean_squares: Vec<f64>,
-    /// Root of the mean square over all points.
+    /// Root mean square over all points.
     pub rms: f64,
     /// Error of each point.
     pub errors: Vec<f64>,
 }
 
 impl Validation {
-    /// From the error of each point, calculated with the parameters that were fitted without its fold. Absent where a fold
-    /// names a point that is not there, or has none.
+    /// From the error of each point, calculated with the parameters fitted without its fold. Absent if a fold is empty or contains an
+    /// unknown point.
     pub fn new(folds: &[Fold], errors: &[f64]) -> Option<Self> {
         let sum = |fold: &Fold| -> Option<f64> {
             let list = fold.points.iter().map(|i| errors.get(*i).map(|e| e * e));
@@ -143,12 +141,12 @@ impl Validation {
         })
     }
 
-    /// Root of the mean square of each fold.
+    /// Root mean square of each fold.
     pub fn fold_rms(&self) -> Vec<f64> {
         self.mean_squares.iter().map(|m| m.sqrt()).collect()
     }
 
-    /// Numbers of the folds to which the model does not extrapolate, given the root of the mean square of the whole fit.
+    /// Indices of the folds to which the model does not extrapolate, given the root mean square of the whole fit.
     pub fn strange(&self, in_sample: f64) -> Vec<usize> {
         let rms = self.fold_rms();
         (0..rms.len()).filter(|k| rms[*k] > EXTRAPOLATES * in_sample).collect()

@@ -1,15 +1,15 @@
-//! The regularised incomplete functions of gamma and beta, from which the distributions of statistics come.
+//! The regularised incomplete gamma and beta functions, the basis of the distributions.
 //!
-//! They are written here because the project needs five short functions and no more; a library of statistics would bring its
-//! own dependencies. Formulas: NIST Digital Library of Mathematical Functions, sections 5.11, 8.7, 8.9 and 8.17.
+//! They are implemented here because the project needs only five short functions; a statistics library would add dependencies. Formulas:
+//! NIST Digital Library of Mathematical Functions, sections 5.11, 8.7, 8.9 and 8.17.
 
-/// Change of a series or fraction at which it is done.
+/// Relative change at which a series or fraction has converged.
 const DONE: f64 = 1e-16;
-/// Least number that stands for zero in a fraction.
+/// Smallest number, used instead of zero in a fraction.
 const TINY: f64 = 1e-300;
-/// From here on the series of Stirling has all digits with the terms below.
+/// Argument above which Stirling's series is accurate to all digits.
 const FAR: f64 = 12.0;
-/// Coefficients of the series of Stirling, B_2k/(2k (2k - 1)) from k = 1.
+/// Coefficients of Stirling's series, B_2k/(2k (2k - 1)) from k = 1.
 const STIRLING: [f64; 7] = [
     1.0 / 12.0,
     -1.0 / 360.0,
@@ -20,7 +20,7 @@ const STIRLING: [f64; 7] = [
     1.0 / 156.0,
 ];
 
-/// Logarithm of the gamma function, above zero.
+/// Logarithm of the gamma function for positive arguments.
 pub(super) fn ln_gamma(x: f64) -> f64 {
     let (mut far, mut product) = (x, 1.0);
     while far < FAR {
@@ -32,13 +32,12 @@ pub(super) fn ln_gamma(x: f64) -> f64 {
     (far - 0.5) * far.ln() - far + 0.5 * (2.0 * std::f64::consts::PI).ln() + series - product.ln()
 }
 
-/// Terms that suffice: the series and fractions settle within some roots of their greatest parameter. No fit has so many points
-/// that the end of the count matters.
-fn most(parameter: f64) -> usize {
+/// Sufficient number of terms: series and fractions converge within a few times the root of their largest parameter.
+fn sufficient_terms(parameter: f64) -> usize {
     1000 + (50.0 * parameter.sqrt()).min(1e6) as usize
 }
 
-/// Regularised incomplete gamma functions P and Q = 1 - P, both with all their digits; a above zero, x not below.
+/// Regularised incomplete gamma functions P and Q = 1 - P, both to full precision; a positive, x not negative.
 pub(super) fn gamma(a: f64, x: f64) -> [f64; 2] {
     if x <= 0.0 {
         return [0.0, 1.0];
@@ -49,7 +48,7 @@ pub(super) fn gamma(a: f64, x: f64) -> [f64; 2] {
     let front = (a * x.ln() - x - ln_gamma(a)).exp();
     if x < a + 1.0 {
         let (mut term, mut sum) = (1.0 / a, 1.0 / a);
-        for k in 1..most(a) {
+        for k in 1..sufficient_terms(a) {
             term *= x / (a + k as f64);
             sum += term;
             if term < DONE * sum {
@@ -59,7 +58,7 @@ pub(super) fn gamma(a: f64, x: f64) -> [f64; 2] {
         let p = (front * sum).clamp(0.0, 1.0);
         return [p, 1.0 - p];
     }
-    let fraction = lentz(most(a), |k| {
+    let fraction = lentz(sufficient_terms(a), |k| {
         let k = k as f64;
         (if k == 0.0 { 1.0 } else { k * (a - k) }, x - a + 1.0 + 2.0 * k)
     });
@@ -67,8 +66,8 @@ pub(super) fn gamma(a: f64, x: f64) -> [f64; 2] {
     [1.0 - q, q]
 }
 
-/// Regularised incomplete beta functions I_x(a, b) and I_y(b, a), which is one less it, both with all their digits; a and b above
-/// zero, x and y from zero to one and y = 1 - x. Both are asked for, because near one the other cannot be told from a difference.
+/// Regularised incomplete beta functions I_x(a, b) and I_y(b, a) = 1 - I_x(a, b), both to full precision; a and b positive, x and y from
+/// zero to one and y = 1 - x. Both are returned, because a difference near one would lose digits.
 pub(super) fn beta(a: f64, b: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     if x <= 0.0 {
         return [0.0, 1.0];
@@ -76,14 +75,14 @@ pub(super) fn beta(a: f64, b: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     if y <= 0.0 {
         return [1.0, 0.0];
     }
-    // The fraction settles quickly below the mean only.
+    // The fraction converges quickly only below the mean.
     if x > (a + 1.0) / (a + b + 2.0) {
         let [upper, lower] = beta(b, a, [y, x]);
         return [lower, upper];
     }
     let ln_y = if x < 0.5 { (-x).ln_1p() } else { y.ln() };
     let front = (ln_gamma(a + b) - ln_gamma(a) - ln_gamma(b) + a * x.ln() + b * ln_y).exp() / a;
-    let fraction = lentz(most(a.max(b)), |k| {
+    let fraction = lentz(sufficient_terms(a.max(b)), |k| {
         let m = (k / 2) as f64;
         let numerator = match k {
             0 => 1.0,
@@ -96,8 +95,8 @@ pub(super) fn beta(a: f64, b: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     [lower, 1.0 - lower]
 }
 
-/// The continued fraction of the numerators and denominators of a rule, by the method of Lentz as changed by Thompson and
-/// Barnett (J. Comput. Phys. 64 (1986) 490-509).
+/// A continued fraction given by its numerators and denominators, by the modified Lentz method of Thompson and Barnett (J. Comput. Phys. 64
+/// (1986) 490-509).
 fn lentz(most: usize, rule: impl Fn(usize) -> (f64, f64)) -> f64 {
     let away = |x: f64| if x.abs() < TINY { TINY } else { x };
     let (mut value, mut c, mut d) = (TINY, TINY, 0.0);

@@ -9,22 +9,22 @@ use crate::sampling::{Sobol, inverse_normal};
 /// An interval of one parameter, in its own unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// Lower and upper end, inside the bounds.
+    /// Lower and upper end, within the bounds.
     pub ends: [f64; 2],
-    /// The ends without regard to the bounds.
+    /// The ends without the bounds.
     pub uncut: [f64; 2],
 }
 
 impl Interval {
-    /// Whether an end is cut at the bound; an interval by profile is then the better one.
+    /// Whether an end is cut at a bound; a profile interval is then better.
     pub fn is_cut(&self, side: Side) -> bool {
         self.ends[side.place()] != self.uncut[side.place()]
     }
 }
 
 impl Fit {
-    /// Half-width of a two-sided interval over the standard deviation: normal where the accuracies are given, Student's where
-    /// they are estimated. Absent where the confidence is not between zero and one.
+    /// Half-width of a two-sided interval over the standard deviation: normal quantile if the accuracies are given, Student's if they are
+    /// estimated. Absent if the confidence is not between zero and one.
     pub fn quantile(&self, confidence: f64) -> Option<f64> {
         let probability = 0.5 + 0.5 * confidence;
         match self.accuracy() {
@@ -34,15 +34,15 @@ impl Fit {
         }
     }
 
-    /// Root of the rise of the objective at the ends of an interval by profile.
+    /// Root of the increase of the objective at the ends of a profile interval.
     pub fn profile_limit(&self, confidence: f64) -> Option<f64> {
         Some(self.quantile(confidence)? * self.variance().sqrt())
     }
 
-    /// Interval of a parameter: symmetric in its coordinate, so not in its own unit where it is counted by its logarithm.
+    /// Interval of a parameter, symmetric in its coordinate.
     ///
-    /// The half-width is multiplied by `widening`: one, or the widening of a fit that does not reproduce its data. Absent where the
-    /// parameter has no standard deviation.
+    /// The half-width is multiplied by `widening`: one, or the widening of a fit that does not reproduce its data. Absent if the parameter
+    /// has no standard deviation.
     pub fn interval(&self, parameter: usize, confidence: f64, widening: f64) -> Option<Interval> {
         let half = self.quantile(confidence)? * self.deviation(parameter)? * widening;
         let parameter = &self.parameters()[parameter];
@@ -56,7 +56,7 @@ impl Fit {
         })
     }
 
-    /// Rise of the objective from the optimum to other coordinates, as the linearised fit sees it. Only free parameters count.
+    /// Increase of the linearised objective from the optimum to other coordinates. Only free parameters are considered.
     pub fn rise(&self, u: &[f64]) -> f64 {
         let factors = &self.factors;
         let steps: Vec<f64> = (factors.columns.iter().zip(&factors.norms))
@@ -69,8 +69,8 @@ impl Fit {
         (0..factors.singular.len()).map(|k| along(k).powi(2)).sum()
     }
 
-    /// Rise of the objective at the border of the region that holds all free parameters together with a confidence. The exact
-    /// region asks the same rise of the objective itself.
+    /// Increase of the objective at the border of the joint confidence region of all free parameters. The exact region has the same
+    /// increase of the exact objective.
     pub fn joint_limit(&self, confidence: f64) -> Option<f64> {
         let count = self.factors.resolved as f64;
         match self.accuracy() {
@@ -79,8 +79,8 @@ impl Fit {
         }
     }
 
-    /// Coordinates spread over the region that holds all free parameters with a confidence: normal by the covariance, drawn
-    /// in if they lie beyond the region, cut at the bounds. They come from Sobol points, the same ones every time.
+    /// Coordinates distributed over the joint confidence region of all free parameters: normal by the covariance, scaled back into the
+    /// region, cut at the bounds. They are generated from Sobol points and are reproducible.
     ///
     /// # Errors
     /// If there are more free parameters than Sobol points have dimensions, or the confidence is not between zero and one.
@@ -92,11 +92,11 @@ impl Fit {
         }
         let limit = self
             .joint_limit(confidence)
-            .ok_or_else(|| format!("{confidence} is no confidence between zero and one"))?;
+            .ok_or_else(|| format!("{confidence} is not a confidence between zero and one"))?;
         let sobol = Sobol::new(resolved)?;
         let draw = |index: u32| {
             let shares = sobol.point(index);
-            // Coordinates of Sobol points are inside the open interval, where every quantile is.
+            // Coordinates of Sobol points are inside the open interval, where every quantile exists.
             let normal: Vec<f64> = shares.iter().filter_map(|p| inverse_normal(*p)).collect();
             let square: f64 = self.variance() * normal.iter().map(|z| z * z).sum::<f64>();
             let size = self.variance().sqrt() * (limit / square.max(limit)).sqrt();

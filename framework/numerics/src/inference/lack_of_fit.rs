@@ -3,28 +3,27 @@
 use super::probability::{chi_square_above, f_above};
 use super::{Accuracy, Fit};
 
-/// Probabilities outside of which something is said.
+/// Probabilities outside which a note is printed.
 const SAID: [f64; 2] = [0.01, 0.99];
 
-/// How the scatter of a fit goes with the accuracy that was stated.
+/// Consistency of the scatter of a fit with the stated accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LackOfFit {
-    /// Sum of the squared residuals, those of priors with them.
+    /// Sum of the squared residuals, including those of priors.
     pub objective: f64,
     /// Degrees of freedom of this sum.
     pub freedom: f64,
-    /// Probability of a sum as great or greater if model and accuracies are right.
+    /// Probability of a sum at least this large if model and accuracies are correct.
     pub probability: f64,
 }
 
 impl LackOfFit {
-    /// Factor by which intervals are too small at least, where the model does not reproduce the data; both intervals are then
-    /// to be shown.
+    /// Minimum factor by which intervals are too small if the model does not reproduce the data; both intervals should then be shown.
     pub fn widening(&self) -> Option<f64> {
         (self.probability < SAID[0]).then(|| (self.objective / self.freedom).sqrt())
     }
 
-    /// What there is to say; nothing where scatter and accuracy go together.
+    /// A note; absent if scatter and accuracy are consistent.
     pub fn words(&self) -> Option<String> {
         if let Some(widening) = self.widening() {
             return Some(format!(
@@ -36,11 +35,10 @@ impl LackOfFit {
 }
 
 impl Fit {
-    /// The test of the whole fit; absent where the accuracies are estimated from the same scatter, outliers pull
-    /// less, or nothing is left over.
+    /// The test of the whole fit; absent if the accuracies are estimated from the same scatter, the loss is robust, or there are no degrees
+    /// of freedom.
     ///
-    /// Rows of priors count in the sum as they count in the degrees of freedom: a prior that the data contradict is a lack of
-    /// fit too.
+    /// Rows of priors are included in the sum and in the degrees of freedom: a prior that contradicts the data is also a lack of fit.
     pub fn lack_of_fit(&self) -> Option<LackOfFit> {
         let [objective, freedom] = [self.objective(), self.freedom()];
         (self.accuracy() == Accuracy::Given && !self.robust).then_some(())?;
@@ -52,25 +50,25 @@ impl Fit {
     }
 }
 
-/// The scatter of repeated points set against what is left over.
+/// The scatter of repeated points compared with the remaining residuals.
 ///
 /// Source: Draper, Smith: Applied Regression Analysis (Wiley 1998), section 2.1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PureError {
     /// Sum of squares about the means of repeated points, and its degrees of freedom.
     pub pure: [f64; 2],
-    /// Sum of squares that is left, and its degrees of freedom.
+    /// Remaining sum of squares, and its degrees of freedom.
     pub lack: [f64; 2],
     /// Ratio of the mean squares, lack over pure.
     pub ratio: f64,
-    /// Probability of a ratio as great or greater if the model is right, whatever the accuracy.
+    /// Probability of a ratio at least this large if the model is correct, independent of the accuracy.
     pub probability: f64,
 }
 
-/// Splits what is left over by points that were measured again: groups of places with the same settings and accuracy.
+/// Splits the residuals by repeated points: groups of indices with the same settings and accuracy.
 ///
-/// Points in no group count as measured once. Absent where nothing is repeated, nothing is left over, or repetitions agree to
-/// the last digit.
+/// Points in no group count as measured once. Absent if there are no repetitions, no remaining degrees of freedom, or identical
+/// repetitions.
 pub fn pure_error(fit: &Fit, groups: &[Vec<usize>]) -> Option<PureError> {
     let r = fit.residuals();
     let (mut pure, mut repeats) = (0.0, 0_usize);

@@ -1,27 +1,27 @@
-//! Comparison of models that were fitted to the same points with the same accuracies.
+//! Comparison of models fitted to the same points with the same accuracies.
 //!
-//! A comparison has three answers: better, worse, not decided. Folds decide where there are any, because they are predictions: the
-//! errors are paired fold by fold ([`Paired`]), and the difference must be one that the set of points can see ([`Separation`]).
-//! Akaike's criterion decides only where there are no folds and both models reproduce the points: it takes residuals for
-//! independent and the accuracy for right, and with a wrong shape differences of hundreds mean nothing. Where the criterion
-//! and the folds contradict each other, nothing is decided, and the sentence says so.
+//! A comparison has three results: better, worse, undecided. If there are folds, they decide, because they are predictions: the errors are
+//! paired fold by fold ([`Paired`]), and the set of points must be able to distinguish the models ([`Separation`]). Akaike's criterion
+//! decides only if there are no folds and both models reproduce the points: it assumes independent residuals and a correct accuracy, and
+//! with a wrong model shape even differences of hundreds are meaningless. If criterion and folds contradict each other, the comparison is
+//! undecided, and the sentence reports it.
 //!
-//! Sources: Hurvich, Tsai, Biometrika 76 (1989) 297-307; Burnham, Anderson: Model Selection and Multimodel Inference (Springer
-//! 2002). The limit below which the criterion does not tell two models apart is their convention.
+//! Sources: Hurvich, Tsai, Biometrika 76 (1989) 297-307; Burnham, Anderson: Model Selection and Multimodel Inference (Springer 2002). The
+//! limit below which the criterion does not distinguish two models is their convention.
 
 use super::separation::{ErrorModel, PointSet, Separation};
 use super::{Accuracy, Decision, Paired, Validation};
 
-/// Difference of the criteria below which models are not told apart.
+/// Difference of the criteria below which models are not distinguished.
 const DIFFERENCE: f64 = 4.0;
-/// Root mean square of a fold, over the accuracy, below which errors count as equal. An assumption.
+/// Root mean square of a fold, relative to the accuracy, below which errors count as equal. An assumption.
 pub const FLOOR: f64 = 0.01;
 
-/// Akaike's criterion, corrected for small samples. `parameters` counts all that were identified, those on a bound too.
+/// Akaike's criterion, corrected for small samples. `parameters` includes parameters at a bound.
 ///
-/// With given accuracies `squares` is the sum of squares in units of the standard uncertainties; with estimated ones any sum
-/// of squares of the points, whose scale then counts as one parameter more. Absent where there are too few points, or the sum
-/// has no logarithm.
+/// With given accuracies `squares` is the sum of squares in units of the standard uncertainties; with estimated accuracies any sum of
+/// squares of the points, whose scale then counts as an additional parameter. Absent if there are too few points, or the sum has no
+/// logarithm.
 pub fn akaike(squares: f64, points: usize, parameters: usize, accuracy: Accuracy) -> Option<f64> {
     let count = points as f64;
     let (misfit, k) = match accuracy {
@@ -46,9 +46,9 @@ pub struct FittedModel {
     pub validation: Option<Validation>,
     /// Residuals of all points over their standard deviation.
     pub residuals: Vec<f64>,
-    /// Standard deviation of residuals that is taken for the accuracy: one where accuracies are given.
+    /// Standard deviation of residuals that is used as the accuracy: one if accuracies are given.
     pub scatter: f64,
-    /// Where residuals speak against the model: lack of fit, or neighbours that err together.
+    /// Whether residuals contradict the model: lack of fit, or correlated neighbours.
     pub is_suspect: bool,
 }
 
@@ -59,24 +59,24 @@ impl FittedModel {
     }
 }
 
-/// Why a comparison was decided as it was.
+/// Reason of the decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reason {
     /// The interval of the ratio of the errors of the folds excludes one.
     Folds,
-    /// The interval holds one.
+    /// The interval contains one.
     FoldsUndecided,
-    /// The folds decide, but the predictions are nearer to each other than what the set of points can see.
+    /// The folds decide, but the set of points cannot distinguish the predictions.
     TooClose,
-    /// The folds decide, but errors that all points share could turn the decision round.
+    /// The folds decide, but errors common to all points could reverse the decision.
     CommonErrors,
-    /// The folds say one thing, the criterion another.
+    /// Folds and criterion contradict each other.
     Contradiction,
     /// There are no folds, and the criterion decides.
     Criterion,
-    /// There are no folds, and the criteria are too near to each other.
+    /// There are no folds, and the difference of the criteria is too small.
     CriterionUndecided,
-    /// There are no folds, and the residuals of a model say that the criterion does not hold.
+    /// There are no folds, and the residuals of a model violate the assumptions of the criterion.
     Suspect,
 }
 
@@ -96,14 +96,14 @@ impl Reason {
     }
 }
 
-/// Two models side by side.
+/// Comparison of two models.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Comparison {
-    /// Criterion of the first less that of the second.
+    /// Criterion of the first minus that of the second.
     pub difference: f64,
-    /// Errors of the folds; absent unless both were validated on the same number of folds, two at least.
+    /// Errors of the folds; absent unless both were validated on the same number of folds, at least two.
     pub folds: Option<Paired>,
-    /// How far apart the predictions are; absent without residuals of the same points.
+    /// Separation of the predictions; absent without residuals of the same points.
     pub separation: Option<Separation>,
     /// Whether the first is better.
     pub decision: Decision,
@@ -147,7 +147,7 @@ impl Comparison {
         }
     }
 
-    /// What there is to say of two models with these names, in one clause.
+    /// The result for two models with these names, as a clause.
     pub fn words(&self, first: &str, second: &str) -> String {
         let [better, other] = match self.decision {
             Decision::Worse => [second, first],
@@ -165,43 +165,43 @@ impl Comparison {
         };
         let gap = self.difference.abs();
         match self.reason {
-            Reason::Folds => format!("{better} predicts points that were left out better than {other}: {folds}"),
+            Reason::Folds => format!("{better} predicts left-out points better than {other}: {folds}"),
             Reason::FoldsUndecided if gap >= DIFFERENCE => format!(
-                "not decided between {first} and {second}: {folds}; Akaike's criterion is lower by {gap:.1} for {lower}, but describing \
+                "undecided between {first} and {second}: {folds}; Akaike's criterion is lower by {gap:.1} for {lower}, but describing \
                  the points that were fitted is not predicting others"
             ),
-            Reason::FoldsUndecided => format!("not decided between {first} and {second}: {folds}"),
+            Reason::FoldsUndecided => format!("undecided between {first} and {second}: {folds}"),
             Reason::TooClose => format!(
-                "not decided between {first} and {second}: {folds}, but their predictions are {:.1} standard deviations of the whole \
+                "undecided between {first} and {second}: {folds}, but their predictions differ by {:.1} standard deviations of the whole \
                  set of points apart, and the set sees {:.1} and more (correlation of the errors {:.2})",
                 self.separation.map_or(0.0, |s| s.square.sqrt()),
                 super::separation::VISIBLE.sqrt(),
                 self.separation.map_or(0.0, |s| s.correlation),
             ),
             Reason::CommonErrors => format!(
-                "not decided between {first} and {second}: {folds}, but errors that all points share could be the reason (correlation \
+                "undecided between {first} and {second}: {folds}, but errors common to all points could be the reason (correlation \
                  of the errors {:.2})",
                 self.separation.map_or(0.0, |s| s.correlation),
             ),
             Reason::Contradiction => format!(
-                "not decided between {first} and {second}: two measures contradict each other, {folds}, but Akaike's criterion is lower \
+                "undecided between {first} and {second}: two measures contradict each other, {folds}, but Akaike's criterion is lower \
                  by {gap:.1} for {lower} than for {higher}"
             ),
             Reason::Criterion => {
                 format!("{better} describes the points better than {other}: Akaike's criterion is lower by {gap:.1}")
             }
             Reason::CriterionUndecided => format!(
-                "not decided between {first} and {second}: Akaike's criterion differs by {gap:.1}, and nothing was predicted"
+                "undecided between {first} and {second}: Akaike's criterion differs by {gap:.1}, and there is no cross-validation"
             ),
             Reason::Suspect => format!(
-                "not decided between {first} and {second}: Akaike's criterion is lower by {gap:.1} for {lower}, but it does not hold \
+                "undecided between {first} and {second}: Akaike's criterion is lower by {gap:.1} for {lower}, but it does not hold \
                  where residuals are correlated or larger than the accuracy; predict folds instead"
             ),
         }
     }
 }
 
-/// The ratio of the folds in words, as the one with the smaller errors sees it.
+/// The ratio of the folds as text, for the model with the smaller errors.
 fn folds_in_words(folds: &Paired, smaller: &str) -> String {
     let (ratio, [low, high], won) = if folds.ratio > 1.0 {
         let [low, high] = folds.interval;
@@ -215,8 +215,8 @@ fn folds_in_words(folds: &Paired, smaller: &str) -> String {
     )
 }
 
-/// How far apart predictions are. Where accuracies are given, the errors are those of the model with the smaller residuals; where they are
-/// estimated from the scatter, what is common to all points cannot be told from the model, and the larger correlation counts.
+/// Separation of the predictions. If accuracies are given, the errors are those of the model with the smaller residuals; if they are
+/// estimated from the scatter, common errors cannot be distinguished from model errors, and the larger correlation is used.
 fn separation(a: &FittedModel, b: &FittedModel, points: &PointSet) -> Option<Separation> {
     let [first, second] = [a, b].map(FittedModel::scaled);
     if first.is_empty() || first.len() != second.len() {
@@ -239,8 +239,8 @@ fn separation(a: &FittedModel, b: &FittedModel, points: &PointSet) -> Option<Sep
     Some(Separation::new([&in_one_unit(a), &in_one_unit(b)], &errors?))
 }
 
-/// Places of models in the order in which they are shown: first those that are not decidedly worse than the best, the fewest parameters
-/// before, then the others. The best is the one with the smallest error of predictions, or criterion where nothing was predicted.
+/// Indices of models in display order: first those that are not significantly worse than the best, by number of parameters, then the
+/// others. The best has the smallest prediction error, or the smallest criterion without predictions.
 pub fn ranking(models: &[FittedModel], points: &PointSet) -> Vec<usize> {
     let mut order: Vec<usize> = (0..models.len()).collect();
     let validated = models.iter().all(|model| model.validation.is_some());

@@ -5,18 +5,18 @@
 
 use super::probability::normal_below;
 
-/// The test of Anderson and Darling, which looks at the tails, with mean and variance from the sample itself.
+/// The Anderson-Darling test, which is sensitive to the tails, with mean and variance from the sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AndersonDarling {
     /// The statistic A^2.
     pub statistic: f64,
     /// The statistic corrected for the size of the sample.
     pub corrected: f64,
-    /// Probability of a statistic as great or greater if the sample is normal.
+    /// Probability of a statistic at least this large if the sample is normal.
     pub probability: f64,
 }
 
-/// Tests a sample; absent where there are fewer than eight values, for which the correction is not meant, or all are equal.
+/// Tests a sample; absent if there are fewer than eight values, for which the correction does not apply, or all are equal.
 pub fn anderson_darling(values: &[f64]) -> Option<AndersonDarling> {
     let count = values.len() as f64;
     if values.len() < 8 {
@@ -26,7 +26,7 @@ pub fn anderson_darling(values: &[f64]) -> Option<AndersonDarling> {
     let variance = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0);
     let mut standard: Vec<f64> = values.iter().map(|x| (x - mean) / variance.sqrt()).collect();
     standard.sort_by(f64::total_cmp);
-    // Beyond 38 deviations no number holds the probability.
+    // Beyond 38 deviations the probability underflows.
     let ln_below = |z: f64| Some(normal_below(z)?.max(f64::MIN_POSITIVE).ln());
     let mut sum = 0.0;
     for (i, z) in standard.iter().enumerate() {
@@ -46,7 +46,7 @@ pub fn anderson_darling(values: &[f64]) -> Option<AndersonDarling> {
 fn probability(a: f64) -> f64 {
     let parabola = |[c, b, q]: [f64; 3], a: f64| (c + b * a + q * a * a).exp();
     let p = if a >= 0.6 {
-        // The parabola turns up behind 153, where nothing is left.
+        // The parabola increases above 153, where the probability is negligible.
         parabola([1.2937, -5.709, 0.0186], a.min(150.0))
     } else if a > 0.34 {
         parabola([0.9177, -4.279, -1.38], a)

@@ -1,16 +1,15 @@
-//! Two models compared fold by fold: how many times as large the error of one is as that of the other.
+//! Two models compared fold by fold: ratio of their errors.
 //!
-//! Folds differ far more from each other than two models do within a fold: a band of small torque is hard for both. So the
-//! errors are paired. For each fold the logarithm of the ratio of the two root mean square errors is one observation, and Student's
-//! interval about the mean of these observations says whether the ratio differs from one. Logarithms, because errors of folds
-//! are positive and spread over factors: a mean difference of squares is the difference of the one worst fold.
+//! Folds differ much more from each other than two models within a fold. Therefore the errors are paired: for each fold the logarithm of
+//! the ratio of the two root mean square errors is one observation, and Student's interval of their mean decides whether the ratio differs
+//! from one. Logarithms are used because errors of folds are positive and differ by factors: a mean difference of squares would be
+//! dominated by the worst fold.
 //!
-//! Where parameters are fitted, the folds share training data. Nadeau and Bengio (Machine Learning 52 (2003) 239-281) then replace the
-//! factor 1/K of the variance of the mean by 1/K + n_test/n_train, which makes the interval of five folds half as wide again. That is for
-//! random splits and models with much to learn. With bands of torque and a few bounded factors the plain interval keeps
-//! its level: of pairs of models that are equally wrong it decides fewer than 5 % (test `the_plain_interval_keeps_its_level`), because
-//! bands differ more than the shared points make them alike, and the correction would halve the decisions that are right. So
-//! it is not used.
+//! If parameters are fitted, the folds share training data. Nadeau and Bengio (Machine Learning 52 (2003) 239-281) then replace the factor
+//! 1/K of the variance of the mean by 1/K + n_test/n_train, which widens the interval of five folds by half. This applies to random splits
+//! and flexible models. With bands of torque and a few bounded factors the plain interval keeps its level: it decides for fewer than 5 % of
+//! pairs of equally wrong models (test `the_plain_interval_keeps_its_level`), and the correction would halve the number of correct
+//! decisions. Therefore it is not used.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -20,7 +19,7 @@ use super::probability::student_quantile;
 /// Confidence of the interval of a ratio.
 const CONFIDENCE: f64 = 0.95;
 
-/// What the points say of two models.
+/// Decision between two models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Decision {
@@ -28,7 +27,7 @@ pub enum Decision {
     Better,
     /// The first predicts worse than the second.
     Worse,
-    /// The points do not decide.
+    /// Undecided.
     NotDecided,
 }
 
@@ -46,21 +45,21 @@ impl Decision {
 /// The errors of two models, fold by fold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paired {
-    /// Geometric mean over the folds of the error of the first over that of the second.
+    /// Geometric mean over the folds of the ratio of the errors, first over second.
     pub ratio: f64,
     /// 95 % interval of this ratio.
     pub interval: [f64; 2],
     /// Number of folds.
     pub folds: usize,
-    /// Number of folds that the first predicts better.
+    /// Number of folds in which the first predicts better.
     pub won: usize,
 }
 
 impl Paired {
-    /// From the mean squares of the folds, in the same order for both. Errors whose root mean square is below `floor` count as
-    /// the floor: what two models err by less than the measurement can show is no difference between them.
+    /// From the mean squares of the folds, in the same order for both. Root mean squares below `floor` are replaced by it, because the
+    /// measurement cannot resolve smaller errors.
     ///
-    /// Absent unless both have the same number of folds, two at least, and the floor is above zero.
+    /// Absent unless both have the same number of folds, at least two, and the floor is positive.
     pub fn from_folds(first: &[f64], second: &[f64], floor: f64) -> Option<Self> {
         let count = first.len() as f64;
         let finite = first.iter().chain(second).all(|square| square.is_finite());
@@ -83,7 +82,7 @@ impl Paired {
         (mean.is_finite() && half.is_finite()).then_some(found)
     }
 
-    /// What the folds decide: nothing where the interval holds one.
+    /// The decision: undecided if the interval contains one.
     pub fn decision(&self) -> Decision {
         match self.interval {
             [_, upper] if upper < 1.0 => Decision::Better,

@@ -1,11 +1,11 @@
-//! Parameters of a fit: their coordinate, bounds and standing.
+//! Parameters of a fit: coordinate, bounds and state.
 
-/// How a parameter is counted inside.
+/// Internal coordinate of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// As it is: u = theta.
+    /// Linear: u = theta.
     Linear,
-    /// By its logarithm: u = ln theta. For positive factors that may vary by more than 3:1.
+    /// Logarithmic: u = ln theta. For positive factors that may vary by more than 3:1.
     Log,
 }
 
@@ -14,12 +14,12 @@ impl Scale {
     pub fn theta(self, u: f64) -> f64 {
         match self {
             Self::Linear => u,
-            // An end of an interval may lie beyond all numbers.
+            // An end of an interval may overflow.
             Self::Log => u.exp().min(f64::MAX),
         }
     }
 
-    /// The coordinate from the parameter in its own unit; absent where it has none.
+    /// The coordinate from the parameter in its own unit; absent if it does not exist.
     pub fn coordinate(self, theta: f64) -> Option<f64> {
         let u = match self {
             Self::Linear => theta,
@@ -47,7 +47,7 @@ impl Side {
         }
     }
 
-    /// Place of the end in a pair.
+    /// Index of the end in a pair.
     pub fn place(self) -> usize {
         usize::from(self == Self::Upper)
     }
@@ -61,14 +61,14 @@ impl Side {
     }
 }
 
-/// Whether a parameter can move.
+/// State of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standing {
-    /// Between its bounds, or on one that does not hold it.
+    /// Between its bounds, or at an inactive bound.
     Free,
-    /// On a bound, and the data push it outward. The others are then conditional on it.
+    /// At an active bound: the data favour a value beyond it. The others are then conditional on it.
     Active(Side),
-    /// Held by the user.
+    /// Fixed by the user.
     Fixed,
 }
 
@@ -77,28 +77,28 @@ pub enum Standing {
 pub struct Parameter {
     /// Name or path in reports.
     pub name: String,
-    /// How it is counted.
+    /// Internal coordinate.
     pub scale: Scale,
     /// Coordinate of the optimum: theta or ln theta.
     pub u: f64,
-    /// Lower and upper bound in the coordinate; infinite where there is none.
+    /// Lower and upper bound in the coordinate; infinite if there is none.
     pub bounds: [f64; 2],
-    /// Whether it can move.
+    /// State.
     pub standing: Standing,
-    /// Size by which its interval is judged, in the coordinate, where its own value does not tell one, [`Parameter::sized`].
+    /// Reference size of its interval in the coordinate if its value does not provide one, [`Parameter::sized`].
     pub size: Option<f64>,
 }
 
 impl Parameter {
-    /// A parameter between two bounds, all in its own unit. It is fixed where the bounds are one.
+    /// A parameter between two bounds, all in its own unit. It is fixed if the bounds are equal.
     ///
     /// # Errors
-    /// If the bounds are not in order, the value is not between them, or a number has no coordinate.
+    /// If the bounds are reversed, the value is not between them, or a number has no coordinate.
     pub fn new(name: &str, scale: Scale, theta: f64, [low, high]: [f64; 2]) -> Result<Self, String> {
-        let none = |theta: f64| format!("{name}: {theta} has no place on a {} scale", scale.name());
+        let none = |theta: f64| format!("{name}: {theta} is not possible on a {} scale", scale.name());
         let bound = |theta: f64, infinite: f64| match scale {
             _ if theta == infinite => Ok(infinite),
-            Scale::Log if theta == 0.0 => Err(format!("{name}: a parameter by its logarithm needs a bound above zero")),
+            Scale::Log if theta == 0.0 => Err(format!("{name}: a logarithmic parameter needs a positive bound")),
             _ => scale.coordinate(theta).ok_or_else(|| none(theta)),
         };
         let bounds = [bound(low, f64::NEG_INFINITY)?, bound(high, f64::INFINITY)?];
@@ -121,14 +121,14 @@ impl Parameter {
         })
     }
 
-    /// With a size by which its interval is judged: for an offset, which may be zero, one that is usual for the quantity.
+    /// Sets the reference size of its interval: for an offset, which may be zero, a typical size of the quantity.
     pub fn sized(self, size: Option<f64>) -> Self {
         let size = size.filter(|size| *size > 0.0 && size.is_finite());
         Self { size, ..self }
     }
 
-    /// Size by which half-widths are judged whatever the bounds are, in the coordinate: one for a logarithm, whose half-width is
-    /// relative as it is; else the size that was given, or the magnitude of the value, or one where that is zero.
+    /// Reference size of half-widths in the coordinate, independent of the bounds: one for a logarithm; otherwise the given size, or the
+    /// magnitude of the value, or one if that is zero.
     pub fn own_size(&self) -> f64 {
         match (self.scale, self.size) {
             (Scale::Linear, Some(size)) => size,
@@ -142,8 +142,8 @@ impl Parameter {
         self.scale.theta(self.u)
     }
 
-    /// Size by which plans of measurements and slopes count, in the coordinate: the distance of the bounds. Without two of them a parameter
-    /// is judged by its own size: a logarithm by one, else the magnitude, or one where that is zero.
+    /// Reference size for measurement plans and slopes in the coordinate: the distance of the bounds. Without two bounds: one for a
+    /// logarithm, otherwise the magnitude, or one if that is zero.
     pub fn range(&self) -> f64 {
         let width = self.bounds[1] - self.bounds[0];
         match self.scale {
@@ -153,12 +153,10 @@ impl Parameter {
         }
     }
 
-    /// Step of a central difference for a function that is known to a relative noise. It balances what is left out of the
-    /// series against the noise.
+    /// Step of a central difference for a function with a relative noise; it balances truncation error and noise.
     ///
-    /// A logarithm changes things at the scale of one wherever it stands, other coordinates at that of their size or a tenth of
-    /// their range, the greater of the two: an offset near zero would else get a step that drowns in rounding, and parallel
-    /// columns would not be found.
+    /// The scale of a logarithm is one; of other coordinates the larger of their size and a tenth of their range. Otherwise the step of an
+    /// offset near zero would be lost in rounding, and parallel columns would not be detected.
     pub fn step(&self, noise: f64) -> f64 {
         let width = self.bounds[1] - self.bounds[0];
         let size = match self.scale {
@@ -169,10 +167,10 @@ impl Parameter {
         noise.max(f64::EPSILON).cbrt() * size
     }
 
-    /// Where it stands by the gradient of the sum of squares: on a bound that the gradient pushes it against, or free.
+    /// State from the gradient of the sum of squares: at an active bound, or free.
     ///
-    /// On a bound means by exact bits, as a solver that respects bounds leaves it there.
-    pub fn stand(&mut self, gradient: f64) {
+    /// "At a bound" means bitwise equal, as from a solver that respects bounds.
+    pub fn update_state(&mut self, gradient: f64) {
         self.standing = match self.bounds {
             [low, high] if low == high => Standing::Fixed,
             [low, _] if self.u == low && gradient > 0.0 => Standing::Active(Side::Lower),
@@ -221,7 +219,7 @@ mod tests {
         assert!((f.u - 2.0_f64.ln()).abs() < 1e-15 && (f.theta() - 2.0).abs() < 1e-15);
         assert!((f.range() - 4.0_f64.ln()).abs() < 1e-15);
         for (gradient, standing) in [(-1.0, Standing::Active(Side::Upper)), (1.0, Standing::Free)] {
-            f.stand(gradient);
+            f.update_state(gradient);
             assert_eq!(f.standing, standing);
         }
         let fixed = Parameter::new("f", Scale::Linear, 2.0, [2.0, 2.0]).unwrap();

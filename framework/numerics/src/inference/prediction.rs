@@ -1,7 +1,7 @@
-//! Predictions of measurements that were not fitted: bands, and how many measurements lie inside.
+//! Predictions of measurements that were not fitted: bands and their coverage.
 //!
-//! A new measurement differs from its prediction by its own scatter and by what the parameters are uncertain:
-//! var = g' C g + sigma^2 with the gradient g of the prediction and the covariance C of all parameters.
+//! A new measurement differs from its prediction by its own scatter and by the uncertainty of the parameters: var = g' C g + sigma^2 with
+//! the gradient g of the prediction and the covariance C of all parameters.
 //!
 //! Sources: Seber, Wild: Nonlinear Regression (Wiley 1989), section 5.1; for the interval of a share Wilson, J. Amer. Statist.
 //! Assoc. 22 (1927) 209-212, recommended by Brown, Cai, DasGupta, Statist. Sci. 16 (2001) 101-133.
@@ -9,10 +9,10 @@
 use super::{Fit, LackOfFit, Succession};
 use crate::sampling::inverse_normal;
 
-/// Factors by which standard deviations of a fit are too small, because its model misses its own points.
+/// Factors by which standard deviations of a fit are too small because the model does not fit the points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Widening {
-    /// Factor on standard deviations of parameters and of what follows from them.
+    /// Factor on standard deviations of parameters and of derived quantities.
     pub parameters: f64,
     /// Factor on the scatter of one measurement about the model.
     pub scatter: f64,
@@ -28,8 +28,8 @@ impl Default for Widening {
 }
 
 impl Widening {
-    /// From the checks of a fit. A lack of fit widens both, because points lie farther from the model than their accuracy allows.
-    /// Neighbours that err together tell less of the parameters; the distance of one point from the model stays what it is.
+    /// From the checks of a fit. A lack of fit widens both. Correlated neighbours widen only the parameters; the deviation of one point
+    /// from the model does not change.
     pub fn from_checks(lack: Option<&LackOfFit>, succession: Option<&Succession>) -> Self {
         let lack = lack.and_then(LackOfFit::widening).unwrap_or(1.0).max(1.0);
         let together = succession.filter(|s| s.is_suspect()).map_or(1.0, Succession::widening);
@@ -39,7 +39,7 @@ impl Widening {
         }
     }
 
-    /// Whether anything is widened.
+    /// Whether any factor differs from one.
     pub fn is_some(&self) -> bool {
         self.parameters > 1.0 || self.scatter > 1.0
     }
@@ -50,16 +50,15 @@ impl Widening {
 pub struct Prediction {
     /// The calculated value.
     pub value: f64,
-    /// Standard deviation that the parameters leave it; absent where the fitted points do not determine it.
+    /// Standard deviation due to the parameters; absent if the fitted points do not determine it.
     pub deviation: Option<f64>,
-    /// Band in which one new measurement lies with the confidence; absent with the deviation.
+    /// Prediction band of one new measurement with the confidence; absent without the deviation.
     pub band: Option<[f64; 2]>,
 }
 
 impl Fit {
-    /// The band of one new measurement of a quantity, from its value, its gradient over the coordinates and the standard deviation
-    /// of one measurement of it, in the unit of the value. Normal quantiles where the accuracies are given, Student's where
-    /// they are estimated.
+    /// The prediction band of one new measurement, from value, gradient over the coordinates and standard deviation of one measurement, in
+    /// the unit of the value. Normal quantiles if the accuracies are given, Student's if they are estimated.
     pub fn predict(&self, value: f64, gradient: &[f64], sigma: f64, widening: Widening, confidence: f64) -> Prediction {
         let deviation = self.deviation_along(gradient);
         let half = deviation
@@ -75,17 +74,17 @@ impl Fit {
     }
 }
 
-/// How many measurements lie inside of their bands.
+/// Coverage of bands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Coverage {
-    /// Measurements inside.
+    /// Number of measurements inside their bands.
     pub inside: usize,
-    /// All measurements that have a band.
+    /// Number of measurements with a band.
     pub count: usize,
 }
 
 impl Coverage {
-    /// From whether each lies inside; absent where there is none.
+    /// From a flag for each measurement; absent if there are none.
     pub fn count(list: impl IntoIterator<Item = bool>) -> Option<Self> {
         let mut found = Self { inside: 0, count: 0 };
         for is_inside in list {
@@ -95,13 +94,12 @@ impl Coverage {
         (found.count > 0).then_some(found)
     }
 
-    /// Share of those inside. \[-\]
+    /// Share inside. \[-\]
     pub fn share(&self) -> f64 {
         self.inside as f64 / self.count as f64
     }
 
-    /// Interval of the share that bands have in the long run, after Wilson. It takes measurements as independent: those that err
-    /// together say less. Absent where the confidence is not between zero and one.
+    /// Wilson interval of the expected share, for independent measurements. Absent if the confidence is not between zero and one.
     pub fn interval(&self, confidence: f64) -> Option<[f64; 2]> {
         let z = inverse_normal(0.5 + 0.5 * confidence).filter(|z| *z > 0.0)?;
         let (count, share) = (self.count as f64, self.share());

@@ -1,11 +1,11 @@
 //! Probabilities and quantiles of the statistics of a fit.
 //!
-//! A function has no value where a number of degrees of freedom is not above zero, a probability not inside the open interval
-//! from zero to one, or a number is none.
+//! A function has no value if the degrees of freedom are not positive, a probability is not inside the open interval from zero to one, or
+//! an argument is NaN.
 
 use super::gamma::{beta, gamma};
 
-/// Probability that a standard normal quantity lies below a value.
+/// Probability that a standard normal quantity is below a value.
 pub fn normal_below(x: f64) -> Option<f64> {
     if x.is_nan() {
         return None;
@@ -14,23 +14,23 @@ pub fn normal_below(x: f64) -> Option<f64> {
     Some(if x < 0.0 { 0.5 * q } else { 0.5 + 0.5 * p })
 }
 
-/// Probability that chi-square of some degrees of freedom lies above a value.
+/// Probability that chi-square is above a value.
 pub fn chi_square_above(x: f64, freedom: f64) -> Option<f64> {
     (is_freedom(freedom) && !x.is_nan()).then(|| gamma(0.5 * freedom, 0.5 * x)[1])
 }
 
-/// The value below which chi-square of some degrees of freedom lies with a probability.
+/// Quantile of chi-square.
 pub fn chi_square_quantile(probability: f64, freedom: f64) -> Option<f64> {
     let tails = |x: f64| gamma(0.5 * freedom, 0.5 * x);
     (is_freedom(freedom) && is_probability(probability)).then(|| solve(probability, tails))
 }
 
-/// Probability that Student's t of some degrees of freedom is farther from zero than a value.
+/// Two-sided tail probability of Student's t.
 pub fn student_outside(t: f64, freedom: f64) -> Option<f64> {
     (is_freedom(freedom) && !t.is_nan()).then(|| student_tails(t, freedom)[1])
 }
 
-/// The value below which Student's t of some degrees of freedom lies with a probability.
+/// Quantile of Student's t.
 pub fn student_quantile(probability: f64, freedom: f64) -> Option<f64> {
     if !is_freedom(freedom) || !is_probability(probability) {
         return None;
@@ -44,25 +44,25 @@ pub fn student_quantile(probability: f64, freedom: f64) -> Option<f64> {
     Some(size.copysign(probability - 0.5))
 }
 
-/// Probabilities that the magnitude of Student's t lies inside and outside of a value.
+/// Probabilities that the magnitude of Student's t is below and above a value.
 fn student_tails(t: f64, freedom: f64) -> [f64; 2] {
     let (square, sum) = (t * t, freedom + t * t);
     beta(0.5, 0.5 * freedom, [square / sum, freedom / sum])
 }
 
-/// Probability that F of two numbers of degrees of freedom lies above a value.
+/// Probability that F is above a value.
 pub fn f_above(x: f64, [above, below]: [f64; 2]) -> Option<f64> {
     let valid = is_freedom(above) && is_freedom(below) && !x.is_nan();
     valid.then(|| f_tails(x.max(0.0), [above, below])[1])
 }
 
-/// The value below which F of two numbers of degrees of freedom lies with a probability.
+/// Quantile of F.
 pub fn f_quantile(probability: f64, [above, below]: [f64; 2]) -> Option<f64> {
     let tails = |x: f64| f_tails(x, [above, below]);
     (is_freedom(above) && is_freedom(below) && is_probability(probability)).then(|| solve(probability, tails))
 }
 
-/// Probabilities that F lies below and above a value that is not below zero.
+/// Probabilities that F is below and above a non-negative value.
 fn f_tails(x: f64, [above, below]: [f64; 2]) -> [f64; 2] {
     let sum = below + above * x;
     beta(0.5 * above, 0.5 * below, [above * x / sum, below / sum])
@@ -76,8 +76,8 @@ fn is_probability(probability: f64) -> bool {
     probability > 0.0 && probability < 1.0
 }
 
-/// The positive value at which the lower of two tails is a probability, to the last digit by halving. The smaller tail is
-/// looked at, for it has more digits.
+/// The positive value at which the lower tail equals a probability, by bisection to the last digit. The smaller tail is compared, because
+/// it has more digits.
 fn solve(probability: f64, tails: impl Fn(f64) -> [f64; 2]) -> f64 {
     let is_below = |x: f64| {
         let [lower, upper] = tails(x);

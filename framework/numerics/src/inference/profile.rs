@@ -1,38 +1,38 @@
-//! Intervals by profile: how far a parameter can go while all others follow, until the objective has risen too much.
+//! Profile likelihood intervals: the parameter is moved and all others are refitted until the objective has increased to a limit.
 //!
-//! Source: Bates, Watts: Nonlinear Regression Analysis and Its Applications (Wiley 1988), section 6.1: the signed root of the rise,
+//! Source: Bates, Watts: Nonlinear Regression Analysis and Its Applications (Wiley 1988), section 6.1: the signed root of the increase,
 //! tau, is nearly linear in the parameter, so a secant finds its crossings in a few fits.
 
 use super::Side;
 
-/// Difference of the root of the rise from its limit, over the limit, at which an end is found unless more is asked for.
+/// Default relative tolerance of the root of the increase at an end.
 pub(super) const FOUND: f64 = 1e-6;
-/// Width of a bracket over its distance from the optimum at which it is closed, however the objective rises inside.
+/// Relative width of a bracket at which the search ends, whatever the objective does inside.
 const CLOSED: f64 = 1e-7;
-/// Fits at most on one side; kinks where another parameter meets its bound need many.
+/// Maximum number of fits on one side; kinks where another parameter reaches its bound need many.
 const MOST: usize = 40;
-/// Fall of the objective below that of the optimum from which on the optimum was none.
+/// Decrease of the objective below the optimum above which the optimum is rejected.
 const FALL: f64 = 1e-6;
-/// The least and greatest step outward, over the distance so far.
+/// Minimum and maximum step outward, relative to the distance so far.
 const OUTWARD: [f64; 2] = [0.2, 10.0];
 
-/// The best that is left when one parameter is held.
+/// The optimum of the others with one parameter fixed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refit {
-    /// Objective: sum of all squared residuals, those of priors with them.
+    /// Objective: sum of all squared residuals, including those of priors.
     pub objective: f64,
     /// Coordinates of all parameters.
     pub u: Vec<f64>,
 }
 
-/// Why an end of an interval is where it is.
+/// Why a search for an end stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
-    /// The objective has risen to its limit there.
+    /// The objective reaches its limit.
     Limit,
-    /// The parameter meets its bound before.
+    /// The parameter reaches its bound first.
     Bound,
-    /// Neither within the fits that are allowed; the end is the farthest that was tried below the limit.
+    /// Neither within the allowed number of fits; the end is the farthest trial below the limit.
     Unresolved,
 }
 
@@ -41,44 +41,43 @@ pub enum Reach {
 pub struct ProfileEnd {
     /// Coordinate of the parameter.
     pub u: f64,
-    /// Why it is there.
+    /// Why the search stopped.
     pub reach: Reach,
-    /// Fits that it took.
+    /// Number of fits.
     pub fits: usize,
 }
 
-/// Why a profile was given up.
+/// Why a profile was abandoned.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ProfileFault {
-    /// A fit on the way is better than the optimum, which therefore was none: everything starts anew from here.
+    /// A fit on the way is better than the optimum: the search must restart from here.
     BetterOptimum(Refit),
     /// A fit failed.
     Failed(String),
-    /// There is nothing to profile, and why.
+    /// There is no profile, with the reason.
     Meaningless(String),
 }
 
-/// What is profiled.
+/// Input of a profile.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// The parameter.
     pub parameter: usize,
-    /// Its bounds, in its coordinate; infinite where there is none.
+    /// Its bounds in its coordinate; infinite if there is none.
     pub bounds: [f64; 2],
     /// Coordinates of the optimum.
     pub optimum: Vec<f64>,
     /// Objective of the optimum.
     pub objective: f64,
-    /// Root of the rise at which an end lies, [`super::Fit::profile_limit`].
+    /// Root of the increase at an end, [`super::Fit::profile_limit`].
     pub limit: f64,
     /// Distance of the first trial, the half-width of the linearised interval.
     pub distance: f64,
-    /// Difference of the root of the rise from its limit, over the limit, at which an end is found: 1e-6 as a rule, no less than
-    /// the refits are good for. \[-\]
+    /// Relative tolerance of the root of the increase at an end: usually 1e-6, not below the accuracy of the refits. \[-\]
     pub found: f64,
 }
 
-/// A trial: distance from the optimum, root of the rise, best of the others.
+/// A trial: distance from the optimum, root of the increase, optimum of the others.
 struct Trial {
     distance: f64,
     root: f64,
@@ -86,11 +85,10 @@ struct Trial {
 }
 
 impl Profile {
-    /// Finds the end on one side. The function refits with a parameter held at a coordinate, starting from given coordinates of
-    /// all; nuisance parameters stay free in it.
+    /// Finds the end on one side. The function refits with the parameter fixed at a coordinate, starting from the given coordinates.
     ///
     /// # Errors
-    /// If a fit fails or finds a better optimum, or the profile is given without a limit or a distance above zero.
+    /// If a fit fails or finds a better optimum, or limit or distance are not positive.
     pub fn end(
         &self,
         side: Side,
@@ -101,12 +99,12 @@ impl Profile {
         };
         if !(self.limit > 0.0 && self.limit.is_finite() && self.distance > 0.0 && self.distance.is_finite()) {
             return Err(ProfileFault::Meaningless(
-                "a profile needs a limit and a first distance above zero".to_owned(),
+                "a profile needs a positive limit and a positive first distance".to_owned(),
             ));
         }
         let room = (side.sign() * (self.bounds[side.place()] - start)).max(0.0);
         let place = |distance: f64| {
-            // The bound itself by its own bits.
+            // Exactly the bound.
             if distance >= room {
                 self.bounds[side.place()]
             } else {
@@ -125,7 +123,7 @@ impl Profile {
             let found = refit(self.parameter, place(distance), from).map_err(ProfileFault::Failed)?;
             let rise = found.objective - self.objective;
             if !rise.is_finite() || found.u.len() != self.optimum.len() {
-                return Err(ProfileFault::Failed("a fit on the way has no objective".to_owned()));
+                return Err(ProfileFault::Failed("a refit has no objective".to_owned()));
             }
             if rise < -FALL {
                 return Err(ProfileFault::BetterOptimum(found));
@@ -158,14 +156,14 @@ impl Profile {
             outer = ask((inner.distance * (1.0 + further)).min(room), &inner.u)?;
             count += 1;
         }
-        // Between a trial below the limit and one above: the secant, where the weight of an end that stays is halved again and
-        // again so that it moves too (Dowell, Jarratt, BIT 11 (1971) 168-174).
+        // Between a trial below the limit and one above: regula falsi that halves the weight of a retained end (Dowell, Jarratt, BIT 11
+        // (1971) 168-174).
         let mut weights = [z - inner.root, outer.root - z];
         let (mut moved, mut last) = (None, outer.u.clone());
         while !is_found(&outer) && !is_found(&inner) {
             let width = outer.distance - inner.distance;
             if width <= CLOSED * outer.distance {
-                // The objective jumps across its limit, or nearly so.
+                // The objective is (nearly) discontinuous at its limit.
                 return Ok(end(inner.distance, Reach::Limit, count));
             }
             if count == MOST {

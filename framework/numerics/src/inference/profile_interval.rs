@@ -1,29 +1,28 @@
-//! Intervals of the parameters of a fit by profile.
+//! Profile intervals of the parameters of a fit.
 
 use super::profile::FOUND;
 use super::{Fit, Profile, ProfileEnd, ProfileFault, Reach, Refit, Side, Standing};
 
-/// Half-widths by profile over those of the linearised fit between which a fit counts as linear.
+/// Ratios of profile to linearised half-width between which a fit counts as linear.
 const LINEAR: [f64; 2] = [0.8, 1.25];
 
-/// An interval of one parameter by profile.
+/// A profile interval of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfileInterval {
     /// Lower and upper end.
     pub ends: [ProfileEnd; 2],
     /// The ends in the parameter's own unit.
     pub theta: [f64; 2],
-    /// Whether a half-width is less than 0.8 or more than 1.25 of the linearised one: this interval is then shown first.
+    /// Whether a half-width is below 0.8 or above 1.25 of the linearised one: this interval is then shown first.
     pub nonlinear: bool,
 }
 
 impl Fit {
-    /// What is to be profiled for an interval of some confidence. For a parameter on its bound it is the side away from the
-    /// bound alone, so that the whole of what is left out lies there. Absent for parameters that are held or not seen, and where
-    /// outliers pull less.
+    /// Input of the profile for an interval with a confidence. A parameter at its bound has a one-sided interval. Absent for parameters
+    /// that are fixed or without effect, and for robust losses.
     pub fn to_profile(&self, parameter: usize, confidence: f64) -> Option<Profile> {
         let at = &self.parameters()[parameter];
-        // The limit of the rise is that of a chi-square.
+        // The limit of the increase is a chi-square quantile.
         (!self.robust).then_some(())?;
         let two_sided = match at.standing {
             Standing::Fixed => return None,
@@ -31,7 +30,7 @@ impl Fit {
             Standing::Active(_) => 2.0 * confidence - 1.0,
         };
         let limit = self.profile_limit(two_sided)?;
-        // Without a standard deviation of its own: as if all others were known, which is too near.
+        // Without a standard deviation: the conditional one, which is too small.
         let alone = || Some(self.variance().sqrt() / self.column(parameter)).filter(|d| d.is_finite());
         let deviation = self.deviation(parameter).or_else(alone)?;
         Some(Profile {
@@ -45,10 +44,10 @@ impl Fit {
         })
     }
 
-    /// Interval of a parameter by profile. The function refits with a parameter held, [`Profile::end`].
+    /// Profile interval of a parameter. The function refits with the parameter fixed, [`Profile::end`].
     ///
     /// # Errors
-    /// If a fit fails or finds a better optimum, or the parameter is held or not seen.
+    /// If a fit fails or finds a better optimum, or the parameter is fixed or without effect.
     pub fn profile(
         &self,
         parameter: usize,
@@ -57,12 +56,15 @@ impl Fit {
     ) -> Result<ProfileInterval, ProfileFault> {
         let at = &self.parameters()[parameter];
         let Some(profile) = self.to_profile(parameter, confidence) else {
-            return Err(ProfileFault::Meaningless(format!("{} is held or not seen", at.name)));
+            return Err(ProfileFault::Meaningless(format!(
+                "{} is fixed or without effect",
+                at.name
+            )));
         };
         self.profiled(&profile, confidence, refit)
     }
 
-    /// As [`Fit::profile`], of what [`Fit::to_profile`] prepared.
+    /// As [`Fit::profile`], with the input from [`Fit::to_profile`].
     ///
     /// # Errors
     /// If a fit fails or finds a better optimum.

@@ -1,14 +1,14 @@
-//! Errors of calculated values, summed up as a whole and region by region: bands of torque, speed and temperature, and whether power enters
-//! or leaves at the port of the torque.
+//! Summaries of errors of calculated values, in total and by region: bands of torque, speed and temperature, and direction of power at the
+//! port of the torque.
 
 use super::folds;
 
-/// Temperatures of the oil that are farther apart belong to different levels. \[K\]
+/// Difference of oil temperatures above which they belong to different levels. \[K\]
 const APART: f64 = 3.0;
-/// Bands over one coordinate at most; where there are more levels, some lie in one band.
+/// Maximum number of bands over one coordinate; with more levels some share a band.
 const MOST: usize = 12;
 
-/// An error, calculated less measured, and where it is.
+/// An error, calculated minus measured, and its point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedError {
     /// Line in the file.
@@ -19,35 +19,35 @@ pub struct PlacedError {
     pub speed: f64,
     /// \[degC\]
     pub oil: Option<f64>,
-    /// Calculated less measured, in any one unit.
+    /// Calculated minus measured, in any unit.
     pub error: f64,
     /// The measured value in the same unit.
     pub measured: f64,
-    /// Standard deviation of the measurement in the same unit, where it was stated.
+    /// Standard deviation of the measurement in the same unit, if stated.
     pub accuracy: Option<f64>,
     /// Whether the row was held out of the fit.
     pub is_held_out: bool,
 }
 
-/// Errors summed up.
+/// Summary of errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorSummary {
     /// Number of errors.
     pub count: usize,
-    /// Root of the mean square.
+    /// Root mean square.
     pub rms: f64,
     /// Mean: the bias of the calculation.
     pub mean: f64,
-    /// The error of the greatest magnitude.
+    /// The error with the largest magnitude.
     pub greatest: PlacedError,
-    /// Root of the mean square, mean and greatest in standard deviations of the measurements; absent unless all state them.
+    /// Root mean square, mean and maximum in standard deviations of the measurements; absent unless all are stated.
     pub in_accuracies: Option<[f64; 3]>,
-    /// Root of the mean square, mean and greatest in percent of the measured values; absent unless all of these have one sign and
-    /// are not zero.
+    /// Root mean square, mean and maximum in percent of the measured values; absent unless all measured values have the same sign and are
+    /// not zero.
     pub in_percent: Option<[f64; 3]>,
 }
 
-/// Root of the mean square, mean and the value of the greatest magnitude; absent for an empty list or what is not finite.
+/// Root mean square, mean and value with the largest magnitude; absent for an empty list or non-finite values.
 fn figures(list: &[f64]) -> Option<[f64; 3]> {
     let count = list.len() as f64;
     let rms = (list.iter().map(|x| x * x).sum::<f64>() / count).sqrt();
@@ -57,7 +57,7 @@ fn figures(list: &[f64]) -> Option<[f64; 3]> {
 }
 
 impl ErrorSummary {
-    /// Sums up a list; absent where it is empty.
+    /// Summarises a list; absent if it is empty.
     pub fn summarise<'e>(errors: impl IntoIterator<Item = &'e PlacedError>) -> Option<Self> {
         let list: Vec<&PlacedError> = errors.into_iter().collect();
         let greatest = list.iter().max_by(|a, b| a.error.abs().total_cmp(&b.error.abs()))?;
@@ -77,23 +77,23 @@ impl ErrorSummary {
     }
 }
 
-/// Errors in one region, of rows that were fitted and of rows that were held out.
+/// Errors in one region, of fitted and held-out rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
-    /// What is divided: `torque`, `speed`, `oil_temperature` or `direction`.
+    /// The divided quantity: `torque`, `speed`, `oil_temperature` or `direction`.
     pub over: &'static str,
     /// Lower and upper end in Nm, rpm or degC; absent for directions.
     pub band: Option<[f64; 2]>,
-    /// The region in words.
+    /// The region as text.
     pub name: String,
-    /// Rows that were fitted.
+    /// Fitted rows.
     pub fitted: Option<ErrorSummary>,
-    /// Rows that were held out.
+    /// Held-out rows.
     pub held_out: Option<ErrorSummary>,
 }
 
-/// Errors over bands of torque, of speed and of the oil's temperature, and in both directions of power; without the divisions that
-/// have one region only. Bands belong to fitted rows and rows held out together.
+/// Errors over bands of torque, speed and oil temperature, and for both directions of power, without divisions that have one region only.
+/// Fitted and held-out rows share the bands.
 pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
     let region = |over: &'static str, band: Option<[f64; 2]>, name: String, own: &[usize]| {
         let of_kind = |held: bool| {
@@ -140,13 +140,13 @@ pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
     all
 }
 
-/// Bands of neighbouring levels, none of which is split: lower and upper end, and the places in each. Empty where there is one level.
+/// Bands of neighbouring levels, which are not split: lower and upper end, and the indices in each. Empty if there is one level.
 fn whole_levels(list: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
     let found = folds(list, MOST).unwrap_or_default().into_iter();
     found.filter_map(|fold| Some((fold.band?, fold.points))).collect()
 }
 
-/// Levels that a rig held but for its scatter: lower and upper end, and the places in each.
+/// Levels of a rig apart from scatter: lower and upper end, and the indices in each.
 fn temperature_levels(list: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
     let mut order: Vec<usize> = (0..list.len()).collect();
     order.sort_by(|a, b| list[*a].total_cmp(&list[*b]));
@@ -161,7 +161,7 @@ fn temperature_levels(list: &[f64]) -> Vec<([f64; 2], Vec<usize>)> {
     levels.into_iter().map(with_ends).collect()
 }
 
-/// A band in words, to four digits.
+/// A band as text with four digits.
 fn span([low, high]: [f64; 2]) -> String {
     let digits = |x: f64| {
         let size = x.abs().max(high.abs()).max(low.abs());

@@ -1,4 +1,4 @@
-//! What the residuals say against a model: outliers, points of great weight, neighbours that err together.
+//! Diagnostics of residuals: outliers, points with high leverage, correlated neighbours.
 //!
 //! Sources: Belsley, Kuh, Welsch: Regression Diagnostics (Wiley 1980), chapter 2; Durbin, Watson, Biometrika 37 (1950) 409-428;
 //! Wald, Wolfowitz, Ann. Math. Statist. 11 (1940) 147-162.
@@ -6,18 +6,18 @@
 use super::Fit;
 use crate::statistics::bands;
 
-/// Standardised residual beyond which a point is listed.
+/// Standardised residual above which a point is listed.
 const OUTLIER: f64 = 3.5;
-/// Leverage beyond which a point is listed.
+/// Leverage above which a point is listed.
 const WEIGHTY: f64 = 0.5;
-/// Deviations of the count of runs beyond which neighbours err together or against each other.
+/// Standard deviations of the number of runs above which neighbours are considered correlated or anticorrelated.
 const RUNS: f64 = 2.58;
-/// What is left of a residual below which a point is met whatever it says.
+/// 1 - leverage below which a point is fitted exactly whatever its value.
 const MET: f64 = 1e-12;
 
 impl Fit {
-    /// Residuals over their own standard deviation, which is smaller where a point has weight; zero for points that are met
-    /// whatever they say.
+    /// Residuals over their own standard deviation, which is smaller for points with high leverage; zero for points that are always fitted
+    /// exactly.
     pub fn standardised(&self) -> Vec<f64> {
         let of = |(r, h): (&f64, &f64)| {
             let variance = self.scatter().powi(2) * (1.0 - h);
@@ -30,20 +30,20 @@ impl Fit {
         self.residuals().iter().zip(self.leverage()).map(of).collect()
     }
 
-    /// Places of points whose standardised residual is beyond 3.5.
+    /// Indices of points whose standardised residual is above 3.5.
     pub fn outliers(&self) -> Vec<usize> {
         let list = self.standardised();
         (0..list.len()).filter(|i| list[*i].abs() > OUTLIER).collect()
     }
 
-    /// Places of points whose leverage is beyond one half.
+    /// Indices of points whose leverage is above one half.
     pub fn weighty(&self) -> Vec<usize> {
         let list = self.leverage();
         (0..list.len()).filter(|i| list[*i] > WEIGHTY).collect()
     }
 }
 
-/// How residuals follow each other along lines of neighbouring points.
+/// Correlation of residuals along lines of neighbouring points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Succession {
     /// Sum of the squared differences of neighbours over the sum of squares: about 2 - 2 rho.
@@ -52,45 +52,45 @@ pub struct Succession {
     pub correlation: f64,
     /// Runs of one sign.
     pub runs: usize,
-    /// How many are expected if signs do not depend on each other.
+    /// Expected number for independent signs.
     pub expected: f64,
-    /// Difference of the two over its standard deviation; absent where all signs of each line are the same.
+    /// Difference of the two over its standard deviation; absent if all signs of each line are equal.
     pub score: Option<f64>,
-    /// Points in the lines.
+    /// Number of points in the lines.
     pub points: usize,
 }
 
 impl Succession {
-    /// Whether the count of runs is too far from what is expected.
+    /// Whether the number of runs differs significantly from its expected value.
     pub fn is_suspect(&self) -> bool {
         self.score.is_some_and(|z| z.abs() > RUNS)
     }
 
-    /// How many points that do not depend on each other tell as much.
+    /// Effective number of independent points.
     pub fn effective_points(&self) -> f64 {
         self.points as f64 * (1.0 - self.correlation) / (1.0 + self.correlation)
     }
 
-    /// What standard deviations of parameters are to be multiplied by if neighbours err together.
+    /// Factor on standard deviations of parameters for correlated neighbours.
     pub fn widening(&self) -> f64 {
         ((1.0 + self.correlation) / (1.0 - self.correlation)).sqrt()
     }
 
-    /// What there is to say; nothing where signs follow each other by chance.
+    /// A note; absent if the signs are random.
     pub fn words(&self) -> Option<String> {
         let score = self.score.filter(|_| self.is_suspect())?;
         Some(if score < 0.0 {
             format!(
-                "neighbouring points err together: the model has a wrong shape; effective points {:.0}",
+                "errors of neighbouring points are correlated: the model has a wrong shape; effective points {:.0}",
                 self.effective_points()
             )
         } else {
-            "neighbouring points err against each other: something alternates along the lines".to_owned()
+            "errors of neighbouring points alternate along the lines".to_owned()
         })
     }
 }
 
-/// Looks along lines: for each the places of its points in order, of one torque and temperature by speed, say. Absent where
+/// Checks lines of points: for each line the indices of its points in order, for example of one torque and temperature by speed. Absent if
 /// no line has two points, or all residuals are zero.
 pub fn succession(residuals: &[f64], lines: &[Vec<usize>]) -> Option<Succession> {
     let [mut squares, mut steps, mut products] = [0.0; 3];
@@ -132,15 +132,15 @@ pub fn succession(residuals: &[f64], lines: &[Vec<usize>]) -> Option<Succession>
 pub struct BandMean {
     /// Lower and upper end of the band.
     pub band: [f64; 2],
-    /// Points in it.
+    /// Number of points in it.
     pub count: usize,
     /// Mean of their residuals.
     pub mean: f64,
-    /// Twice the standard deviation of such a mean if the model is right, for residuals in units of their uncertainty.
+    /// Twice the standard deviation of such a mean if the model is correct, for residuals in units of their uncertainty.
     pub limit: f64,
 }
 
-/// Mean residuals over bands of torque, speed or another coordinate; absent where there are not as many coordinates.
+/// Mean residuals over bands of torque, speed or another coordinate; absent if the numbers of residuals and coordinates differ.
 pub fn band_means(residuals: &[f64], coordinates: &[f64]) -> Option<Vec<BandMean>> {
     (residuals.len() == coordinates.len()).then_some(())?;
     let of = |(band, group): ([f64; 2], Vec<usize>)| {

@@ -1,7 +1,6 @@
-//! Fits by losses under which outliers pull less: their covariance is a sandwich.
+//! Fits with robust losses: sandwich covariance.
 //!
-//! Source: Huber, Robust Statistics (Wiley 1981), sections 6.3 and 7.6; the factor for few points is the usual one of least
-//! squares.
+//! Source: Huber, Robust Statistics (Wiley 1981), sections 6.3 and 7.6; the factor for few points is that of least squares.
 
 use nalgebra::DMatrix;
 
@@ -9,13 +8,13 @@ use super::factors::Factors;
 use super::{Accuracy, Fit, Parameter, Standing};
 use crate::least_squares::{FLOOR, Loss, median_spread};
 
-/// Pivot over the greatest below which what the residuals scatter about has no inverse.
+/// Ratio of a pivot to the largest below which the matrix of the scatter has no inverse.
 const REGULAR: f64 = 1e-12;
 
-/// What rows of data do under a loss, one number of each for every row.
+/// Derivatives of a loss for every row of data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobustRows {
-    /// Second derivative of the cost by the residual: rho' + 2 rho'' s. Below zero far out, under losses that flatten.
+    /// Second derivative of the cost by the residual: rho' + 2 rho'' s. Negative for outliers with losses that flatten.
     curvature: Vec<f64>,
     /// The same with the floor of the search.
     kept: Vec<f64>,
@@ -26,8 +25,8 @@ pub struct RobustRows {
 }
 
 impl RobustRows {
-    /// Of residuals under a loss with its scale.
-    pub fn of(loss: Loss, scale: f64, residuals: &[f64]) -> Self {
+    /// From residuals and a loss with its scale.
+    pub fn new(loss: Loss, scale: f64, residuals: &[f64]) -> Self {
         let mut rows = Self {
             curvature: Vec::new(),
             kept: Vec::new(),
@@ -48,12 +47,12 @@ impl RobustRows {
 }
 
 impl Fit {
-    /// As [`Fit::new`], from a fit by a robust loss: the covariance is A^-1 B A^-1 m/(m - n), A from the curvature of the rows, B
-    /// from their slopes; rows of priors count as they are. Where B has no inverse, or rows far out bend A downward, the
-    /// covariance is that of A alone, with the curvature that the search keeps.
+    /// As [`Fit::new`], from a fit with a robust loss: the covariance is A^-1 B A^-1 m/(m - n), with A from the curvature of the rows and B
+    /// from their slopes; rows of priors are not weighted. If B has no inverse, or outliers make A indefinite, the covariance is that of A
+    /// alone, with the curvature of the search.
     ///
-    /// The objective is twice the cost. It follows no chi-square, so that there is neither a test of the whole fit nor an interval by
-    /// profile.
+    /// The objective is twice the cost. It is not chi-square distributed, so there is neither a test of the whole fit nor a profile
+    /// interval.
     ///
     /// # Errors
     /// As [`Fit::new`].
@@ -96,11 +95,11 @@ impl Fit {
         let widening = data as f64 / (data as f64 - free.len() as f64);
         let upward = scaled(&|i| rows.curvature[i].max(0.0).sqrt());
         let mut downward = scaled(&|i| (-rows.curvature[i]).max(0.0).sqrt());
-        // Rows of priors bend upward.
+        // Rows of priors have positive curvature.
         downward.rows_mut(data, priors).fill(0.0);
         let sandwich = sandwich([&upward, &downward], &scaled(&|i| rows.slope[i]), &free);
         if let Some(root) = sandwich.filter(|_| widening > 0.0 && widening.is_finite()) {
-            // A Jacobian of as many rows as parameters whose product with itself is the inverse of the covariance.
+            // A square Jacobian whose normal matrix is the inverse of the covariance.
             let mut whole = DMatrix::zeros(root.nrows(), jacobian.ncols());
             for (place, k) in free.iter().enumerate() {
                 whole.set_column(*k, &(root.column(place) / widening.sqrt()));
@@ -113,8 +112,8 @@ impl Fit {
     }
 }
 
-/// The inverse transpose of the factor of B, times A: its product with itself is A B^-1 A. A has rows that bend upward and rows
-/// that bend downward. Absent where B has no inverse or A is not positive.
+/// The inverse transpose of the factor of B, times A: its normal matrix is A B^-1 A. A has rows with positive and negative curvature.
+/// Absent if B has no inverse or A is not positive definite.
 fn sandwich([upward, downward]: [&DMatrix<f64>; 2], sloped: &DMatrix<f64>, free: &[usize]) -> Option<DMatrix<f64>> {
     if free.is_empty() || upward.nrows() < free.len() {
         return None;
@@ -153,7 +152,7 @@ mod tests {
         let parameters = ["a", "b"]
             .map(|name| Parameter::new(name, Scale::Linear, 0.0, [-100.0, 100.0]).unwrap())
             .to_vec();
-        let rows = RobustRows::of(loss, 2.0, residuals);
+        let rows = RobustRows::new(loss, 2.0, residuals);
         Fit::robust(parameters, &jacobian, residuals, 0, (Accuracy::Given, &rows)).unwrap()
     }
 
@@ -169,7 +168,7 @@ mod tests {
         let residuals = [0.5, -1.0, 0.3, 4.0, -0.7, 1.2, -0.1];
         let fit = line(&residuals, loss);
         // The same by explicit products, two by two.
-        let rows = RobustRows::of(loss, 2.0, &residuals);
+        let rows = RobustRows::new(loss, 2.0, &residuals);
         let x = |i: usize| [1.0, i as f64 - 3.0];
         let product = |weight: &dyn Fn(usize) -> f64| {
             let entry = |j: usize, k: usize| (0..7).map(|i| weight(i) * x(i)[j] * x(i)[k]).sum::<f64>();

@@ -1,49 +1,47 @@
-//! Whether a set of points can see the difference between two models at all.
+//! Whether a set of points can distinguish two models.
 //!
-//! Errors of a measurement are partly common to all points: a gain, an offset of a loss, an offset of a torque meter. Averaging over
-//! many points removes the independent part of the errors, not the common part. With the covariance matrix
-//! S = v ((1 - rho) I + rho/m sum u_j u_j') of the errors, in units of the stated variance, the squared distance of the predictions of two
-//! models is d^2 = delta' S^-1 delta with their difference delta. The m shapes u_j that common errors have over the points are of mean square
-//! one, so that rho is the mean share of the common errors in the variance; with the one shape u = 1 it is the correlation between
-//! any two points. The inverse is closed (Sherman, Morrison, Woodbury):
-//! S^-1 = (I - U ((1 - rho) m/rho I + U'U)^-1 U') / (v (1 - rho)).
+//! Errors of a measurement are partly common to all points: a gain, an offset of the loss, an offset of a torque meter. Averaging over many
+//! points reduces the independent part of the errors only. With the covariance matrix S = v ((1 - rho) I + rho/m sum u_j u_j') of the
+//! errors, in units of the stated variance, the squared distance of the predictions of two models is d^2 = delta' S^-1 delta with their
+//! difference delta. The m shapes u_j of the common errors over the points have mean square one, so that rho is the mean share of the
+//! common errors in the variance; with the single shape u = 1 it is the correlation between any two points. The inverse is closed (Sherman,
+//! Morrison, Woodbury): S^-1 = (I - U ((1 - rho) m/rho I + U'U)^-1 U') / (v (1 - rho)).
 //!
-//! If one of the two models is right, the logarithm of their likelihood ratio is normal with mean d^2/2 and variance d^2, so that the
-//! wrong one looks more likely with probability Phi(-d/2) (Kullback: Information Theory and Statistics, Wiley 1959, chapter 9). A set
-//! of points is taken to see a difference where this is 5 % at most: d >= 2 * 1.645, d^2 >= 10.82.
+//! If one of the two models is right, the logarithm of their likelihood ratio is normal with mean d^2/2 and variance d^2, so that the wrong
+//! one looks more likely with probability Phi(-d/2) (Kullback: Information Theory and Statistics, Wiley 1959, chapter 9). A set of points
+//! distinguishes two models if this is at most 5 %: d >= 2 * 1.645, d^2 >= 10.82.
 //!
-//! Seeing a difference is not knowing its sense: a wrong model may come nearer to points that all read too much. So the misfits
-//! Q = r' S^-1 r of the two are compared too, in which a common error costs little. The better one must be 19 times as likely
-//! (95 against 5 %): a difference of Q of 2 ln 19 = 5.89.
+//! A difference does not show which model is better: with a common error of all points, a wrong model may be closer. Therefore the misfits
+//! Q = r' S^-1 r of the two are also compared, in which a common error has little weight. The better one must be 19 times as likely (95 to
+//! 5 %): a difference of Q of 2 ln 19 = 5.89.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::Decision;
 use crate::statistics::bands;
 
-/// Squared distance from which on a set of points sees a difference: (2 z)^2 with the 95 % quantile z = 1.644854 of the
-/// normal distribution.
+/// Minimum squared distance of distinguishable models: (2 z)^2 with the 95 % quantile z = 1.644854 of the normal distribution.
 pub const VISIBLE: f64 = 10.822_175;
-/// Difference of misfits from which on one model is 19 times as likely as the other: 2 ln 19.
+/// Difference of misfits at which one model is 19 times as likely as the other: 2 ln 19.
 const EVIDENT: f64 = 5.888_878;
-/// The largest share of common errors that is used. An assumption: a hundredth of the variance is always independent, so that points
-/// without noise do not see differences of any size.
+/// Maximum share of common errors. An assumption: one percent of the variance is always independent, so that points without noise do not
+/// distinguish arbitrarily close models.
 const LARGEST: f64 = 0.99;
 /// Neighbouring points of a cell.
 const CELL: usize = 3;
-/// Temperatures of the oil that are farther apart belong to different cells. An assumption, as for lines of constant torque. \[K\]
+/// Difference of oil temperatures above which points belong to different cells. An assumption, as for lines of constant torque. \[K\]
 const APART: f64 = 3.0;
 
-/// What is known of the errors of a set of points beside their stated accuracy.
+/// Information on the errors of a set of points in addition to their stated accuracy.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PointSet {
-    /// Places of neighbouring points, [`neighbours`].
+    /// Indices of neighbouring points, [`neighbours`].
     pub cells: Vec<Vec<usize>>,
-    /// Shapes that common errors have over the points, in units of the stated standard deviations and of any size.
+    /// Shapes of common errors over the points, in units of the stated standard deviations, with any scale.
     pub shapes: Vec<Vec<f64>>,
 }
 
-/// Errors of a set of points: their variance, and what of it is common to all points.
+/// Errors of a set of points: variance and its common part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorModel {
     /// Variance over the stated one. \[-\]
@@ -57,8 +55,8 @@ pub struct ErrorModel {
 }
 
 impl ErrorModel {
-    /// A variance in units of the stated one, the share of common errors in it, and their shapes. Shapes that are zero or not finite do not
-    /// count; without any nothing is common.
+    /// From a variance in units of the stated one, the share of common errors in it, and their shapes. Shapes that are zero or not finite
+    /// are ignored; without shapes there are no common errors.
     pub fn new(variance: f64, correlation: f64, shapes: &[Vec<f64>]) -> Self {
         let unit = |shape: &Vec<f64>| {
             let square = shape.iter().map(|x| x * x).sum::<f64>() / shape.len().max(1) as f64;
@@ -80,7 +78,7 @@ impl ErrorModel {
         let ratio = (1.0 - correlation) * count as f64 / correlation;
         let core = if correlation > 0.0 {
             let core = matrix.tr_mul(&matrix) + DMatrix::identity(count, count) * ratio;
-            // A sum of a square and a positive diagonal always has an inverse.
+            // The sum of a Gram matrix and a positive diagonal always has an inverse.
             core.cholesky().map(|root| root.inverse())
         } else {
             None
@@ -95,9 +93,9 @@ impl ErrorModel {
 
     /// From residuals over their stated standard deviation: the intraclass correlation about zero over cells of neighbouring points.
     ///
-    /// The scatter within the cells is the independent part. The whole is the mean square of the residuals, but the
-    /// stated variance at least: where points scatter less than was stated, what was stated must be common to them, whether a model happens to
-    /// absorb it or not. Absent without a cell of two points, or where a residual is not finite.
+    /// The scatter within the cells is the independent part. The total is the mean square of the residuals, but at least the stated
+    /// variance: if points scatter less than stated, the remainder must be common to them. Absent without a cell of two points, or if a
+    /// residual is not finite.
     pub fn estimated(residuals: &[f64], points: &PointSet) -> Option<Self> {
         let (mut within, mut freedom) = (0.0, 0_usize);
         for cell in &points.cells {
@@ -116,7 +114,7 @@ impl ErrorModel {
         whole.then(|| Self::new(variance, correlation, &points.shapes))
     }
 
-    /// Square of errors in units of their stated standard deviations: their sum of squares where they are independent.
+    /// Squared norm of errors in units of their stated standard deviations: the sum of squares if they are independent.
     pub fn square(&self, errors: &[f64]) -> f64 {
         let squares: f64 = errors.iter().map(|e| e * e).sum();
         let common = if self.correlation > 0.0 && self.shapes.nrows() == errors.len() {
@@ -129,14 +127,14 @@ impl ErrorModel {
     }
 }
 
-/// How far apart the predictions of two models are for a set of points.
+/// Separation of the predictions of two models for a set of points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
     /// Squared distance, d^2. \[-\]
     pub square: f64,
-    /// Misfit of the second less that of the first, allowing for common errors. \[-\]
+    /// Misfit of the second minus that of the first, allowing for common errors. \[-\]
     pub evidence: f64,
-    /// Correlation of the errors that it is measured in. \[-\]
+    /// Correlation of the errors used. \[-\]
     pub correlation: f64,
 }
 
@@ -151,12 +149,12 @@ impl Separation {
         }
     }
 
-    /// Whether the set of points sees the difference.
+    /// Whether the set of points distinguishes the models.
     pub fn is_visible(&self) -> bool {
         self.square >= VISIBLE
     }
 
-    /// Whether the misfits support a decision, allowing for errors that all points share.
+    /// Whether the misfits support a decision, allowing for common errors.
     pub fn supports(&self, decision: Decision) -> bool {
         match decision {
             Decision::Better => self.evidence >= EVIDENT,
@@ -166,8 +164,8 @@ impl Separation {
     }
 }
 
-/// Cells of up to three points of neighbouring torque and speed: points of one temperature of the oil and in one band of torque, three
-/// after three by speed. Zero stands for a temperature that is not known.
+/// Cells of up to three points of neighbouring torque and speed: points of one oil temperature and one band of torque, grouped by three in
+/// order of speed. Use zero for unknown temperatures.
 pub fn neighbours(torques: &[f64], speeds: &[f64], oils: &[f64]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..torques.len()).collect();
     order.sort_by(|a, b| oils[*a].total_cmp(&oils[*b]));

@@ -114,7 +114,7 @@ fn too_few_points_resolve_no_more_directions_than_they_are() {
     let fit = Fit::new(two.clone(), &jacobian, &[0.0], 0, Accuracy::Given).unwrap();
     assert!(fit.is_singular() && fit.condition().is_none_or(|c| c > 1e12) && fit.lack_of_fit().is_none());
     assert!(fit.deviation(0).is_none() && fit.determination(0).partners == [1]);
-    // Their sum is what the point says.
+    // Their sum is the total of the point.
     near(fit.deviation_along(&[1.0, 1.0]).unwrap(), 0.01, 1e-12);
     assert!(
         Fit::new(two, &jacobian, &[0.0], 0, Accuracy::Estimated)
@@ -147,7 +147,7 @@ fn held_parameters_leave_nothing_to_say() {
 #[test]
 fn a_bound_that_holds_a_parameter_says_so() {
     let mut a = Parameter::new("a", Scale::Log, 2.0, [2.0, 9.0]).unwrap();
-    a.stand(1.0);
+    a.update_state(1.0);
     assert_eq!(a.standing, Standing::Active(Side::Lower));
     let fit = Fit::new(
         vec![a],

@@ -1,54 +1,54 @@
-//! Which parameters the data determine, in words.
+//! Identifiability of parameters as text.
 //!
-//! Intervals are judged by the size of the parameter, [`super::Parameter::own_size`], and not by the bounds that a user gives: wider
-//! bounds are no better data. How much of the bounds an interval fills is a second statement. Parameters that are known only together
-//! are found by correlations, and where these say nothing by singular vectors (Belsley, Kuh, Welsch: Regression Diagnostics, Wiley
-//! 1980, chapter 3). The limits are conventions.
+//! Intervals are compared with the size of the parameter, [`super::Parameter::own_size`], not with the bounds, because wider bounds are not
+//! better data. The share of the bounds that an interval fills is reported separately. Parameters that are identifiable only in combination
+//! are found by correlations, and otherwise by singular vectors (Belsley, Kuh, Welsch: Regression Diagnostics, Wiley 1980, chapter 3). The
+//! limits are conventions.
 
 use super::{Fit, Side, Standing};
 
 /// Confidence of the half-widths.
 const CONFIDENCE: f64 = 0.95;
-/// Half-width over the size up to which a parameter is well determined.
+/// Maximum half-width over size of a well determined parameter.
 const WELL: f64 = 0.1;
-/// The same up to which it is roughly determined.
+/// The same for a roughly determined parameter.
 const ROUGHLY: f64 = 0.5;
-/// The same if all others were known, above which the data do not see a parameter.
+/// Conditional half-width over size above which the data do not determine a parameter.
 const UNSEEN: f64 = 1.0;
-/// Share of the range from which on it is told that an interval fills it.
+/// Share of the range filled by an interval above which it is reported.
 pub(super) const FILLS: f64 = 0.5;
-/// Part of a column that no other explains, below which a parameter is known only in combination.
+/// Unexplained part of a column below which a parameter is identifiable only in combination.
 const OWN: f64 = 0.2;
-/// Correlation from which on a parameter is a partner.
+/// Correlation above which a parameter is a partner.
 const PARTNER: f64 = 0.8;
 /// Entry of a singular vector above which a parameter is a partner.
 const ENTRY: f64 = 0.3;
 
-/// What the data say of a parameter.
+/// Verdict on a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// The user holds it.
+    /// Fixed by the user.
     Held,
-    /// It is on a bound and would go on.
+    /// At an active bound.
     OnBound(Side),
-    /// A change by its own size moves the results less than the instruments can see.
+    /// A change by its own size has less effect than the accuracy of the instruments.
     NotSeen,
-    /// The half-width of its interval is a tenth of its size or less.
+    /// The half-width of its interval is at most a tenth of its size.
     WellDetermined,
-    /// Only together with others.
+    /// Identifiable only in combination with others.
     OnlyInCombination,
-    /// The half-width of its interval is half of its size or less.
+    /// The half-width of its interval is at most half its size.
     RoughlyDetermined,
-    /// The rest: its interval is nearly as wide as its size, or wider.
+    /// Otherwise.
     NotDetermined,
 }
 
-/// A combination of two parameters that is better known than either: u - factor v.
+/// A combination of two parameters that is better determined than either: u - factor v.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Combination {
     /// The other parameter.
     pub with: usize,
-    /// What its coordinate is multiplied by before it is taken away.
+    /// Factor on its coordinate.
     pub factor: f64,
     /// Value of the combination.
     pub value: f64,
@@ -56,35 +56,35 @@ pub struct Combination {
     pub deviation: f64,
 }
 
-/// How well a parameter is determined, and by what.
+/// Identifiability of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Determination {
-    /// What the data say.
+    /// Verdict.
     pub verdict: Verdict,
-    /// Half-width of the 95 % interval over the size of the parameter, [`super::Parameter::own_size`]; absent where there is no standard
-    /// deviation. The verdict follows from it. \[-\]
+    /// Half-width of the 95 % interval over the size of the parameter, [`super::Parameter::own_size`]; absent without a standard deviation.
+    /// The verdict is based on it. \[-\]
     pub relative: Option<f64>,
-    /// The same if all other parameters were known; absent where the column is zero or the parameter does not move. \[-\]
+    /// The same conditional on all other parameters; absent if the column is zero or the parameter is not free. \[-\]
     pub relative_alone: Option<f64>,
     /// Share of the range between the bounds that the interval fills; absent without two bounds or a standard deviation. \[-\]
     pub filled: Option<f64>,
-    /// Half-width of the 95 % interval over the range; absent where there is no standard deviation.
+    /// Half-width of the 95 % interval over the range; absent without a standard deviation.
     pub width: Option<f64>,
-    /// The same if all other parameters were known; absent where the column is zero or the parameter does not move.
+    /// The same conditional on all other parameters; absent if the column is zero or the parameter is not free.
     pub alone: Option<f64>,
-    /// Part of the column that no other explains, from zero to one: the root of the tolerance, 1/VIF.
+    /// Part of the column that the others do not explain, from zero to one: the root of the tolerance, 1/VIF.
     pub own: f64,
-    /// Parameters that it is known together with, the nearest first.
+    /// Parameters that are identifiable only in combination with it, the strongest first.
     pub partners: Vec<usize>,
 }
 
 impl Fit {
-    /// What the data say of a parameter.
+    /// Verdict on a parameter.
     pub fn determination(&self, parameter: usize) -> Determination {
         self.determination_widened(parameter, 1.0)
     }
 
-    /// As [`Fit::determination`], where checks of the residuals say that intervals are too small by a factor.
+    /// As [`Fit::determination`], with intervals widened by a factor from the checks of the residuals.
     pub fn determination_widened(&self, parameter: usize, widening: f64) -> Determination {
         let mut found = Determination {
             verdict: Verdict::Held,
@@ -106,7 +106,7 @@ impl Fit {
         }
         let at = &self.parameters()[parameter];
         let (range, size) = (at.range(), at.own_size());
-        // Rows are more than parameters wherever Student's quantile is asked for.
+        // There are more rows than parameters if Student's quantile is used.
         let quantile = self.quantile(CONFIDENCE).unwrap_or(f64::MAX);
         let alone = self.variance().sqrt() / self.column(parameter);
         let deviation = self.deviation(parameter);
@@ -122,7 +122,7 @@ impl Fit {
         found.alone = half_alone.map(|half| half / range);
         found.own = match deviation {
             Some(d) if d > 0.0 => (alone / d).min(1.0),
-            // Without any scatter every parameter is known exactly.
+            // Without scatter every parameter is known exactly.
             Some(_) => 1.0,
             None => 0.0,
         };
@@ -144,7 +144,7 @@ impl Fit {
         found
     }
 
-    /// The parameters that one is known together with, the nearest first.
+    /// The partners of a parameter, the strongest first.
     fn partners(&self, parameter: usize) -> Vec<usize> {
         let others = || (0..self.parameters().len()).filter(|k| *k != parameter);
         let strength = |k: usize| self.correlation(parameter, k).map_or(0.0, f64::abs);
@@ -153,7 +153,7 @@ impl Fit {
             .filter(|(_, s)| *s >= PARTNER)
             .collect();
         if list.is_empty() {
-            // The direction in which most of the variance lies: an unresolved one where there is no variance to tell.
+            // The direction with most of the variance: an unresolved direction if there is no variance.
             let resolved = self.factors.resolved;
             let places = if self.deviation(parameter).is_some() {
                 0..resolved
@@ -183,7 +183,7 @@ impl Fit {
         list.into_iter().map(|(k, _)| k).collect()
     }
 
-    /// The combination of a parameter with another that is known best; absent where either has no standard deviation.
+    /// The best determined combination of a parameter with another; absent if either has no standard deviation.
     pub fn combination(&self, parameter: usize, with: usize) -> Option<Combination> {
         let correlation = self.correlation(parameter, with)?;
         let factor = correlation * self.deviation(parameter)? / self.deviation(with)?;

@@ -3,43 +3,41 @@
 use super::verdict::FILLS;
 use super::{Determination, Fit, Parameter, Scale, Verdict};
 
-/// Confidence of the intervals in sentences, and how they name it.
+/// Confidence of the intervals in sentences, and its text.
 const CONFIDENCE: (f64, &str) = (0.95, "95 %");
 
 impl Fit {
-    /// What the data say of a parameter, as a sentence without an end; where its interval fills half of the range or more, that too.
+    /// The verdict on a parameter as a sentence without full stop, with a note if its interval fills half the range or more.
     pub fn sentence(&self, parameter: usize) -> String {
         let found = self.determination(parameter);
-        let said = self.said(parameter, &found);
+        let said = self.verdict_text(parameter, &found);
         match found.filled {
             Some(filled) if filled >= FILLS && found.verdict != Verdict::NotSeen => {
-                format!("{said}; its interval fills {:.0} % of the range given", 100.0 * filled)
+                format!("{said}; its interval fills {:.0} % of the given range", 100.0 * filled)
             }
             _ => said,
         }
     }
 
-    /// The verdict in words.
-    fn said(&self, parameter: usize, found: &Determination) -> String {
+    /// The verdict as text.
+    fn verdict_text(&self, parameter: usize, found: &Determination) -> String {
         let at = &self.parameters()[parameter];
         match found.verdict {
-            Verdict::Held => format!("held at {}", digits(at.theta())),
+            Verdict::Held => format!("fixed at {}", digits(at.theta())),
             Verdict::OnBound(side) => {
                 let wish = if side.sign() < 0.0 { "less" } else { "more" };
                 let bound = digits(at.scale.theta(at.bounds[side.place()]));
-                format!(
-                    "stands at its {} bound {bound} and would go on; the data prefer {wish}, the bound decides",
-                    side.name()
-                )
+                format!("is at its {} bound {bound}; the data prefer {wish}", side.name())
             }
             Verdict::NotSeen => {
-                "changing it by its own size moves the result less than the instruments can see".to_owned()
+                "not identifiable: a change by its own size has less effect than the accuracy of the instruments"
+                    .to_owned()
             }
             Verdict::WellDetermined | Verdict::RoughlyDetermined | Verdict::NotDetermined => self.alone(parameter),
             Verdict::OnlyInCombination => {
                 let Some(first) = found.partners.first() else {
                     return format!(
-                        "only in combination with several others; alone {}",
+                        "identifiable only in combination with several others; alone {}",
                         self.alone(parameter)
                     );
                 };
@@ -52,12 +50,12 @@ impl Fit {
                 match self.known(parameter, *first) {
                     Some(known) => {
                         format!(
-                            "only together with {names}: {known} is known, {} alone {}",
+                            "identifiable only in combination with {names}: {known} is determined, {} alone {}",
                             at.name,
                             self.alone(parameter)
                         )
                     }
-                    None => format!("only together with {names}: the data do not tell them apart"),
+                    None => format!("identifiable only in combination with {names}: the data do not separate them"),
                 }
             }
         }
@@ -96,12 +94,12 @@ impl Fit {
     }
 }
 
-/// A number to four digits.
+/// A number with four digits.
 fn digits(x: f64) -> String {
     decimals(x, 4).map_or_else(|| format!("{x:.3e}"), |places| format!("{x:.places$}"))
 }
 
-/// A number with its half-width, both to the second digit of the half-width.
+/// A number with its half-width, both rounded to the second digit of the half-width.
 fn with_half(x: f64, half: f64) -> String {
     match decimals(half, 2) {
         Some(places) if half > 0.0 => format!("{x:.places$} +- {half:.places$}"),
@@ -109,7 +107,7 @@ fn with_half(x: f64, half: f64) -> String {
     }
 }
 
-/// Places behind the point that show a number of digits; absent where there would be too many on either side.
+/// Decimals that show a number of digits; absent if there would be too many on either side of the point.
 fn decimals(x: f64, digits: i32) -> Option<usize> {
     if x == 0.0 {
         return Some(0);

@@ -1,19 +1,19 @@
 //! Linear least squares inside bounds, for a few unknowns and many rows.
 //!
-//! Source: Stark, Parker: Bounded-variable least squares (Computational Statistics 10 (1995) 129-141): an active set of bounds, in
-//! which each step solves for the unknowns that are free. The rows are reduced to a triangle by an orthogonal
-//! factorisation before, so that a step costs nothing that grows with their number.
+//! Source: Stark, Parker: Bounded-variable least squares (Computational Statistics 10 (1995) 129-141): an active set of bounds; each step
+//! solves for the free unknowns. The rows are first reduced to a triangle by an orthogonal factorisation, so that the cost of a step does
+//! not depend on their number.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::linear::nearest;
 
-/// Slope over the norms of column and residual below which a bound holds its unknown.
+/// Slope over the norms of column and residual below which a bound remains active.
 const FLAT: f64 = 1e-10;
 
-/// The unknowns inside their bounds that bring the sum of the columns, each times its unknown, nearest to the target.
+/// The unknowns within their bounds that minimise the distance of the linear combination of the columns from the target.
 ///
-/// Absent where lengths differ, a number is not finite, a bound is above the other, or the search ends in a circle of rounding.
+/// Absent if lengths differ, a number is not finite, bounds are reversed, or the search cycles because of rounding.
 pub fn bounded_linear(columns: &[Vec<f64>], target: &[f64], bounds: &[[f64; 2]]) -> Option<Vec<f64>> {
     let count = columns.len();
     let finite = |list: &[f64]| list.iter().all(|x| x.is_finite());
@@ -34,7 +34,7 @@ pub fn bounded_linear(columns: &[Vec<f64>], target: &[f64], bounds: &[[f64; 2]])
     let mut x = DVector::from_iterator(count, bounds.iter().map(|[low, high]| 1.0_f64.clamp(*low, *high)));
     let mut free = vec![true; count];
     for _ in 0..100 * (count + 1) {
-        // The best of the free ones, the others where they are; as far towards it as bounds allow.
+        // The optimum of the free unknowns with the others fixed; as far towards it as the bounds allow.
         let places: Vec<usize> = (0..count).filter(|j| free[*j]).collect();
         let held = (0..count).filter(|j| !free[*j]);
         let rest = held.fold(right.clone(), |rest, j| rest - matrix.column(j) * x[j]);
@@ -59,7 +59,7 @@ pub fn bounded_linear(columns: &[Vec<f64>], target: &[f64], bounds: &[[f64; 2]])
             (x[j], free[j]) = (end, false);
             continue;
         }
-        // A bound from which the residual becomes smaller inwards is let go, the steepest first.
+        // A bound is released if the residual decreases inwards, the steepest first.
         let residual = &right - &matrix * &x;
         let slope = |j: usize| {
             let column = matrix.column(j);

@@ -1,7 +1,7 @@
-//! The least inside ball and box as second-order cone program.
+//! The minimum inside ball and box as a second-order cone program.
 //!
-//! Variables are the step and the residual of the model, both divided by their usual size, which gives the tolerances
-//! of the solver their meaning: minimise 1/2 |y|^2 subject to R z - y = -q, the bounds, and |z| <= radius.
+//! Variables are the step and the residual of the model, both divided by their typical size, so that the tolerances of the solver are
+//! meaningful: minimise 1/2 |y|^2 subject to R z - y = -q, the bounds, and |z| <= radius.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
@@ -12,12 +12,12 @@ use nalgebra::DVector;
 
 use super::subproblem::{Model, Region};
 
-/// Room over the size of the step, below which a component is held.
+/// Relative distance to a bound below which a component is fixed.
 const NARROW: f64 = 1e-10;
-/// Gap and infeasibility below which a program is solved.
+/// Gap and infeasibility of a solved program.
 const TOLERANCE: f64 = 1e-10;
 
-/// The least of a model in a region, given the length of the Gauss-Newton step. Absent where the solver has no answer.
+/// The minimum of a model in a region, given the length of the Gauss-Newton step. Absent if the solver fails.
 pub(super) fn step(model: &Model<'_>, region: &Region, newton: f64) -> Option<DVector<f64>> {
     let n = model.r.ncols();
     let size = region.radius.min(newton);
@@ -32,7 +32,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region, newton: f64) -> Option<DV
     if free.is_empty() {
         return Some(z);
     }
-    // A bound beyond the ball never binds.
+    // A bound outside the ball is never active.
     let uppers: Vec<usize> = (0..free.len())
         .filter(|k| region.upper[free[*k]] < region.radius)
         .collect();
@@ -91,7 +91,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region, newton: f64) -> Option<DV
     for (place, j) in free.iter().enumerate() {
         z[*j] = answer.x[place] * size;
     }
-    // A constraint binds where its multiplier is greater than its slack.
+    // A constraint is active if its multiplier is larger than its slack.
     let binds = |i: usize| answer.z[rows + i] > answer.s[rows + i];
     let mut loose = free.clone();
     for (i, place) in uppers.iter().chain(&lowers).enumerate() {
@@ -108,7 +108,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region, newton: f64) -> Option<DV
     let ball = rows + bounds;
     let slack = answer.s[ball] - answer.s[ball + 1..].iter().map(|s| s * s).sum::<f64>().sqrt();
     let inside = answer.z[ball] <= slack;
-    if let Some(sharp) = model.least(&z, &loose).filter(|sharp| inside && region.holds(sharp)) {
+    if let Some(sharp) = model.minimum(&z, &loose).filter(|sharp| inside && region.holds(sharp)) {
         return Some(sharp);
     }
     region.clip(&mut z);
@@ -116,8 +116,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region, newton: f64) -> Option<DV
     Some(z)
 }
 
-/// Moves a point into the ball by its loose components, so that the others stay on their bounds; by all, where that is not
-/// enough.
+/// Moves a point into the ball by its free components, so that the others remain at their bounds; by all components if necessary.
 fn shrink(z: &mut DVector<f64>, radius: f64, loose: &[usize]) {
     let norm = z.norm();
     if norm <= radius {
@@ -146,7 +145,7 @@ fn settings() -> DefaultSettings<f64> {
         presolve_enable: false,
         equilibrate_enable: true,
         max_threads: 1,
-        // The one that is built in, whatever other crates ask of Clarabel: results must not hang on that.
+        // The built-in method, independent of the features of Clarabel that other crates enable.
         direct_solve_method: "qdldl".to_owned(),
         ..DefaultSettings::default()
     }

@@ -1,4 +1,4 @@
-//! Derivatives by differences that never leave the bounds.
+//! Derivatives by differences within the bounds.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -8,9 +8,9 @@ use super::evaluate::{Evaluator, Miss};
 /// Why there is no Jacobian.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum NoDerivative {
-    /// A parameter beside which the residuals have no value, and why.
+    /// A parameter near which the residuals have no value, and why.
     NotFinite(String),
-    /// The user has had enough.
+    /// Interrupted by the user.
     Interrupted,
 }
 
@@ -38,7 +38,7 @@ impl From<Miss> for Gap {
 }
 
 impl Differences<'_> {
-    /// The Jacobian at a point with its residual, all columns at the same time.
+    /// The Jacobian at a point with its residual; columns are computed in parallel.
     pub fn jacobian(&self, u: &[f64], r: &DVector<f64>) -> Result<DMatrix<f64>, NoDerivative> {
         let columns: Vec<Result<DVector<f64>, NoDerivative>> = (0..u.len())
             .into_par_iter()
@@ -52,7 +52,7 @@ impl Differences<'_> {
         Ok(jacobian)
     }
 
-    /// One column; steps shrink where neighbours have no value.
+    /// One column; steps are reduced if neighbours have no value.
     fn column(&self, u: &[f64], r: &DVector<f64>, j: usize) -> Result<DVector<f64>, NoDerivative> {
         let space = self.evaluator.space;
         let share = if self.central {
@@ -69,7 +69,7 @@ impl Differences<'_> {
                 self.forward_column(u, r, j, h)
             };
             match column {
-                // Two finite residuals may still differ by more than a number can hold.
+                // The difference of two finite residuals may overflow.
                 Ok(column) if column.iter().all(|x| x.is_finite()) => return Ok(column),
                 Ok(_) => "the derivative is not finite".clone_into(&mut why),
                 Err(Gap::Undefined(message)) => why = message,
@@ -78,12 +78,12 @@ impl Differences<'_> {
         }
         let theta = space.theta(u)[space.free[j]];
         Err(NoDerivative::NotFinite(format!(
-            "beside `{}` = {theta}: {why}",
+            "near `{}` = {theta}: {why}",
             space.name(j)
         )))
     }
 
-    /// The step really taken to a neighbour, and the residual there.
+    /// The exact step to a neighbour, and the residual there.
     fn neighbour(&self, u: &[f64], j: usize, h: f64) -> Result<(f64, DVector<f64>), Gap> {
         let mut beside = u.to_vec();
         beside[j] += h;
@@ -93,7 +93,7 @@ impl Differences<'_> {
 
     fn forward_column(&self, u: &[f64], r: &DVector<f64>, j: usize, h: f64) -> Result<DVector<f64>, Gap> {
         let [down, up] = self.room(u, j);
-        // In a box narrower than the step, the roomier side.
+        // In a box narrower than the step, the side with more space.
         let first = if up >= h || up >= down { h.min(up) } else { -h.min(down) };
         let there = match self.neighbour(u, j, first) {
             Err(Gap::Undefined(message)) => {
@@ -126,7 +126,7 @@ impl Differences<'_> {
         match (self.neighbour(u, j, h), self.neighbour(u, j, -h)) {
             (Ok((above, upper)), Ok((below, lower))) => Ok((upper - lower) / (above - below)),
             (Err(Gap::Interrupted), _) | (_, Err(Gap::Interrupted)) => Err(Gap::Interrupted),
-            // No value on one side: two points on the other, if there is room.
+            // No value on one side: two points on the other if there is space.
             (Ok(_), Err(_)) if up >= 2.0 * h => self.sided_column(u, r, j, h),
             (Err(_), Ok(_)) if down >= 2.0 * h => self.sided_column(u, r, j, -h),
             (Err(gap), _) | (_, Err(gap)) => Err(gap),
@@ -140,7 +140,7 @@ impl Differences<'_> {
         Ok(((near - r) * (h2 / h1) - (far - r) * (h1 / h2)) / (h2 - h1))
     }
 
-    /// Room below and above a coordinate.
+    /// Distance to the bounds below and above a coordinate.
     fn room(&self, u: &[f64], j: usize) -> [f64; 2] {
         let space = self.evaluator.space;
         [u[j] - space.lower[j], space.upper[j] - u[j]]
@@ -160,7 +160,7 @@ mod tests {
             inside.ok_or_else(|| "beyond the edge".to_owned())
         };
         let problem = Problem::new(law, vec![Parameter::new("x", x).within(bounds[0], bounds[1])]);
-        let space = Space::of(problem.parameters()).unwrap_or_else(|fault| panic!("{fault}"));
+        let space = Space::from_parameters(problem.parameters()).unwrap_or_else(|fault| panic!("{fault}"));
         let (evaluator, r) = Evaluator::start(&problem, &space, None).unwrap_or_else(|fault| panic!("{fault}"));
         let differences = Differences {
             evaluator: &evaluator,

@@ -1,7 +1,7 @@
-//! A step that falls enough, without cone program: along the projected gradient, then towards the least on the free face.
+//! A step with sufficient decrease without cone program: along the projected gradient, then towards the minimum on the free face.
 //!
-//! It falls at least as much as the generalised Cauchy point (Conn, Gould and Toint, "Trust-Region Methods", 2000,
-//! chapter 12), so that a run converges with it alone, if more slowly.
+//! Its decrease is at least that of the generalised Cauchy point (Conn, Gould and Toint, "Trust-Region Methods", 2000, chapter 12), so that
+//! a run also converges with it alone, but more slowly.
 
 use nalgebra::DVector;
 
@@ -23,7 +23,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region) -> DVector<f64> {
         if flat == 0.0 {
             break;
         }
-        // Where the model does not bend, the ball or a bound ends the leg.
+        // Without curvature the ball or a bound ends the leg.
         let least = if bend > 0.0 { flat / bend } else { f64::INFINITY };
         if walk(region, &mut z, &leg, least).is_none() {
             break;
@@ -33,7 +33,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region) -> DVector<f64> {
     let mut free: Vec<usize> = (0..z.len())
         .filter(|j| !outward(region, &z, *j, -gradient[*j]))
         .collect();
-    while let Some(target) = model.least(&z, &free) {
+    while let Some(target) = model.minimum(&z, &free) {
         let leg = target - &z;
         let Some(bound) = walk(region, &mut z, &leg, 1.0) else {
             break;
@@ -43,12 +43,12 @@ pub(super) fn step(model: &Model<'_>, region: &Region) -> DVector<f64> {
     z
 }
 
-/// Whether a component sits on a bound and would go on.
+/// Whether a component is at a bound and the step points outwards.
 fn outward(region: &Region, z: &DVector<f64>, j: usize, along: f64) -> bool {
     (z[j] <= region.lower[j] && along < 0.0) || (z[j] >= region.upper[j] && along > 0.0)
 }
 
-/// Walks along a leg by `least` of its lengths, or to a bound, or to the ball. The bound that ended it.
+/// Moves along a leg by `least` of its lengths, or to a bound, or to the ball. Returns the bound that ended it.
 fn walk(region: &Region, z: &mut DVector<f64>, leg: &DVector<f64>, least: f64) -> Option<usize> {
     let mut bound = None;
     let mut length = least;
@@ -78,7 +78,7 @@ fn walk(region: &Region, z: &mut DVector<f64>, leg: &DVector<f64>, least: f64) -
     bound
 }
 
-/// Length along a leg at which a point inside the ball leaves it.
+/// Length along a leg from a point inside the ball to its surface.
 fn to_ball(z: &DVector<f64>, leg: &DVector<f64>, radius: f64) -> f64 {
     let (a, b) = (leg.norm_squared(), z.dot(leg));
     let c = (radius * radius - z.norm_squared()).max(0.0);
@@ -86,6 +86,6 @@ fn to_ball(z: &DVector<f64>, leg: &DVector<f64>, radius: f64) -> f64 {
         return f64::INFINITY;
     }
     let root = (b * b + a * c).sqrt();
-    // Of the two forms of the greater root the one that does not cancel.
+    // The form of the larger root without cancellation.
     if b > 0.0 { c / (b + root) } else { (root - b) / a }
 }

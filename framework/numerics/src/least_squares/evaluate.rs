@@ -8,7 +8,7 @@ use super::fault::{Fault, Finding};
 use super::problem::Problem;
 use super::space::Space;
 
-/// Greater residuals count as none: their squares would overflow.
+/// Maximum residual; squares of larger ones would overflow.
 const GREATEST: f64 = 1e150;
 
 /// Why there is no residual.
@@ -16,27 +16,27 @@ const GREATEST: f64 = 1e150;
 pub(super) enum Miss {
     /// It has no value here.
     Undefined(String),
-    /// The user has had enough.
+    /// Interrupted by the user.
     Interrupted,
 }
 
-/// A hook that says whether to stop.
+/// A function that returns whether to stop.
 pub(super) type Interrupt<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// Counts calls of a residual function and puts rows of priors behind its own.
+/// Counts calls of a residual function and appends rows of priors.
 pub(super) struct Evaluator<'p> {
     problem: &'p Problem<'p>,
     pub space: &'p Space<'p>,
     interrupt: Option<Interrupt<'p>>,
     /// Rows of data; those of priors follow.
     pub rows: usize,
-    // Sums of whole numbers do not hang on the order of threads.
+    // Sums of integers do not depend on the order of threads.
     evaluations: AtomicUsize,
     undefined: AtomicUsize,
 }
 
 impl<'p> Evaluator<'p> {
-    /// With the residual at the start.
+    /// Evaluates the residual at the start.
     ///
     /// # Errors
     /// If there is none, or if it has fewer rows than there are free parameters.
@@ -60,7 +60,7 @@ impl<'p> Evaluator<'p> {
         let residual = data
             .and_then(|data| evaluator.complete(data, &space.start))
             .map_err(|message| {
-                let help = "start where every residual has a value";
+                let help = "choose a start where every residual has a value";
                 Finding::new("residuals at the start", message, help)
             })?;
         let (rows, free) = (residual.len(), space.len());
@@ -69,7 +69,7 @@ impl<'p> Evaluator<'p> {
             let help = "fix parameters, or give some of them a prior";
             return Err(Finding::new("residuals", message, help).into());
         }
-        // The first call is never interrupted: there would be no point to give back.
+        // The first call is never interrupted, because there would be no point to return.
         evaluator.interrupt = interrupt;
         Ok((evaluator, residual))
     }
@@ -90,7 +90,7 @@ impl<'p> Evaluator<'p> {
         })
     }
 
-    /// As [`Self::residual`], nothing where it has no value: the only miss is an interruption.
+    /// As [`Self::residual`], absent if it has no value; the only error is an interruption.
     pub fn try_residual(&self, u: &[f64]) -> Result<Option<DVector<f64>>, Miss> {
         match self.residual(u) {
             Ok(residual) => Ok(Some(residual)),
@@ -99,7 +99,7 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// Whether the user has had enough.
+    /// Whether the user has interrupted.
     pub fn interrupted(&self) -> bool {
         self.interrupt.is_some_and(|stop| stop())
     }
@@ -109,18 +109,14 @@ impl<'p> Evaluator<'p> {
         self.evaluations.load(Ordering::Relaxed)
     }
 
-    /// Calls so far that had no value.
+    /// Calls so far without a value.
     pub fn undefined(&self) -> usize {
         self.undefined.load(Ordering::Relaxed)
     }
 
     fn complete(&self, mut data: Vec<f64>, u: &[f64]) -> Result<DVector<f64>, String> {
         if data.len() != self.rows {
-            return Err(format!(
-                "{} residuals where there were {} at the start",
-                data.len(),
-                self.rows
-            ));
+            return Err(format!("{} residuals, but {} at the start", data.len(), self.rows));
         }
         if let Some(i) = data.iter().position(|r| r.is_nan() || r.abs() > GREATEST) {
             return Err(format!("residual {} of {} is {}", i + 1, self.rows, data[i]));

@@ -1,22 +1,22 @@
-//! Why a problem cannot be fitted as it is stated.
+//! Errors in the statement of a problem.
 
 use std::fmt;
 
-/// One thing that is wrong with a problem.
+/// One error of a problem.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
-    /// Where: a parameter, a residual, an option.
+    /// Place: a parameter, a residual, an option.
     pub place: String,
-    /// What.
+    /// Message.
     pub message: String,
-    /// How to fix it.
+    /// Help.
     pub help: String,
 }
 
-/// Everything that is wrong with a problem, found at once.
+/// All errors of a problem.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// Each of it; never empty.
+    /// The errors; never empty.
     pub findings: Vec<Finding>,
 }
 
@@ -31,8 +31,8 @@ impl Finding {
 }
 
 impl Fault {
-    /// One thing that is wrong: where, what, and how to fix it.
-    pub fn of(place: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
+    /// One error: place, message and help.
+    pub fn single(place: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Finding::new(place, message, help).into()
     }
 }

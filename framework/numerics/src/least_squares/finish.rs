@@ -1,4 +1,4 @@
-//! The finish of a search that short differences no longer bring forward.
+//! Completion of a search that makes no progress with short differences.
 
 use super::evaluate::Evaluator;
 use super::fault::Fault;
@@ -10,10 +10,10 @@ use super::polish::polish;
 use super::problem::Problem;
 use super::space::Space;
 
-/// Remaining shift in standard errors from which on a search whose steps are small is finished without derivatives. \[-\]
+/// Remaining shift in standard errors above which a search with small steps is completed without derivatives. \[-\]
 const LEFT: f64 = 0.02;
 
-/// Whether a search ended where derivatives promise more than a step brings.
+/// Whether a search ended where derivatives predict a decrease that no step achieves.
 pub(super) fn is_stuck(fit: &Fit) -> bool {
     let left = fit.log.last().and_then(|step| step.relative_offset);
     match fit.reason {
@@ -23,7 +23,7 @@ pub(super) fn is_stuck(fit: &Fit) -> bool {
     }
 }
 
-/// Finishes a search without derivatives, from its end or from other coordinates, and finds the kinks that hold its minimum.
+/// Completes a search without derivatives, from its end or from other coordinates, and finds the kinks at its minimum.
 ///
 /// # Errors
 /// If there are no residuals at the other coordinates.

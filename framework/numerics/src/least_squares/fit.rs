@@ -1,4 +1,4 @@
-//! What became of a problem.
+//! Result of a problem.
 
 use nalgebra::DMatrix;
 
@@ -8,27 +8,27 @@ use super::subproblem::How;
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reason {
-    /// Nothing is left of the residuals.
+    /// The residuals are zero.
     ZeroResidual,
-    /// No direction inside the bounds lowers the cost to first order.
+    /// No direction within the bounds reduces the cost to first order.
     FirstOrder,
-    /// What remains is a small part of the standard errors.
+    /// The remaining shift is a small part of the standard errors.
     RelativeOffset,
-    /// Steps have become small.
+    /// The steps are small.
     Step,
-    /// The cost changes no more.
+    /// The cost no longer changes.
     Cost,
-    /// A pattern of neighbours that shrank to a thousandth of a standard error has none that is lower: the end of [`super::Options::polish`].
+    /// No neighbour at a thousandth of a standard error is lower: the end of [`super::Options::polish`].
     Pattern,
-    /// The ball has shrunk to nothing without a step that lowers the cost.
+    /// The ball has shrunk to zero without a step that reduces the cost.
     Radius,
-    /// As many steps as were allowed.
+    /// The maximum number of steps is reached.
     IterationLimit,
-    /// As many calls as were allowed.
+    /// The maximum number of calls is reached.
     EvaluationLimit,
-    /// Beside the point the residuals have no value, however near.
+    /// The residuals have no value near the point.
     DerivativeNotFinite,
-    /// The user has had enough.
+    /// Interrupted by the user.
     Interrupted,
 }
 
@@ -59,12 +59,12 @@ impl Reason {
     }
 }
 
-/// What a fit is worth.
+/// Status of a fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
     /// A minimum.
     Converged,
-    /// A test of convergence was met, and yet a combination of parameters does not change the residuals: no success.
+    /// A test of convergence was met, but a combination of parameters has no effect on the residuals.
     Singular,
     /// The best point of a run that met no test of convergence.
     Failed,
@@ -93,16 +93,16 @@ pub enum Side {
     Upper,
 }
 
-/// One step that was tried.
+/// One trial step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
-    /// Number of the attempt, from 1.
+    /// Number of the attempt, starting at 1.
     pub attempt: usize,
     /// Cost before the step.
     pub cost: f64,
     /// First-order measure before the step. \[-\]
     pub first_order: f64,
-    /// Remaining shift in standard errors before the step, where there are more rows than free parameters. \[-\]
+    /// Remaining shift in standard errors before the step, if there are more rows than free parameters. \[-\]
     pub relative_offset: Option<f64>,
     /// Whether the derivatives are central differences.
     pub central: bool,
@@ -114,45 +114,45 @@ pub struct Iteration {
     pub radius: f64,
     /// Length of the step in the metric of the ball.
     pub length: f64,
-    /// Fall of the cost that was expected.
+    /// Expected decrease of the cost.
     pub predicted: f64,
-    /// Fall of the cost; minus infinity where the residuals have no value.
+    /// Decrease of the cost; minus infinity if the residuals have no value.
     pub actual: f64,
-    /// Whether the step was taken.
+    /// Whether the step was accepted.
     pub accepted: bool,
 }
 
-/// How much work it was, over all attempts.
+/// Counts of work over all attempts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Calls of the residual function, those for differences among them.
+    /// Calls of the residual function, including those for differences.
     pub evaluations: usize,
-    /// Those of them that finished searches without derivatives.
+    /// Calls for the completion without derivatives.
     pub polishing: usize,
-    /// Calls that had no value.
+    /// Calls without a value.
     pub undefined: usize,
-    /// Steps that were tried.
+    /// Trial steps.
     pub steps: usize,
     /// Cone programs.
     pub cone_solves: usize,
-    /// Cone programs without answer, where the dogleg stepped in.
+    /// Failed cone programs, replaced by dogleg.
     pub cone_failures: usize,
-    /// Runs from the start: one, further attempts, and soft_l1 fits beforehand.
+    /// Runs from the start: one, further attempts, and preliminary soft_l1 fits.
     pub runs: usize,
 }
 
 /// Derivatives at the end, by central differences.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derivative {
-    /// Derivative of the rows by the coordinates u of all parameters: as many rows as there are residuals, columns of zeros
-    /// for fixed parameters. Weighted by uncertainties as the residuals are, not by the loss.
+    /// Derivative of the rows by the coordinates u of all parameters: one row for each residual, columns of zeros for fixed parameters.
+    /// Weighted by uncertainties like the residuals, not by the loss.
     pub jacobian: DMatrix<f64>,
-    /// Derivative of the cost by the coordinates, the loss in it.
+    /// Derivative of the cost by the coordinates, including the loss.
     pub gradient: Vec<f64>,
-    /// Smallest singular value over the greatest, of the columns of free parameters that are on no bound, each divided by
-    /// its norm. Below 1e-9 the fit is singular. \[-\]
+    /// Smallest over largest singular value of the columns of free parameters that are not at a bound, each divided by its norm. Below 1e-9
+    /// the fit is singular. \[-\]
     pub independence: f64,
-    /// Whether each parameter is free and has not moved a residual anywhere on the way.
+    /// Whether each parameter is free but never had an effect on a residual.
     pub unseen: Vec<bool>,
 }
 
@@ -161,35 +161,35 @@ pub struct Derivative {
 pub struct Fit {
     /// Parameters in their own units.
     pub theta: Vec<f64>,
-    /// Their coordinates: themselves, or their logarithms.
+    /// Coordinates: the parameters or their logarithms.
     pub u: Vec<f64>,
     /// The cost F.
     pub cost: f64,
-    /// The residuals as the function gives them, then a row for each prior of a free parameter.
+    /// The residuals of the function, then a row for each prior of a free parameter.
     pub residuals: Vec<f64>,
-    /// How many of them are residuals.
+    /// Number of residuals among them.
     pub rows: usize,
-    /// Derivatives; absent after an interruption and where they are not finite.
+    /// Derivatives; absent after an interruption or if they are not finite.
     pub derivative: Option<Derivative>,
-    /// On which bound each parameter stands with the data pulling outward.
+    /// The active bound of each parameter.
     pub active: Vec<Option<Side>>,
     /// Whether each parameter is fixed by equal bounds.
     pub fixed: Vec<bool>,
-    /// What the fit is worth.
+    /// Status of the fit.
     pub status: Status,
     /// Why the run ended.
     pub reason: Reason,
-    /// Number of the attempt that is given back, from 1.
+    /// Number of the returned attempt, starting at 1.
     pub attempt: usize,
-    /// Residual from which on a row counts as far, the spread in it where that was estimated.
+    /// Scale of the loss, including the spread if that was estimated.
     pub loss_scale: f64,
     /// All steps of all attempts.
     pub log: Vec<Iteration>,
-    /// How much work it was.
+    /// Counts of work.
     pub counts: Counts,
-    /// Kinks and jumps that hold the minimum; none where the search ended by its derivatives.
+    /// Kinks and jumps at the minimum; empty if the search ended by its derivatives.
     pub kinks: Vec<Kink>,
-    /// What the user should know: moved starts, fixed and unseen parameters, failures on the way.
+    /// Notes: moved starts, fixed parameters and parameters without effect, failures.
     pub notes: Vec<String>,
 }
 
@@ -199,7 +199,7 @@ impl Fit {
         self.status == Status::Converged
     }
 
-    /// Variance of a residual by the scatter of all; 1 where there are no more residuals than free parameters. \[-\]
+    /// Variance of a residual from the scatter of all; 1 unless there are more residuals than free parameters. \[-\]
     pub fn scatter(&self) -> f64 {
         let free = self.fixed.iter().filter(|fixed| !**fixed).count();
         match self.residuals.len().checked_sub(free) {
@@ -208,7 +208,7 @@ impl Fit {
         }
     }
 
-    /// Twice the cost: the sum of squares, where the loss is linear.
+    /// Twice the cost: the sum of squares if the loss is linear.
     pub fn chi2(&self) -> f64 {
         2.0 * self.cost
     }

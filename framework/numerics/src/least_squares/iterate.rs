@@ -12,9 +12,9 @@ use super::robust::Robust;
 use super::subproblem::{self, How};
 use super::trial::{Here, Trial};
 
-/// How often a run trusts a Gauss-Newton step whose fall drowns in noise.
+/// Maximum number of accepted Gauss-Newton steps whose decrease is below the noise.
 const TRUSTED: usize = 5;
-/// Expected fall over the cost, from which on a step is worth a correction.
+/// Minimum expected relative decrease for a second-order correction.
 const WORTH: f64 = 1e-6;
 
 /// A point with its residual.
@@ -28,35 +28,35 @@ pub(super) struct Point {
 pub(super) struct End {
     pub point: Point,
     pub reason: Reason,
-    /// Why, where the reason does not say all.
+    /// Details of the reason.
     pub detail: Option<String>,
-    /// Derivatives by central differences at the point, where the run had them.
+    /// Derivatives by central differences at the point, if computed.
     pub jacobian: Option<DMatrix<f64>>,
-    /// Free parameters whose columns were never anything but zero.
+    /// Free parameters whose columns were always zero.
     pub unseen: Vec<bool>,
 }
 
-/// What all runs of a problem share.
+/// Shared data of all runs of a problem.
 pub(super) struct Context<'a> {
     pub evaluator: &'a Evaluator<'a>,
     pub options: &'a Options<'a>,
     pub robust: Robust,
     /// Relative noise of one call.
     pub noise: f64,
-    /// The same for steps of differences, which jumps make longer.
+    /// The same for steps of differences, which are longer with jumps.
     pub rough: f64,
-    /// Whether the noise leaves central differences no digits, so that one-sided ones end the run.
+    /// Whether central differences are useless because of noise, so that one-sided differences end the run.
     pub noisy: bool,
 }
 
-/// What runs leave behind.
+/// Record of the runs.
 #[derive(Default)]
 pub(super) struct Record {
     pub log: Vec<Iteration>,
     pub counts: Counts,
 }
 
-/// A run on its way.
+/// State of a run.
 struct Run<'a> {
     context: &'a Context<'a>,
     steps: Steps,
@@ -66,13 +66,13 @@ struct Run<'a> {
     /// Column scales D.
     scale: DVector<f64>,
     radius: Option<f64>,
-    /// Gauss-Newton steps that were taken though their fall drowns in noise.
+    /// Accepted Gauss-Newton steps whose decrease is below the noise.
     trusted: usize,
     noise: CostNoise,
     unseen: Vec<bool>,
 }
 
-/// What a step that was tried says about going on.
+/// Consequence of a trial step.
 enum Verdict {
     Again,
     Moved,
@@ -80,7 +80,7 @@ enum Verdict {
     Stop(Reason, bool),
 }
 
-/// Runs from a point until a test is met; steps and work go to the record.
+/// Runs from a point until a test is met; records steps and work.
 pub(super) fn run(context: &Context<'_>, start: Point, steps: Steps, attempt: usize, record: &mut Record) -> End {
     record.counts.runs += 1;
     let n = start.u.len();
@@ -93,7 +93,7 @@ pub(super) fn run(context: &Context<'_>, start: Point, steps: Steps, attempt: us
         scale: DVector::zeros(n),
         radius: None,
         trusted: 0,
-        noise: CostNoise::told(context.noise),
+        noise: CostNoise::stated(context.noise),
         unseen: vec![true; n],
     };
     run.finish(record)
@@ -147,9 +147,9 @@ impl Run<'_> {
             }
             match stop {
                 None => {}
-                // After a step, the derivatives are those of the point before.
+                // After a step the derivatives belong to the previous point.
                 Some((reason, moved)) if self.ends(reason) => return self.end(reason, None, (!moved).then_some(local)),
-                // Whatever stops a run with one-sided differences: central ones have the last word.
+                // A run that stops with one-sided differences continues with central ones.
                 Some(_) => {
                     self.central = true;
                     switched = true;
@@ -199,7 +199,7 @@ impl Run<'_> {
         }
     }
 
-    /// A first radius, and one to go on with where the last differences have shrunk it to nothing.
+    /// The first radius, or a new one if the last differences have reduced it to zero.
     fn start_radius(&mut self, local: &Linearised<'_>, switched: bool) {
         let typical = &self.context.evaluator.space.typical;
         let here = local.length(|j| self.point.u[j]);
@@ -210,7 +210,7 @@ impl Run<'_> {
         }
     }
 
-    /// Tries one step. The only miss that is handed up is an interruption.
+    /// Tries one step. The only error is an interruption.
     fn trial(&mut self, local: &Linearised<'_>, record: &mut Record) -> Result<Verdict, Miss> {
         let (context, radius) = (self.context, self.radius.unwrap_or(0.0));
         let (model, region) = (local.model(), local.region(radius, self.steps.bound));
@@ -229,7 +229,7 @@ impl Run<'_> {
             corrected = true;
         }
         let u = local.target(&z);
-        // A step that promises nothing is not worth a call.
+        // A step without expected decrease is not evaluated.
         let promising = predicted > 0.0;
         let there = if promising {
             context.evaluator.try_residual(&u)?

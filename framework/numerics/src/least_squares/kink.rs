@@ -1,9 +1,9 @@
-//! Kinks and jumps that hold a minimum.
+//! Kinks and jumps at a minimum.
 //!
-//! Along the direction in which one parameter moves and all others follow, twice the cost of a smooth minimum rises by the square of the
-//! distance in standard errors. Where it rises by several times that on one side or the other, slopes or values of residuals jump
-//! between both sides, and standard errors from derivatives say nothing about that parameter. The rows concerned are those whose three
-//! values, on both sides and in between, lie farthest from a straight line.
+//! If one parameter moves and all others follow, twice the cost of a smooth minimum increases by the square of the distance in standard
+//! errors. If it increases several times as much on either side, slopes or values of residuals are discontinuous, and standard errors from
+//! derivatives are invalid for that parameter. The rows concerned are those whose three values, on both sides and in between, deviate most
+//! from a straight line.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -12,32 +12,31 @@ use super::evaluate::Miss;
 use super::iterate::{Context, Point};
 use super::polish::{Axes, inside, moved};
 
-/// Distances of both sides from the minimum, in standard errors by scatter, that are tried until one is steep: no nearer than the
-/// finish is good for. \[-\]
+/// Distances from the minimum on both sides, in standard errors by scatter, tried in turn: not below the accuracy of the completion. \[-\]
 const ASIDE: [f64; 3] = [0.05, 0.01, 0.002];
-/// Distance of a second pair over that of the first, which tells a jump from a kink: a jump is as high there. \[-\]
+/// Distance of a second pair over that of the first, to distinguish a jump from a kink: a jump does not shrink. \[-\]
 const NEARER: f64 = 0.125;
-/// Share of the distance that a bound must leave. \[-\]
+/// Minimum share of the distance within the bounds. \[-\]
 const CUT: f64 = 0.2;
-/// Rise over that of a smooth minimum from which on a kink holds it. \[-\]
+/// Ratio of the increase to that of a smooth minimum above which there is a kink. \[-\]
 const STEEP: f64 = 4.0;
-/// Share of the greatest deviation from a straight line from which on a row is concerned. \[-\]
+/// Share of the largest deviation from a straight line above which a row is concerned. \[-\]
 const CONCERNED: f64 = 0.25;
-/// Share of a deviation that is left at the nearer pair from which on it is a jump. \[-\]
+/// Remaining share of a deviation at the nearer pair above which it is a jump. \[-\]
 const JUMP: f64 = 0.5;
 
-/// A kink or jump that holds a minimum along one parameter.
+/// A kink or jump at a minimum along one parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kink {
     /// The parameter that moves; all others follow.
     pub parameter: usize,
-    /// Rows whose slope or value jumps, in their order.
+    /// Rows with discontinuous slope or value, in order.
     pub rows: Vec<usize>,
     /// All parameters on the lower and on the upper side, in their own units.
     pub sides: [Vec<f64>; 2],
-    /// Rise of twice the cost to either side over that of a smooth minimum; absent where there is no value. \[-\]
+    /// Increase of twice the cost to either side relative to a smooth minimum; absent if there is no value. \[-\]
     pub steepness: [Option<f64>; 2],
-    /// Whether the strongest row jumps in value, rather than in slope alone.
+    /// Whether the value of the strongest row is discontinuous, not only its slope.
     pub jumps: bool,
 }
 
@@ -67,7 +66,7 @@ pub(super) fn kinks(context: &Context<'_>, point: &Point, jacobian: &DMatrix<f64
 /// The kink along one parameter at a distance, if there is one.
 fn along(context: &Context<'_>, point: &Point, axes: &Axes, (j, distance): (usize, f64)) -> Result<Option<Kink>, Miss> {
     let (space, evaluator) = (context.evaluator.space, context.evaluator);
-    // One standard error of the parameter, with all others following: its row of the root times the root.
+    // One standard error of the parameter with all others following: its row of the root times the root.
     let mut step = DVector::zeros(space.len());
     let principal = &axes.steps[..axes.principal];
     for axis in principal {
@@ -78,7 +77,7 @@ fn along(context: &Context<'_>, point: &Point, axes: &Axes, (j, distance): (usiz
         return Ok(None);
     }
     step /= deviation;
-    // As far on either side as a bound leaves room: both sides are compared.
+    // The same distance on both sides, limited by the bounds.
     let room = [-distance, distance].map(|length| inside(space, &point.u, &step, length).abs());
     let aside = room[0].min(room[1]);
     if aside < CUT * distance {

@@ -1,11 +1,11 @@
-//! Linear algebra of one iteration: everything from orthogonal factors, never from J^T J.
+//! Linear algebra of one iteration, based on orthogonal factors, never on J^T J.
 
 use nalgebra::linalg::{QR, SVD};
 use nalgebra::{DMatrix, DVector, Dyn};
 
-/// Singular values below this share of the greatest are dropped.
+/// Singular values below this share of the largest are dropped.
 const CUT: f64 = 1e-12;
-/// Rounds of the singular value decomposition for each row and column; far more than it takes.
+/// Maximum number of sweeps of the singular value decomposition for each row and column.
 const ROUNDS: usize = 100;
 
 /// J D^-1 = Q R, with q = Q^T r.
@@ -16,8 +16,8 @@ pub(super) struct Factors {
 }
 
 impl Factors {
-    /// Of scaled columns and a residual.
-    pub fn of(columns: DMatrix<f64>, residual: &DVector<f64>) -> Self {
+    /// Factors of scaled columns and a residual.
+    pub fn new(columns: DMatrix<f64>, residual: &DVector<f64>) -> Self {
         let qr = columns.qr();
         let r = qr.r();
         let mut factors = Self {
@@ -36,7 +36,7 @@ impl Factors {
     }
 }
 
-/// The shortest x of all that bring `a x` nearest to `b`. Absent where no finite one is found.
+/// The shortest x that minimises |a x - b|. Absent if no finite one is found.
 pub(super) fn nearest(a: DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
     if a.ncols() == 0 {
         return Some(DVector::zeros(0));
@@ -50,7 +50,7 @@ pub(super) fn nearest(a: DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>>
     x.iter().all(|x| x.is_finite()).then_some(x)
 }
 
-/// Smallest singular value over the greatest, of columns divided by their norms; 1 where there are none.
+/// Smallest over largest singular value of columns divided by their norms; 1 without columns.
 pub(super) fn independence(columns: &DMatrix<f64>) -> f64 {
     if columns.ncols() == 0 {
         return 1.0;
@@ -74,8 +74,8 @@ pub(super) fn independence(columns: &DMatrix<f64>) -> f64 {
     decompose(small, false).map_or(0.0, |svd| svd.singular_values.min() / svd.singular_values.max())
 }
 
-/// Right singular vectors with their singular values, the greatest first. Absent where none are found, or where there are fewer rows
-/// than columns.
+/// Right singular vectors with their singular values in descending order. Absent if the decomposition fails, or with fewer rows than
+/// columns.
 pub(super) fn directions(a: DMatrix<f64>) -> Option<Vec<(DVector<f64>, f64)>> {
     if a.ncols() == 0 {
         return Some(Vec::new());

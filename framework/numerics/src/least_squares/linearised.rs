@@ -1,4 +1,4 @@
-//! The residuals as a linear model about a point, in scaled steps.
+//! Linear model of the residuals about a point, in scaled steps.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -26,7 +26,7 @@ pub(super) struct Linearised<'a> {
 }
 
 impl<'a> Linearised<'a> {
-    /// About a point; scales follow the norms of the columns, and remember a share of what they were.
+    /// Linearises at a point; scales follow the norms of the columns with a memory.
     pub fn about(
         point: &Point,
         jacobian: DMatrix<f64>,
@@ -49,7 +49,7 @@ impl<'a> Linearised<'a> {
             space,
             point: point.clone(),
             cost: robust.cost(&point.r),
-            factors: Factors::of(columns, &weighted.residual),
+            factors: Factors::new(columns, &weighted.residual),
             scale: scale.clone(),
             first_order: optimality::first_order(space, &point.u, &rows, &weighted.residual),
             relative_offset: optimality::relative_offset(&rows, &weighted.residual, &active),
@@ -66,7 +66,7 @@ impl<'a> Linearised<'a> {
         }
     }
 
-    /// What a step may do: the ball, the bounds, and a greatest relative change of each coordinate.
+    /// The region of a step: ball, bounds and maximum relative change of each coordinate.
     pub fn region(&self, radius: f64, bound: f64) -> Region {
         let (space, u) = (self.space, &self.point.u);
         let farthest = |j: usize| bound * self.scale[j] * u[j].abs().max(space.typical[j]);
@@ -78,13 +78,13 @@ impl<'a> Linearised<'a> {
         }
     }
 
-    /// By how much the cost would fall at least, were it as the model says and the ball without end.
+    /// Decrease of the cost predicted by the model without the ball.
     pub fn promise(&self, bound: f64) -> f64 {
         let model = self.model();
         model.fall(&dogleg::step(&model, &self.region(f64::INFINITY, bound)))
     }
 
-    /// Where a step leads; exactly onto a bound that it meets.
+    /// The target of a step, exactly at a bound that it reaches.
     pub fn target(&self, z: &DVector<f64>) -> Vec<f64> {
         let (space, u) = (self.space, &self.point.u);
         let place = |j: usize| match (z[j], self.room(j)) {
@@ -95,7 +95,7 @@ impl<'a> Linearised<'a> {
         (0..u.len()).map(place).collect()
     }
 
-    /// Half the second-order correction of a step, for one call. Absent where it is too long, or leaves the bounds.
+    /// Half the second-order correction of a step, for one call. Absent if it is too long or leaves the bounds.
     pub fn correction(
         &self,
         evaluator: &Evaluator<'_>,
@@ -107,7 +107,7 @@ impl<'a> Linearised<'a> {
         };
         let slope = &self.jacobian * z.component_div(&self.scale);
         let mut bend = second_order::bend(&self.point.r, &probe, &slope);
-        // Rows bend by their own weights: these are frozen over a step, as in the linear model.
+        // Weights of rows are constant over a step, as in the linear model.
         if let Some(factors) = &self.weighted.factors {
             bend.component_mul_assign(factors);
         }
@@ -124,13 +124,13 @@ impl<'a> Linearised<'a> {
         DVector::from_fn(self.scale.len(), |j, _| self.scale[j] * of(j)).norm()
     }
 
-    /// Greatest relative change of a coordinate on the way to another point.
+    /// Maximum relative change of a coordinate to another point.
     pub fn change(&self, u: &[f64]) -> f64 {
         let change = |j: usize| (u[j] - self.point.u[j]).abs() / self.space.size(j, self.point.u[j]);
         (0..u.len()).map(change).fold(0.0, f64::max)
     }
 
-    /// Scaled room to the bounds.
+    /// Scaled distance to the bounds.
     fn room(&self, j: usize) -> [f64; 2] {
         let (space, u) = (self.space, &self.point.u);
         [space.lower[j], space.upper[j]].map(|bound| self.scale[j] * (bound - u[j]))

@@ -1,4 +1,4 @@
-//! Many starts, to see whether there is more than one minimum.
+//! Multistart search for several minima.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -14,36 +14,36 @@ use super::solve::search;
 use super::space::Space;
 use super::unite::unite;
 
-/// Relative difference of costs that are the same, and the same over the cost at the start.
+/// Relative difference of equal costs, and the same relative to the cost at the start.
 const SAME: [f64; 2] = [1e-6, 1e-12];
-/// Distance of points that are the same, in standard errors of each direction.
+/// Distance of equal points in standard errors of each direction.
 const NEAR: f64 = 0.1;
-/// Relative distance of coordinates that are the same, where standard errors have no end.
+/// Relative distance of equal coordinates if standard errors are infinite.
 const APART: f64 = 1e-3;
-/// Room in usual sizes for starts, where a bound is missing.
+/// Width of the start region in typical sizes if a bound is missing.
 const AWAY: f64 = 10.0;
-/// Points between two minima that are looked at.
+/// Number of evaluated points between two minima.
 pub(super) const BETWEEN: usize = 7;
-/// Starts that are looked at for each one that is taken, before too many count as without value.
+/// Maximum number of evaluated starts for each valid one.
 const PATIENCE: usize = 20;
 
-/// One minimum with the starts that lead to it.
+/// A minimum with the starts that converge to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Minimum {
     /// The best fit of those that end in it.
     pub fit: Fit,
-    /// Numbers of the starts; 0 is the user's.
+    /// Indices of the starts; 0 is the user's.
     pub starts: Vec<usize>,
     /// Their share of all. \[-\]
     pub share: f64,
 }
 
-/// How minima of the same cost are related.
+/// Relation of minima with equal cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kinship {
-    /// The cost keeps to the least between them: a combination of parameters is not told by the data.
+    /// The cost is constant between them: a combination of parameters is not identifiable.
     Valley,
-    /// The cost rises between them, as where two parameters may be exchanged.
+    /// The cost increases between them, for example if two parameters are exchangeable.
     Equivalent,
 }
 
@@ -62,7 +62,7 @@ impl Kinship {
 pub struct Minima {
     /// Each of them, the lowest first.
     pub minima: Vec<Minimum>,
-    /// How those are related that have the same cost as the lowest; absent where it is alone.
+    /// Relation of minima with the same cost as the lowest; absent if it is unique.
     pub kinship: Option<Kinship>,
     /// Calls of the residual function, all starts together.
     pub evaluations: usize,
@@ -70,13 +70,13 @@ pub struct Minima {
     pub notes: Vec<String>,
 }
 
-/// Solves a problem from its own start and from others that fill its bounds evenly, to `starts` of them.
+/// Solves a problem from its own start and from others distributed within its bounds, `starts` in total.
 ///
 /// # Errors
-/// If the problem makes no sense as it is stated, or if hardly any point has residuals.
+/// If the problem is invalid, or if hardly any point has residuals.
 pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -> Result<Minima, Fault> {
-    let space = Space::of(problem.parameters())?;
-    // Before all others, for its faults.
+    let space = Space::from_parameters(problem.parameters())?;
+    // First, because of its errors.
     let first = search(problem, options, &space)?;
     let (others, looked) = even_starts(problem, options, &space, starts.saturating_sub(1))?;
     let solve_other = |start: &Vec<f64>| search(problem, options, &space.starting(start));
@@ -99,7 +99,7 @@ pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -
     };
     let mut notes = Vec::new();
     if !minima[0].starts.contains(&0) {
-        notes.push("the start that was given does not lead to the lowest minimum".to_owned());
+        notes.push("the given start does not lead to the lowest minimum".to_owned());
     }
     let lowest: Vec<&Fit> = minima
         .iter()
@@ -115,7 +115,7 @@ pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -
     })
 }
 
-/// Fits at the same place with the same cost as one minimum each; the lowest come first.
+/// Groups fits at the same point with the same cost into minima, the lowest first.
 fn gather(space: &Space<'_>, fits: Vec<(usize, Fit)>, begun: f64) -> Vec<Minimum> {
     let share = 1.0 / fits.len() as f64;
     let mut minima: Vec<Minimum> = Vec::new();
@@ -134,7 +134,7 @@ fn gather(space: &Space<'_>, fits: Vec<(usize, Fit)>, begun: f64) -> Vec<Minimum
     minima
 }
 
-/// Starts that fill the bounds and have residuals, and how many calls it took to find them.
+/// Starts within the bounds that have residuals, and the number of calls to find them.
 fn even_starts(
     problem: &Problem<'_>,
     options: &Options<'_>,
@@ -152,10 +152,10 @@ fn even_starts(
     while starts.len() < count && !options.interrupt.is_some_and(|stop| stop()) {
         if looked == PATIENCE * count {
             let message = format!(
-                "only {} of {looked} points inside the bounds have residuals",
+                "only {} of {looked} points within the bounds have residuals",
                 starts.len()
             );
-            return Err(Finding::new("starts", message, "narrow the bounds, or ask for fewer starts").into());
+            return Err(Finding::new("starts", message, "narrow the bounds, or request fewer starts").into());
         }
         looked += 1;
         let point = points::spread(looked, space.len());
@@ -172,12 +172,12 @@ fn even_starts(
     Ok((starts, looked))
 }
 
-/// Whether two costs are the same.
+/// Whether two costs are equal.
 pub(super) fn level(a: &Fit, b: &Fit, begun: f64) -> bool {
     (a.cost - b.cost).abs() <= SAME[0] * a.cost.min(b.cost) + SAME[1] * begun
 }
 
-/// Whether a fit lies where a better one does: in its standard errors, or by its coordinates where those have no end.
+/// Whether a fit is at the same point as a better one: by standard errors, or by coordinates if those are infinite.
 pub(super) fn near(space: &Space<'_>, better: &Fit, fit: &Fit) -> bool {
     let free = |j: &usize| better.active[*j].is_none();
     let apart = |i: usize| fit.u[i] - better.u[i];
@@ -195,7 +195,7 @@ pub(super) fn near(space: &Space<'_>, better: &Fit, fit: &Fit) -> bool {
     }
 }
 
-/// Walks from each of several fits to its nearest one that was walked to before, and looks whether the cost rises between.
+/// Connects each of several fits to the nearest connected one, and checks whether the cost increases between them.
 fn kinship(
     problem: &Problem<'_>,
     options: &Options<'_>,
@@ -230,7 +230,7 @@ fn kinship(
             let share = k as f64 / (BETWEEN + 1) as f64;
             let mix = |j: usize| coordinates[a][j] + share * (coordinates[b][j] - coordinates[a][j]);
             let u: Vec<f64> = (0..space.len()).map(mix).collect();
-            // Twice the cost is the sum of squares, of which one standard error is worth 1.
+            // Twice the cost is the sum of squares; one standard error corresponds to 1.
             let rises = |r: &DVector<f64>| 2.0 * (robust.cost(r) - fits[0].cost) > 1.0;
             if evaluator.residual(&u).map_or(true, |r| rises(&r)) {
                 kinship = Some(Kinship::Equivalent);

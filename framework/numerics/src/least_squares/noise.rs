@@ -1,14 +1,14 @@
-//! How far residuals and their cost can be told from their noise.
+//! Noise of residuals and of their cost.
 
 use nalgebra::DVector;
 
 use super::evaluate::{Evaluator, Miss};
 
-/// Distance of the values that tell the noise, in usual sizes.
+/// Distance of the values for noise estimation, in typical sizes.
 const SPACING: f64 = 1e-6;
-/// Changes of the cost below so many times the noise of a call that was told say nothing.
+/// Factor on a stated noise of a call below which changes of the cost are insignificant.
 const TOLD: f64 = 1e3;
-/// The same of a noise that was found at the point: 2 for the square, 10 to be safe.
+/// The same for a noise estimated at the point: 2 for the square, 10 for safety.
 const FOUND: f64 = 20.0;
 
 /// Relative noise of the cost in a run.
@@ -19,16 +19,16 @@ pub(super) struct CostNoise {
 }
 
 impl CostNoise {
-    /// From the noise of a call, relative to the residuals, as it was told.
-    pub fn told(noise: f64) -> Self {
+    /// From the stated noise of a call relative to the residuals.
+    pub fn stated(noise: f64) -> Self {
         Self {
             share: TOLD * noise,
             sounded: false,
         }
     }
 
-    /// Finds it at a point by six calls, once in a run. What was told is relative to the residuals, while rounding is
-    /// relative to the values whose small differences they are.
+    /// Estimates it at a point by six calls, once in a run. A stated noise is relative to the residuals, but rounding is relative to the
+    /// values whose differences they are.
     pub fn sound(&mut self, evaluator: &Evaluator<'_>, u: &[f64], r: &DVector<f64>) -> Result<(), Miss> {
         if !std::mem::replace(&mut self.sounded, true) {
             match estimate(evaluator, u, r) {
@@ -41,7 +41,7 @@ impl CostNoise {
     }
 }
 
-/// Relative noise of one call, from third differences of seven of them along one direction; no less than rounding.
+/// Relative noise of one call, from third differences of seven calls along one direction; not below rounding.
 ///
 /// Hamming, "Numerical Methods for Scientists and Engineers" (1962), on tables of differences.
 pub(super) fn estimate(evaluator: &Evaluator<'_>, u: &[f64], r: &DVector<f64>) -> Result<f64, Miss> {

@@ -1,4 +1,4 @@
-//! Measures of how far a point is from a minimum inside the bounds.
+//! Measures of the distance from a minimum within the bounds.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,7 +9,7 @@ use super::space::Space;
 /// Error of central differences, relative to a column.
 const ROUNDING: f64 = 1e-9;
 
-/// On which bound each coordinate stands with the gradient pushing outward.
+/// The active bound of each coordinate.
 pub(super) fn active(space: &Space<'_>, u: &[f64], gradient: &DVector<f64>) -> Vec<Option<Side>> {
     let side = |j: usize| match gradient[j] {
         g if g > 0.0 && u[j] <= space.lower[j] => Some(Side::Lower),
@@ -19,8 +19,8 @@ pub(super) fn active(space: &Space<'_>, u: &[f64], gradient: &DVector<f64>) -> V
     (0..u.len()).map(side).collect()
 }
 
-/// The first-order measure: the greatest cosine between a column and the residual, or the fall that the room to a bound
-/// leaves. Pure number; zero on a bound towards which the gradient pushes, continuous near it.
+/// The first-order measure: the largest cosine between a column and the residual, limited by the distance to a bound. Pure number; zero at
+/// an active bound, continuous near it.
 pub(super) fn first_order(space: &Space<'_>, u: &[f64], jacobian: &DMatrix<f64>, residual: &DVector<f64>) -> f64 {
     let length = residual.norm();
     let measure = |j: usize| {
@@ -40,12 +40,13 @@ pub(super) fn first_order(space: &Space<'_>, u: &[f64], jacobian: &DMatrix<f64>,
     (0..u.len()).map(measure).fold(0.0, f64::max)
 }
 
-/// Numbers of the coordinates that no bound holds: those on none, and those that sit on one towards which the residual
-/// pushes no more than what is left of it in the other columns. A column that is a combination of the others is never
-/// pushed harder than that, so that its bound cannot hide that it is one.
+/// Indices of the coordinates that no bound holds: those not at a bound, and those at one with a gradient not larger than that remaining in
+/// the other columns. A column that is a combination of the others is never above that, so that its bound cannot hide the singularity.
 pub(super) fn unheld(jacobian: &DMatrix<f64>, residual: &DVector<f64>, active: &[Option<Side>]) -> Vec<usize> {
     let free = inactive(active);
-    let left = linear::Factors::of(linear::columns(jacobian, &free), residual).q.norm();
+    let left = linear::Factors::new(linear::columns(jacobian, &free), residual)
+        .q
+        .norm();
     let noise = ROUNDING * residual.norm();
     let holds = |j: usize| {
         let column = jacobian.column(j);
@@ -56,8 +57,8 @@ pub(super) fn unheld(jacobian: &DMatrix<f64>, residual: &DVector<f64>, active: &
         .collect()
 }
 
-/// The relative offset: what is left of the residual in the space of the free columns, against what is left outside of it,
-/// each by its degrees of freedom. Absent without degrees of freedom.
+/// The relative offset: part of the residual in the space of the free columns relative to the part outside it, each over its degrees of
+/// freedom. Absent without degrees of freedom.
 pub(super) fn relative_offset(
     jacobian: &DMatrix<f64>,
     residual: &DVector<f64>,
@@ -68,14 +69,14 @@ pub(super) fn relative_offset(
     if n == 0 || rows <= n {
         return None;
     }
-    let inside = linear::Factors::of(linear::columns(jacobian, &free), residual)
+    let inside = linear::Factors::new(linear::columns(jacobian, &free), residual)
         .q
         .norm_squared();
     let outside = residual.norm_squared() - inside;
     (outside > 0.0).then(|| (inside / n as f64).sqrt() / (outside / (rows - n) as f64).sqrt())
 }
 
-/// Numbers of the coordinates that are on no bound.
+/// Indices of the coordinates that are not at a bound.
 pub(super) fn inactive(active: &[Option<Side>]) -> Vec<usize> {
     (0..active.len()).filter(|j| active[*j].is_none()).collect()
 }

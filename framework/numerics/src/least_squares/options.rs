@@ -1,4 +1,4 @@
-//! How a problem is solved.
+//! Options of the solver.
 
 use std::fmt;
 
@@ -6,23 +6,23 @@ use super::evaluate::Interrupt;
 use super::fault::{Fault, Finding};
 use super::robust::Loss;
 
-/// How a step is found that leaves the ball or the bounds.
+/// Method for steps that leave the ball or the bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Subproblem {
-    /// As cone program.
+    /// Cone program.
     Cone,
-    /// Along the projected gradient, then towards the least on the free face.
+    /// Along the projected gradient, then towards the minimum on the free face.
     Dogleg,
 }
 
-/// Which differences stand for derivatives.
+/// Differences for derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Differences {
-    /// One-sided ones, central ones from where those have converged.
+    /// One-sided, then central after convergence.
     Switched,
-    /// One-sided ones.
+    /// One-sided.
     Forward,
-    /// Central ones: for laws with kinks, such as tables.
+    /// Central: for laws with kinks, such as tables.
     Central,
 }
 
@@ -31,18 +31,18 @@ pub enum Differences {
 pub enum Noise {
     /// Rounding only.
     Rounding,
-    /// Known, for instance the relative tolerance of an iteration inside. \[-\]
+    /// Known, for instance the relative tolerance of an inner iteration. \[-\]
     Known(f64),
-    /// Told from third differences of seven calls at the start.
+    /// Estimated from third differences of seven calls at the start.
     Estimated,
 }
 
-/// Bounds below which a run has converged.
+/// Tolerances of convergence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
     /// Of the first-order measure. \[-\]
     pub first_order: f64,
-    /// Of the remaining shift in standard errors; 0 where it is not asked. \[-\]
+    /// Of the remaining shift in standard errors; 0 to disable. \[-\]
     pub relative_offset: f64,
     /// Of the relative change of any coordinate. \[-\]
     pub step: f64,
@@ -50,57 +50,57 @@ pub struct Tolerances {
     pub cost: f64,
 }
 
-/// How far a run steps.
+/// Limits of steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steps {
     /// First radius over the length of the start. \[-\]
     pub radius: f64,
-    /// Greatest change of a coordinate over its size. \[-\]
+    /// Maximum change of a coordinate over its size. \[-\]
     pub bound: f64,
-    /// How much of a column's norm its scale remembers from one iteration to the next. \[-\]
+    /// Memory of the scale of a column from one iteration to the next. \[-\]
     pub memory: f64,
     /// Whether steps are corrected to second order.
     pub second_order: bool,
 }
 
-/// How a problem is solved.
+/// Options of the solver.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// What a residual costs.
+    /// Loss function.
     pub loss: Loss,
-    /// Residual from which on a row counts as far; of no meaning for the linear loss. \[-\]
+    /// Scale of the loss; ignored for the linear loss. \[-\]
     pub loss_scale: f64,
-    /// Whether the residuals are not weighted: the loss scale then counts in their own spread, told from a soft_l1 fit.
+    /// Whether the residuals are not weighted: the scale of the loss is then relative to their spread from a soft_l1 fit.
     pub estimate_spread: bool,
-    /// How steps are found.
+    /// Method for steps.
     pub subproblem: Subproblem,
-    /// Which differences stand for derivatives.
+    /// Differences for derivatives.
     pub differences: Differences,
     /// Relative noise of one call.
     pub noise: Noise,
-    /// Jumps of single residuals over the whole, where the law behind them changes: steps of differences are chosen as for a noise
-    /// of this size, while changes of the cost are trusted as before. 0 where there are none. \[-\]
+    /// Relative discontinuities of single residuals: steps of differences are chosen for a noise of this size, but the noise of the cost is
+    /// unaffected. 0 if there are none. \[-\]
     pub jumps: f64,
-    /// Where runs with one-sided differences stop.
+    /// Tolerances with one-sided differences.
     pub forward: Tolerances,
-    /// Where runs with central differences stop.
+    /// Tolerances with central differences.
     pub central: Tolerances,
-    /// How far the first attempt steps.
+    /// Limits of steps of the first attempt.
     pub steps: Steps,
-    /// Whether a run that short differences no longer bring forward, as beside a kink or jump of a law, is finished without derivatives.
+    /// Whether a run without progress by short differences, for example near a kink or jump, is completed without derivatives.
     pub polish: bool,
-    /// Whether a run that ends badly is tried again with other steps.
+    /// Whether a failed run is repeated with other steps.
     pub attempts: bool,
-    /// The most steps of one attempt.
+    /// Maximum number of steps of one attempt.
     pub iterations: usize,
-    /// The most calls of one attempt.
+    /// Maximum number of calls of one attempt.
     pub evaluations: usize,
-    /// Asked before each call but the first: whether to stop.
+    /// Called before each call except the first: whether to stop.
     pub interrupt: Option<Interrupt<'a>>,
 }
 
 impl Options<'_> {
-    /// For fits with intervals: ends where what remains is a small part of the standard errors.
+    /// For fits with intervals: stops if the remaining shift is a small part of the standard errors.
     pub fn fit() -> Self {
         let mut options = Self::exact();
         options.forward.relative_offset = 1e-2;
@@ -108,7 +108,7 @@ impl Options<'_> {
         options
     }
 
-    /// To as many digits as differences allow.
+    /// To the maximum accuracy of differences.
     pub fn exact() -> Self {
         Self {
             loss: Loss::Linear,
@@ -130,8 +130,8 @@ impl Options<'_> {
                 step: 1e-10,
                 cost: 1e-14,
             },
-            // Radius and bound are those with which most of the certified problems of the NIST are solved in one attempt;
-            // the memory below 1 lets the scale of a column follow it down.
+            // With this radius and bound most of the certified NIST problems are solved in one attempt; with a memory below 1 the scale of
+            // a column can decrease.
             steps: Steps {
                 radius: 1.0,
                 bound: 5.0,
@@ -147,15 +147,15 @@ impl Options<'_> {
     }
 
     /// # Errors
-    /// If a number makes no sense.
+    /// If a number is invalid.
     pub(super) fn check(&self) -> Result<(), Fault> {
         let mut findings = Vec::new();
         let mut above_zero = |place: &str, x: f64| {
             if !(x > 0.0 && x.is_finite()) {
                 findings.push(Finding::new(
                     place,
-                    format!("{x} is not above zero"),
-                    "give a number above zero",
+                    format!("{x} is not positive"),
+                    "give a positive number",
                 ));
             }
         };

@@ -1,4 +1,4 @@
-//! Points that fill the unit cube evenly, without chance.
+//! Deterministic points that fill the unit cube evenly.
 
 /// The first sixteen primes: bases of Halton's sequence.
 const PRIMES: [u32; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
@@ -14,8 +14,8 @@ pub fn halton(i: usize, dimensions: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Point i, from 1, of an even sequence in any number of dimensions: Halton's up to sixteen, beyond that multiples of the
-/// roots of primes, as Halton's points of large bases fall on lines.
+/// Point i, starting at 1, of a low-discrepancy sequence in any number of dimensions: Halton's up to sixteen, beyond that multiples of
+/// roots of primes, because Halton's points of large bases lie on lines.
 ///
 /// Richtmyer, "The evaluation of definite integrals, and a quasi-Monte-Carlo method based on the properties of algebraic
 /// numbers" (1951).
@@ -30,7 +30,7 @@ pub fn spread(i: usize, dimensions: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Digits of a number to a base, mirrored behind the point.
+/// Radical inverse of a number to a base.
 fn radical_inverse(mut i: usize, base: u32) -> f64 {
     let base = base as usize;
     let (mut digits, mut unit) = (0.0, 1.0);

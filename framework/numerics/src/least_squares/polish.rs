@@ -1,19 +1,19 @@
-//! The finish without derivatives, for residuals with kinks and jumps.
+//! Completion without derivatives, for residuals with kinks and jumps.
 //!
-//! Where a law behind the residuals changes its regime, its slope jumps and often its value too. Differences over short steps then promise
-//! a fall that no step brings, the ball shrinks to nothing, and a search ends wherever it meets the first such place: the sum of squares
-//! is a smooth valley with many small steps on it, each a minimum of its own. A bundle of gradients from both sides of a kink would
-//! end at each of these steps too, because beside a jump no slope shows what lies behind it.
+//! If a law changes its regime, its slope and often its value are discontinuous. Differences over short steps then predict a decrease that
+//! no step achieves, the ball shrinks to zero, and a search ends at the first discontinuity: the sum of squares is a smooth valley with
+//! many small steps, each of which is a local minimum. A bundle of gradients from both sides of a kink would also end at each of these
+//! steps, because the slope near a jump does not show the value behind it.
 //!
 //! The method here is implicit filtering (Gilmore and Kelley, "An implicit filtering algorithm for optimization of functions with many
-//! local minima", SIAM J. Optim. 5 (1995) 269-285; for least squares Kelley, "Implicit Filtering" (SIAM 2011)): points on both sides
-//! along each axis are compared, and the differences over these long steps give one more Gauss-Newton step. The lowest point wins; where
-//! none is lower by a share of the squared step (Kolda, Lewis and Torczon, SIAM Review 45 (2003) 385-482, section 3.7), the steps are
-//! axes are turned as a whole, since along a kink no axis of a fixed set may lead downhill, in directions from an even sequence as Abramson, Audet, Dennis
-//! and Le Digabel, "OrthoMADS", SIAM J. Optim. 20 (2009) 948-966, take them; where none is lower again, the steps are halved. Axes are the principal axes of the linearised fit and steps are counted in standard errors along them, so that steps on the
-//! sum of squares that the data cannot tell are stepped over while the steps are long, and what is left in the end is a point whose
-//! neighbours at a thousandth of a standard error are all higher. Decisions depend on no clock and no chance, bounds are kept exactly,
-//! and the calls are limited.
+//! local minima", SIAM J. Optim. 5 (1995) 269-285; for least squares Kelley, "Implicit Filtering" (SIAM 2011)): points on both sides along
+//! each axis are compared, and the differences over these long steps give one more Gauss-Newton step. The lowest point is used; if none is
+//! lower by a share of the squared step (Kolda, Lewis and Torczon, SIAM Review 45 (2003) 385-482, section 3.7), the axes are rotated as a
+//! whole, because along a kink no axis of a fixed set may lead downhill, to directions from a low-discrepancy sequence (Abramson, Audet,
+//! Dennis and Le Digabel, "OrthoMADS", SIAM J. Optim. 20 (2009) 948-966); if again none is lower, the steps are halved. Axes are the
+//! principal axes of the linearised fit, and steps are in standard errors along them, so that long steps skip insignificant steps of the
+//! sum of squares. The result is a point whose neighbours at a thousandth of a standard error are all higher. Decisions do not depend on
+//! time or random numbers, bounds are satisfied exactly, and the number of calls is limited.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -26,46 +26,46 @@ use super::optimality;
 use super::points;
 use super::space::Space;
 
-/// First and last step, in standard errors. \[-\]
+/// First and last step in standard errors. \[-\]
 const STEPS: [f64; 2] = [2.0, 1e-3];
-/// Sweeps over all axes with one step at most.
+/// Maximum number of sweeps over all axes with one step.
 const SWEEPS: usize = 8;
-/// Least fall of twice the cost, over the variance and the squared step, with which a point is taken. \[-\]
+/// Minimum decrease of twice the cost, over the variance and the squared step, of an accepted point. \[-\]
 const ENOUGH: f64 = 1e-3;
-/// Longest Gauss-Newton step in standard errors. \[-\]
+/// Maximum Gauss-Newton step in standard errors. \[-\]
 const FARTHEST: f64 = 5.0;
-/// Shares of the Gauss-Newton step that are tried.
+/// Tried fractions of the Gauss-Newton step.
 const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
-/// A step that a bound cuts to less than this share is not taken. \[-\]
+/// Minimum fraction of a step that is cut by a bound. \[-\]
 const CUT: f64 = 0.01;
-/// Calls for each axis at most.
+/// Maximum number of calls for each axis.
 const CALLS: usize = 400;
 
-/// Axes along which neighbours are compared, over the coordinates of the free parameters.
+/// Axes for the comparison of neighbours, over the coordinates of the free parameters.
 pub(super) struct Axes {
-    /// Steps of one standard error: along the principal axes, then along coordinates that a bound holds.
+    /// Steps of one standard error: along the principal axes, then along coordinates at active bounds.
     pub steps: Vec<DVector<f64>>,
-    /// How many of them are principal axes.
+    /// Number of principal axes among them.
     pub principal: usize,
     /// Variance of a residual by the scatter of all. \[-\]
     pub variance: f64,
 }
 
-/// How a finish ended.
+/// Result of the completion.
 pub(super) struct Polished {
     pub point: Point,
-    /// Whether the steps shrank to the last one, rather than the calls running out.
+    /// Whether the steps reached the last one before the limit of calls.
     pub settled: bool,
 }
 
 impl Axes {
-    /// Principal axes of the columns that are free, and the coordinates that a bound holds.
+    /// Principal axes of the free columns, and the coordinates at active bounds.
     pub fn principal(context: &Context<'_>, point: &Point, jacobian: &DMatrix<f64>) -> Option<Self> {
         Self::with_held(context, point, jacobian, false)
     }
 
-    /// The same inside of the bounds: whatever stands on a bound is held there, although derivatives would lead it away. Beside a jump they
-    /// tell little, and along axes that lead out of the bounds there is no room on either side.
+    /// The same within the bounds: every coordinate at a bound is fixed there, even if derivatives point inwards. Near a jump derivatives
+    /// are unreliable, and axes that leave the bounds are useless.
     pub fn between_bounds(context: &Context<'_>, point: &Point, jacobian: &DMatrix<f64>) -> Option<Self> {
         Self::with_held(context, point, jacobian, true)
     }
@@ -119,7 +119,7 @@ impl Axes {
         })
     }
 
-    /// The axes turned as a whole by a mirror whose normal comes from an even sequence.
+    /// The axes reflected by a Householder matrix whose normal is from a low-discrepancy sequence.
     fn turned(&self, turn: usize) -> Vec<DVector<f64>> {
         let count = self.steps.len();
         let mut normal = DVector::from_vec(points::spread(turn, count)).map(|x| 2.0 * x - 1.0);
@@ -138,14 +138,14 @@ impl Axes {
     }
 }
 
-/// Shortens a step along what the data hardly tell to the usual sizes of its coordinates.
+/// Limits a step along poorly determined directions to the typical sizes of its coordinates.
 fn no_longer_than_usual(space: &Space<'_>, step: DVector<f64>) -> DVector<f64> {
     let size = |j: usize| step[j].abs() / space.typical[j];
     let longest = (0..step.len()).map(size).fold(1.0, f64::max);
     step / longest
 }
 
-/// Part of a step that leaves no bound.
+/// Fraction of a step within the bounds.
 pub(super) fn inside(space: &Space<'_>, u: &[f64], step: &DVector<f64>, length: f64) -> f64 {
     let room = |j: usize| match length * step[j] {
         d if d > 0.0 => (space.upper[j] - u[j]) / d,
@@ -155,7 +155,7 @@ pub(super) fn inside(space: &Space<'_>, u: &[f64], step: &DVector<f64>, length: 
     length * (0..u.len()).map(room).fold(1.0, f64::min)
 }
 
-/// Finishes a search from its end, with the derivatives there.
+/// Completes a search from its end, with the derivatives there.
 ///
 /// # Errors
 /// If it is interrupted.
@@ -190,7 +190,7 @@ pub(super) fn polish(context: &Context<'_>, start: Point, jacobian: &DMatrix<f64
     Ok(Polished { point, settled })
 }
 
-/// The lowest of the neighbours on the axes and of the points along the Gauss-Newton step that they give; absent where none has a value.
+/// The lowest of the neighbours on the axes and of the points along their Gauss-Newton step; absent if none has a value.
 fn lower(context: &Context<'_>, axes: &[DVector<f64>], point: &Point, step: f64) -> Result<Option<Point>, Miss> {
     let (space, evaluator) = (context.evaluator.space, context.evaluator);
     let tries: Vec<(usize, f64)> = (0..axes.len()).flat_map(|k| [(k, step), (k, -step)]).collect();
@@ -242,7 +242,7 @@ fn lower(context: &Context<'_>, axes: &[DVector<f64>], point: &Point, step: f64)
     Ok(found.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))))
 }
 
-/// Coordinates a step away, held inside the bounds.
+/// Coordinates after a step, within the bounds.
 pub(super) fn moved(space: &Space<'_>, u: &[f64], step: &DVector<f64>) -> Vec<f64> {
     (0..u.len())
         .map(|j| (u[j] + step[j]).clamp(space.lower[j], space.upper[j]))

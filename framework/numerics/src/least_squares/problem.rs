@@ -1,39 +1,39 @@
-//! What is to be fitted: a residual function and its parameters.
+//! A problem: a residual function and its parameters.
 
-/// How a parameter is walked along.
+/// Scale of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// As it is.
     Linear,
-    /// By its logarithm: for factors above zero that may vary by more than three to one.
+    /// Logarithmic: for positive factors that may vary by more than three to one.
     Log,
 }
 
-/// What was known of a parameter before: a row of its own beside the residuals, never robustified.
+/// Prior of a parameter: an additional row, without robust loss.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prior {
     /// Mean, in the unit of the parameter.
     pub mean: f64,
-    /// Standard deviation in the unit of the parameter; for a logarithmic one over its value. \[-\]
+    /// Standard deviation in the unit of the parameter; for a logarithmic parameter relative to its value. \[-\]
     pub deviation: f64,
 }
 
-/// A parameter that is fitted.
+/// A fitted parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     /// Name, for findings and notes.
     pub name: String,
-    /// Where the search starts, in its own unit.
+    /// Start value in its own unit.
     pub start: f64,
-    /// Least value; minus infinity where there is none.
+    /// Minimum; minus infinity if there is none.
     pub lower: f64,
-    /// Greatest value; infinity where there is none.
+    /// Maximum; infinity if there is none.
     pub upper: f64,
-    /// How it is walked along.
+    /// Scale.
     pub scale: Scale,
-    /// What was known of it before.
+    /// Prior.
     pub prior: Option<Prior>,
-    /// A size that is usual for it, in its own unit (of its logarithm: 1), where bounds and start do not tell one.
+    /// Typical size in its own unit (of its logarithm: 1) if bounds and start do not provide one.
     pub typical: Option<f64>,
 }
 
@@ -51,24 +51,24 @@ impl Parameter {
         }
     }
 
-    /// Between two bounds; an infinite one is none, equal ones fix the parameter.
+    /// Sets the bounds; an infinite bound is no bound, equal bounds fix the parameter.
     pub fn within(self, lower: f64, upper: f64) -> Self {
         Self { lower, upper, ..self }
     }
 
-    /// Walked along by its logarithm.
+    /// Uses the logarithmic scale.
     pub fn log(self) -> Self {
         let scale = Scale::Log;
         Self { scale, ..self }
     }
 
-    /// Known before with a mean and a standard deviation, relative for a logarithmic parameter.
+    /// Sets a prior with a mean and a standard deviation, relative for a logarithmic parameter.
     pub fn prior(self, mean: f64, deviation: f64) -> Self {
         let prior = Some(Prior { mean, deviation });
         Self { prior, ..self }
     }
 
-    /// With a usual size, by which steps and differences are measured where the value is near zero.
+    /// Sets a typical size, the scale of steps and differences if the value is near zero.
     pub fn typical(self, size: f64) -> Self {
         let typical = Some(size);
         Self { typical, ..self }
@@ -83,8 +83,8 @@ impl Parameter {
     }
 }
 
-/// A residual function: parameters in their own units and in their order, to (calculated - measured) / uncertainty, or
-/// why there is none. It always answers with as many rows, and with the same ones for the same parameters.
+/// A residual function: from parameters in their own units to (calculated - measured) / uncertainty, or the reason why there is none. The
+/// number of rows is constant, and the function is deterministic.
 pub type Residual<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, String> + Send + Sync + 'a;
 
 /// A residual function with its parameters.
@@ -113,7 +113,7 @@ impl<'a> Problem<'a> {
     /// Weighted residuals at parameters in their own units.
     ///
     /// # Errors
-    /// In the words of the residual function, where it has no value.
+    /// The error of the residual function if it has no value.
     pub fn residual(&self, theta: &[f64]) -> Result<Vec<f64>, String> {
         (self.residual)(theta)
     }

@@ -1,8 +1,8 @@
-//! Losses that let outliers pull less.
+//! Robust losses.
 
 use nalgebra::{DMatrix, DVector};
 
-/// What the square s = (r/c)^2 of a residual costs.
+/// Loss as a function of s = (r/c)^2.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Loss {
     /// s: least squares.
@@ -17,7 +17,7 @@ pub enum Loss {
     Arctan,
 }
 
-/// Least share of the curvature that a row keeps: without a floor, cauchy and arctan step wildly.
+/// Minimum share of the curvature of a row: without it steps with cauchy and arctan are erratic.
 pub(crate) const FLOOR: f64 = 0.1;
 
 impl Loss {
@@ -61,13 +61,13 @@ impl Loss {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Robust {
     pub loss: Loss,
-    /// Residual from which on a row counts as far.
+    /// Scale of the loss.
     pub scale: f64,
-    /// Rows of data; priors behind them are never robustified.
+    /// Number of rows of data; the rows of priors after them have the linear loss.
     pub rows: usize,
 }
 
-/// Rows as Gauss-Newton takes them: factors of the rows of the Jacobian, and residuals. The gradient is exact.
+/// Rows for Gauss-Newton: factors of the rows of the Jacobian, and residuals. The gradient is exact.
 pub(super) struct Weighted {
     pub factors: Option<DVector<f64>>,
     pub residual: DVector<f64>,
@@ -84,10 +84,10 @@ impl Robust {
         0.5 * r.iter().enumerate().map(|(i, r)| square(i, *r)).sum::<f64>()
     }
 
-    /// By how much the cost falls from one residual to another.
+    /// Decrease of the cost from one residual to another.
     pub fn fall(&self, from: &DVector<f64>, to: &DVector<f64>) -> f64 {
         match self.loss {
-            // The difference of two squares as a product does not cancel.
+            // The product form of the difference of squares avoids cancellation.
             Loss::Linear => 0.5 * from.iter().zip(to).map(|(a, b)| (a - b) * (a + b)).sum::<f64>(),
             _ => self.cost(from) - self.cost(to),
         }
@@ -116,7 +116,7 @@ impl Robust {
             let [_, first, second] = self.loss.rho(s);
             let root = (first + 2.0 * second * s).max(FLOOR * first).sqrt();
             factors[i] = root;
-            // So far out that nothing is left of the row.
+            // So far out that the weight of the row is zero.
             residual[i] = if root > 0.0 { first * r[i] / root } else { 0.0 };
         }
         Weighted {
@@ -131,7 +131,7 @@ impl Robust {
     }
 }
 
-/// Standard deviation of residuals by the median of their distances from the median; 1 where most are equal.
+/// Standard deviation of residuals from the median absolute deviation; 1 if most are equal.
 pub(crate) fn median_spread(residuals: &[f64]) -> f64 {
     let middle = median(residuals.to_vec());
     let spread = 1.4826 * median(residuals.iter().map(|r| (r - middle).abs()).collect());
@@ -139,7 +139,7 @@ pub(crate) fn median_spread(residuals: &[f64]) -> f64 {
 }
 
 impl Weighted {
-    /// A Jacobian whose rows have their factors.
+    /// A Jacobian with scaled rows.
     pub fn rows(&self, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
         let mut scaled = jacobian.clone();
         if let Some(factors) = &self.factors {

@@ -6,20 +6,19 @@ use nalgebra::DVector;
 use super::linear;
 use super::subproblem::{Model, Region};
 
-/// Where along the step the bend of the residual is looked at.
+/// Fraction of the step at which the curvature of the residual is evaluated.
 pub(super) const PROBE: f64 = 0.1;
-/// Greatest length of the correction, doubled, over that of the step.
+/// Maximum of twice the length of the correction over that of the step.
 const LONGEST: f64 = 0.75;
 
-/// Bend of a residual along a step: from its value at the share [`PROBE`] of it, and its slope along the whole.
+/// Curvature of a residual along a step: from its value at the fraction [`PROBE`] and its slope.
 pub(super) fn bend(here: &DVector<f64>, probe: &DVector<f64>, slope: &DVector<f64>) -> DVector<f64> {
     ((probe - here) / PROBE - slope) * (2.0 / PROBE)
 }
 
-/// Half the correction of a step, given Q^T of the bend. Absent where it is too long for an expansion to hold.
+/// Half the correction of a step, given Q^T of the curvature. Absent if it is too long for the expansion to be valid.
 ///
-/// The step solves a damped problem; its damping follows from the gradient that it leaves, so that the correction has the
-/// same.
+/// The step solves a damped problem; the damping follows from the remaining gradient and is used for the correction too.
 pub(super) fn correction(
     model: &Model<'_>,
     region: &Region,

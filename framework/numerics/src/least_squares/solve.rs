@@ -1,4 +1,4 @@
-//! A problem from its start to its fit: further attempts, and what an end is worth.
+//! Solution of a problem: attempts and the status of their ends.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -17,22 +17,21 @@ use super::{linear, noise, optimality};
 
 /// Independence of the columns below which a fit is singular. \[-\]
 pub const SINGULAR: f64 = 1e-9;
-/// Noise from which on central differences have no digits more than one-sided ones.
+/// Noise above which central differences are no more accurate than one-sided ones.
 const NOISIEST: f64 = 1e-6;
 /// Relative difference of costs that are equal.
 const EQUAL: f64 = 1e-9;
-/// Share of calls without value that is worth a note.
+/// Share of calls without value above which there is a note.
 const UNDEFINED: f64 = 0.1;
-/// Share of steps without answer of the cone program that is worth a note.
+/// Share of failed cone programs above which there is a note.
 const FAILURES: f64 = 0.2;
 
-/// Finds the parameters that bring a problem's cost to a minimum, as near to the start as there is one.
+/// Finds a minimum of the cost of a problem near the start.
 ///
 /// # Errors
-/// If the problem makes no sense as it is stated; all that is wrong with it. What goes wrong on the way is no error: the fit
-/// says by status and reason what it is worth.
+/// If the problem is invalid; all its errors. Failures of the search are not errors: the fit reports status and reason.
 pub fn solve(problem: &Problem<'_>, options: &Options<'_>) -> Result<Fit, Fault> {
-    let space = Space::of(problem.parameters())?;
+    let space = Space::from_parameters(problem.parameters())?;
     let fit = search(problem, options, &space)?;
     if options.polish && is_stuck(&fit) {
         return finish(problem, options, &space, fit, None);
@@ -40,7 +39,7 @@ pub fn solve(problem: &Problem<'_>, options: &Options<'_>) -> Result<Fit, Fault>
     Ok(fit)
 }
 
-/// As [`solve`], from the start of a space, and without a finish.
+/// As [`solve`], from the start of a space, without completion.
 pub(super) fn search(problem: &Problem<'_>, options: &Options<'_>, space: &Space<'_>) -> Result<Fit, Fault> {
     options.check()?;
     let (evaluator, r) = Evaluator::start(problem, space, options.interrupt)?;
@@ -56,14 +55,14 @@ pub(super) fn search(problem: &Problem<'_>, options: &Options<'_>, space: &Space
             Ok(noise) => noise,
             Err(Miss::Interrupted) => f64::EPSILON,
             Err(Miss::Undefined(message)) => {
-                let help = "say how noisy they are, or start elsewhere";
-                return Err(Finding::new("residuals beside the start", message, help).into());
+                let help = "state their noise, or use another start";
+                return Err(Finding::new("residuals near the start", message, help).into());
             }
         },
     };
     if noise > NOISIEST {
         notes.push(format!(
-            "residuals are noisy ({noise:.1e} of them): one-sided differences end the search"
+            "residuals are noisy (relative noise {noise:.1e}): the search ends with one-sided differences"
         ));
     }
     let mut context = Context::new(&evaluator, options, options.loss_scale, noise);
@@ -72,7 +71,7 @@ pub(super) fn search(problem: &Problem<'_>, options: &Options<'_>, space: &Space
     Ok(context.fit(end, attempt, record, (notes, Vec::new())))
 }
 
-/// All attempts from a start that a soft_l1 fit leaves, where a loss has minima of its own or its scale is to be found.
+/// All attempts, started from a soft_l1 fit if the loss has additional minima or its scale is unknown.
 fn robust_attempts(context: &mut Context<'_>, mut start: Point, record: &mut Record) -> (End, usize) {
     let loss = context.robust.loss;
     let estimate = context.options.estimate_spread && loss != Loss::Linear;
@@ -87,7 +86,7 @@ fn robust_attempts(context: &mut Context<'_>, mut start: Point, record: &mut Rec
             return (end, attempt);
         }
         if estimate {
-            // Frozen from here on: a scale that moves with each step would spoil the test of the cost.
+            // Constant from here: a changing scale would invalidate the test of the cost.
             context.robust.scale = context.options.loss_scale * context.robust.spread(&end.point.r);
         }
         start = end.point;
@@ -95,7 +94,7 @@ fn robust_attempts(context: &mut Context<'_>, mut start: Point, record: &mut Rec
     attempts(context, start, record)
 }
 
-/// Attempts with other steps until one ends well; the best of them with its number.
+/// Attempts with other steps until one succeeds; the best attempt with its number.
 fn attempts(context: &Context<'_>, start: Point, record: &mut Record) -> (End, usize) {
     let first = context.options.steps;
     let tries = [
@@ -132,7 +131,7 @@ fn attempts(context: &Context<'_>, start: Point, record: &mut Record) -> (End, u
         if (equal && well) || (!equal && new < old) {
             (best, clean, number) = (end, well, i + 1);
         } else if reason == Reason::Interrupted {
-            // The best point so far, and that the user ended the search.
+            // The best point so far after an interruption.
             best.reason = reason;
         }
         if well {
@@ -143,7 +142,7 @@ fn attempts(context: &Context<'_>, start: Point, record: &mut Record) -> (End, u
 }
 
 impl<'a> Context<'a> {
-    /// Of calls with a relative noise.
+    /// With a relative noise of calls.
     pub(super) fn new(evaluator: &'a Evaluator<'a>, options: &'a Options<'a>, loss_scale: f64, noise: f64) -> Self {
         Self {
             evaluator,
@@ -161,7 +160,7 @@ impl<'a> Context<'a> {
 }
 
 impl Context<'_> {
-    /// Central derivatives at an end that has none yet.
+    /// Central derivatives at an end without derivatives.
     pub(super) fn derive(&self, end: &mut End) {
         let (u, r) = (&end.point.u, &end.point.r);
         if end.jacobian.is_none() && end.reason != Reason::Interrupted {
@@ -180,7 +179,7 @@ impl Context<'_> {
         let active = optimality::active(self.evaluator.space, &end.point.u, &gradient);
         let weighted = self.robust.weighted(&end.point.r);
         let rows = weighted.rows(jacobian);
-        // A parameter that was never seen is told by name; one that has been lost on the way makes the end singular.
+        // A parameter that never had an effect is reported by name; one that lost its effect on the way makes the end singular.
         let mut free = optimality::unheld(&rows, &weighted.residual, &active);
         free.retain(|j| !end.unseen[*j]);
         let independence = linear::independence(&linear::columns(&rows, &free));
@@ -202,7 +201,7 @@ impl Context<'_> {
         }
     }
 
-    /// What became of a problem at an end.
+    /// The fit at an end.
     pub(super) fn fit(
         &self,
         end: End,
@@ -233,7 +232,7 @@ impl Context<'_> {
             }
         });
         for (j, _) in end.unseen.iter().enumerate().filter(|(_, unseen)| **unseen) {
-            notes.push(format!("`{}` is not seen: it changes no residual", space.name(j)));
+            notes.push(format!("`{}` has no effect on any residual", space.name(j)));
         }
         notes.extend(end.detail);
         let mut counts = record.counts;
@@ -245,11 +244,11 @@ impl Context<'_> {
         }
         if counts.cone_failures as f64 > FAILURES * counts.steps as f64 {
             let (bad, of) = (counts.cone_failures, counts.steps);
-            notes.push(format!("the cone program had no answer in {bad} of {of} steps"));
+            notes.push(format!("the cone program failed in {bad} of {of} steps"));
         }
         Fit {
             theta: space.theta(&end.point.u),
-            u: space.all(&end.point.u),
+            u: space.all_coordinates(&end.point.u),
             cost: self.robust.cost(&end.point.r),
             residuals: end.point.r.iter().copied().collect(),
             rows: self.evaluator.rows,

@@ -1,39 +1,39 @@
-//! The coordinates in which a problem is solved: its free parameters, linear or by logarithm.
+//! The coordinates of a problem: its free parameters, linear or logarithmic.
 
 use super::fault::{Fault, Finding};
 use super::problem::{Parameter, Scale};
 
-/// Noise of a call above which it is more than the rounding of a formula. \[-\]
+/// Noise of a call above which it is more than rounding. \[-\]
 const NOISY: f64 = 1e-14;
 
-/// Coordinates u of the free parameters, with their bounds and usual sizes.
+/// Coordinates u of the free parameters, with their bounds and typical sizes.
 #[derive(Debug, Clone)]
 pub(super) struct Space<'p> {
     pub parameters: &'p [Parameter],
-    /// Numbers of the free ones; all vectors below and all inside the solver count these only.
+    /// Indices of the free parameters; all vectors below and in the solver contain only these.
     pub free: Vec<usize>,
     pub start: Vec<f64>,
     pub lower: Vec<f64>,
     pub upper: Vec<f64>,
     pub typical: Vec<f64>,
-    /// What was changed of what was asked for.
+    /// Notes on changes of the input.
     pub notes: Vec<String>,
 }
 
 impl<'p> Space<'p> {
-    /// Coordinates of parameters that make sense.
+    /// Coordinates of valid parameters.
     ///
     /// # Errors
-    /// All that makes no sense, at once.
-    pub fn of(parameters: &'p [Parameter]) -> Result<Self, Fault> {
+    /// All errors of the parameters.
+    pub fn from_parameters(parameters: &'p [Parameter]) -> Result<Self, Fault> {
         let mut findings = Vec::new();
         if parameters.is_empty() {
-            findings.push(Finding::new("parameters", "there are none", "name at least one"));
+            findings.push(Finding::new("parameters", "there are none", "give at least one"));
         }
         for (i, parameter) in parameters.iter().enumerate() {
             if parameters[..i].iter().any(|p| p.name == parameter.name) {
                 let place = format!("parameter `{}`", parameter.name);
-                findings.push(Finding::new(place, "its name is taken twice", "rename one of them"));
+                findings.push(Finding::new(place, "its name is used twice", "rename one of them"));
             }
             findings.extend(check(parameter));
         }
@@ -52,7 +52,7 @@ impl<'p> Space<'p> {
         for (i, p) in parameters.iter().enumerate() {
             let start = p.start.clamp(p.lower, p.upper);
             if start != p.start {
-                let note = format!("`{}` starts at its bound {start}: {} lies beyond it", p.name, p.start);
+                let note = format!("`{}` starts at its bound {start}: {} is outside", p.name, p.start);
                 space.notes.push(note);
             }
             if p.lower == p.upper {
@@ -60,7 +60,7 @@ impl<'p> Space<'p> {
                 continue;
             }
             let logarithmic = p.scale == Scale::Log;
-            // Without a bound a logarithmic parameter is unbounded in u, and above zero all the same.
+            // Without a bound a logarithmic parameter is unbounded in u but positive.
             let end = |bound: f64| if bound.is_finite() { p.coordinate(bound) } else { bound };
             let (lower, upper, u) = (end(p.lower), end(p.upper), p.coordinate(start));
             space.typical.push(match p.typical {
@@ -86,7 +86,7 @@ impl<'p> Space<'p> {
         }
     }
 
-    /// How many are free.
+    /// Number of free parameters.
     pub fn len(&self) -> usize {
         self.free.len()
     }
@@ -96,7 +96,7 @@ impl<'p> Space<'p> {
         &self.parameters[self.free[j]].name
     }
 
-    /// All parameters in their own units. A coordinate on a bound gives the bits of the bound.
+    /// All parameters in their own units. A coordinate at a bound returns exactly the bound.
     pub fn theta(&self, u: &[f64]) -> Vec<f64> {
         let mut theta: Vec<f64> = self.parameters.iter().map(|p| p.lower).collect();
         for (j, i) in self.free.iter().enumerate() {
@@ -111,8 +111,8 @@ impl<'p> Space<'p> {
         theta
     }
 
-    /// All coordinates, those of fixed parameters among them.
-    pub fn all(&self, u: &[f64]) -> Vec<f64> {
+    /// All coordinates, including those of fixed parameters.
+    pub fn all_coordinates(&self, u: &[f64]) -> Vec<f64> {
         let mut all: Vec<f64> = self.parameters.iter().map(|p| p.coordinate(p.lower)).collect();
         for (j, i) in self.free.iter().enumerate() {
             all[*i] = u[j];
@@ -129,8 +129,8 @@ impl<'p> Space<'p> {
         rows.flatten()
     }
 
-    /// The size by which steps of differences are measured. For noisy residuals it is no less than a usual size: the step of an
-    /// offset near zero would else drown.
+    /// The scale of difference steps. For noisy residuals it is at least the typical size, because the step of an offset near zero would
+    /// otherwise be too small.
     pub fn reach(&self, j: usize, u: f64, noise: f64) -> f64 {
         if noise > NOISY {
             u.abs().max(self.typical[j])
@@ -139,13 +139,13 @@ impl<'p> Space<'p> {
         }
     }
 
-    /// The size by which a change of a coordinate counts.
+    /// The scale of a change of a coordinate.
     pub fn size(&self, j: usize, u: f64) -> f64 {
         u.abs().max(1e-3 * self.typical[j])
     }
 }
 
-/// All that makes no sense with one parameter.
+/// All errors of one parameter.
 fn check(p: &Parameter) -> Vec<Finding> {
     let mut found = Vec::new();
     let mut find = |message: String, help: &str| {
@@ -156,41 +156,41 @@ fn check(p: &Parameter) -> Vec<Finding> {
     }
     if p.lower.is_nan() || p.upper.is_nan() || p.lower == f64::INFINITY || p.upper == f64::NEG_INFINITY {
         let message = format!("its bounds are {} and {}", p.lower, p.upper);
-        find(message, "give numbers, or -inf and inf for none");
+        find(message, "give numbers, or -inf and inf for no bound");
     } else if p.lower > p.upper {
-        let message = format!("its lower bound {} lies above its upper bound {}", p.lower, p.upper);
+        let message = format!("its lower bound {} is above its upper bound {}", p.lower, p.upper);
         find(message, "exchange them");
     }
     if p.scale == Scale::Log {
         if p.lower.is_finite() && p.lower <= 0.0 {
             let message = format!("its lower bound {} has no logarithm", p.lower);
-            find(message, "give a bound above zero, or make it linear");
+            find(message, "give a positive bound, or make it linear");
         }
         if p.upper <= 0.0 {
             let message = format!("its upper bound {} has no logarithm", p.upper);
-            find(message, "give a bound above zero, or make it linear");
+            find(message, "give a positive bound, or make it linear");
         }
         if p.start.max(p.lower) <= 0.0 {
             let message = format!("its start {} has no logarithm", p.start);
-            find(message, "start above zero, or make it linear");
+            find(message, "give a positive start, or make it linear");
         }
     }
     if let Some(prior) = p.prior {
         if !(prior.deviation > 0.0 && prior.deviation.is_finite()) {
-            let message = format!("the deviation {} of its prior is not above zero", prior.deviation);
+            let message = format!("the deviation {} of its prior is not positive", prior.deviation);
             find(
                 message,
                 "give a standard deviation, or fix the parameter by equal bounds",
             );
         }
         if !p.coordinate(prior.mean).is_finite() {
-            let message = format!("the mean {} of its prior has no value on its scale", prior.mean);
-            find(message, "give a number, above zero for a logarithmic parameter");
+            let message = format!("the mean {} of its prior is not possible on its scale", prior.mean);
+            find(message, "give a number, positive for a logarithmic parameter");
         }
     }
     if let Some(size) = p.typical.filter(|size| !(*size > 0.0 && size.is_finite())) {
-        let message = format!("its typical size {size} is not above zero");
-        find(message, "give a size, or leave it out");
+        let message = format!("its typical size {size} is not positive");
+        find(message, "give a positive size, or omit it");
     }
     found
 }

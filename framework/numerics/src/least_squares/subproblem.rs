@@ -1,4 +1,4 @@
-//! The least of a linear model of the residuals inside a ball and a box.
+//! The minimum of a linear model of the residuals inside a ball and a box.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,16 +7,16 @@ use super::dogleg;
 use super::linear;
 use super::options::Subproblem;
 
-/// How a step was found.
+/// Method that found a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum How {
-    /// The Gauss-Newton step lies inside ball and bounds.
+    /// The Gauss-Newton step is inside ball and bounds.
     Shortcut,
-    /// By the cone program.
+    /// Cone program.
     Cone,
-    /// By dogleg, since the cone program had no answer.
+    /// Dogleg after a failed cone program.
     Fallback,
-    /// By dogleg, as the user wants it.
+    /// Dogleg by option.
     Dogleg,
 }
 
@@ -38,29 +38,29 @@ pub(super) struct Model<'a> {
     pub q: &'a DVector<f64>,
 }
 
-/// |z| <= radius and lower <= z <= upper; zero lies inside.
+/// |z| <= radius and lower <= z <= upper; zero is inside.
 pub(super) struct Region {
     pub radius: f64,
     pub lower: DVector<f64>,
     pub upper: DVector<f64>,
 }
 
-/// A step with how it was found.
+/// A step with its method.
 pub(super) struct Step {
     pub z: DVector<f64>,
     pub how: How,
-    /// Whether a cone program was solved on the way.
+    /// Whether a cone program was solved.
     pub cone: bool,
 }
 
 impl Model<'_> {
-    /// By how much the model falls from zero to z. Not the difference of two norms, which cancels.
+    /// Decrease of the model from zero to z, without cancellation.
     pub fn fall(&self, z: &DVector<f64>) -> f64 {
         let step = self.r * z;
         -self.q.dot(&step) - 0.5 * step.norm_squared()
     }
 
-    /// Slope of the model from zero towards z, downwards.
+    /// Negative slope of the model from zero towards z.
     pub fn slope(&self, z: &DVector<f64>) -> f64 {
         -self.q.dot(&(self.r * z))
     }
@@ -70,8 +70,8 @@ impl Model<'_> {
         self.r.tr_mul(&(self.r * z + self.q))
     }
 
-    /// The least over some components, the others as they are in z.
-    pub fn least(&self, z: &DVector<f64>, free: &[usize]) -> Option<DVector<f64>> {
+    /// The minimum over some components, the others as in z.
+    pub fn minimum(&self, z: &DVector<f64>, free: &[usize]) -> Option<DVector<f64>> {
         let mut held = z.clone();
         for j in free {
             held[*j] = 0.0;
@@ -86,12 +86,12 @@ impl Model<'_> {
 }
 
 impl Region {
-    /// Whether a point lies in the box.
+    /// Whether a point is in the box.
     pub fn boxes(&self, z: &DVector<f64>) -> bool {
         (0..z.len()).all(|j| self.lower[j] <= z[j] && z[j] <= self.upper[j])
     }
 
-    /// Whether a point lies in ball and box.
+    /// Whether a point is in ball and box.
     pub fn holds(&self, z: &DVector<f64>) -> bool {
         z.norm() <= self.radius && self.boxes(z)
     }
@@ -104,10 +104,10 @@ impl Region {
     }
 }
 
-/// The step with the least of the model, or one that falls enough where the cone program has no answer.
+/// The step to the minimum of the model, or one with sufficient decrease if the cone program fails.
 pub(super) fn step(model: &Model<'_>, region: &Region, way: Subproblem) -> Step {
     let whole: Vec<usize> = (0..model.r.ncols()).collect();
-    let newton = model.least(&DVector::zeros(whole.len()), &whole);
+    let newton = model.minimum(&DVector::zeros(whole.len()), &whole);
     if let Some(z) = newton.as_ref().filter(|z| region.holds(z)) {
         return Step {
             z: z.clone(),
@@ -124,7 +124,7 @@ pub(super) fn step(model: &Model<'_>, region: &Region, way: Subproblem) -> Step 
     }
     let newton = newton.map_or(f64::INFINITY, |z| z.norm());
     let answer = cone::step(model, region, newton);
-    // A comparison that what is not a number fails as well.
+    // A comparison that also fails for NaN.
     match answer.filter(|z| model.fall(z) > 0.0) {
         Some(z) => Step {
             z,

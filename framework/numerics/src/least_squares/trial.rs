@@ -1,4 +1,4 @@
-//! A step that was tried: what it says about the radius, and about being at the end.
+//! A trial step: new radius and tests of convergence.
 
 use nalgebra::DVector;
 
@@ -8,26 +8,26 @@ use super::linearised::Linearised;
 use super::noise::CostNoise;
 use super::options::Tolerances;
 
-/// Least share of the expected fall with which a step is taken.
+/// Minimum share of the expected decrease of an accepted step.
 const ACCEPT: f64 = 1e-4;
-/// Expected fall over the cost, below which noise may hide it.
+/// Expected relative decrease below which noise may hide it.
 const FAINT: f64 = 1e-8;
-/// Step over its tolerance, below which noise may hide a fall, and a flat cost ends a run.
+/// Step over its tolerance below which noise may hide a decrease, and a constant cost ends a run.
 const NEAR: f64 = 1e3;
 
-/// A step that was tried.
+/// A trial step.
 pub(super) struct Trial {
-    /// Fall of the cost that was expected.
+    /// Expected decrease of the cost.
     pub predicted: f64,
-    /// Slope of the model along the step, downwards.
+    /// Negative slope of the model along the step.
     pub slope: f64,
-    /// Fall of the cost; minus infinity where the residuals have no value.
+    /// Decrease of the cost; minus infinity if the residuals have no value.
     pub actual: f64,
-    /// The one over the other; 1 for a step that is trusted.
+    /// Ratio of actual to expected decrease; 1 for a trusted step.
     pub ratio: f64,
     /// Length in the metric of the ball.
     pub length: f64,
-    /// Greatest relative change of a coordinate.
+    /// Maximum relative change of a coordinate.
     pub change: f64,
     /// Whether it is the Gauss-Newton step.
     pub shortcut: bool,
@@ -44,12 +44,12 @@ pub(super) struct Here<'a> {
 }
 
 impl Trial {
-    /// Whether it is taken.
+    /// Whether it is accepted.
     pub fn accepted(&self) -> bool {
         self.ratio > ACCEPT
     }
 
-    /// Whether it is a Gauss-Newton step that fails only by the noise of the cost.
+    /// Whether it is a Gauss-Newton step that fails only because of noise.
     pub fn drowns(&self, here: Here<'_>, noise: &mut CostNoise) -> Result<bool, Miss> {
         let cost = here.local.cost;
         let faint = self.predicted <= FAINT * cost || self.change <= NEAR * here.tolerances.step;
@@ -66,7 +66,7 @@ impl Trial {
     /// The radius after it.
     pub fn radius(&self, radius: f64) -> f64 {
         match self.ratio {
-            // Where the cost has risen, to the least of the parabola through both ends with the slope at the first.
+            // If the cost has increased, to the minimum of the parabola through both ends with the slope at the first.
             ratio if ratio < 0.25 && self.actual.is_finite() && self.actual < 0.0 => {
                 let cut = self.slope / (2.0 * (self.slope - self.actual));
                 cut.clamp(0.1, 0.5) * self.length.min(radius)
@@ -78,10 +78,10 @@ impl Trial {
         }
     }
 
-    /// Whether the run is at its end, with the radius after the step and the greatest change that one may make.
+    /// Whether the run ends, given the radius after the step and the maximum change.
     pub fn stop(&self, here: Here<'_>, noise: &mut CostNoise, radius: f64, bound: f64) -> Result<Option<Reason>, Miss> {
         let (tolerances, cost, accepted) = (here.tolerances, here.local.cost, self.accepted());
-        // Of a step that was not taken, smallness says nothing about a minimum, unless what it promised drowns in noise.
+        // A small rejected step does not indicate a minimum, unless its expected decrease is below the noise.
         let small = self.change <= tolerances.step && (accepted || self.predicted <= noise.share * cost);
         let level = tolerances.cost * cost;
         let flat = self.actual.abs() <= level && self.predicted <= level && self.ratio <= 2.0;
@@ -93,8 +93,8 @@ impl Trial {
         Ok((!accepted && radius <= least).then_some(Reason::Radius))
     }
 
-    /// Whether the model promises no more without the ball: that a ball is small, as beside a point without residuals, says
-    /// nothing about a minimum either.
+    /// Whether the model predicts no further decrease without the ball: a small ball, for example near a point without residuals, does not
+    /// indicate a minimum.
     fn settled(&self, here: Here<'_>, noise: &mut CostNoise, bound: f64) -> Result<bool, Miss> {
         let (promise, cost) = (here.local.promise(bound), here.local.cost);
         if self.shortcut || promise <= FAINT.max(here.tolerances.cost) * cost {

@@ -1,8 +1,8 @@
-//! Which ends of searches are one minimum.
+//! Merges ends of searches into minima.
 //!
-//! On a sum of squares with many small steps hardly two searches end at the same place. Ends are one minimum where the data cannot tell
-//! them apart: where twice their costs differ by less than the square of half a standard error, and twice the cost rises by no
-//! more on the straight line between them. Standard errors are those by the scatter of the residuals.
+//! On a sum of squares with many small steps searches rarely end at the same point. Ends are one minimum if the data cannot distinguish
+//! them: if twice their costs differ by less than the square of half a standard error, and twice the cost increases by no more on the
+//! straight line between them. Standard errors are based on the scatter of the residuals.
 
 use super::evaluate::Evaluator;
 use super::fault::Fault;
@@ -14,27 +14,27 @@ use super::problem::Problem;
 use super::robust::Robust;
 use super::space::Space;
 
-/// Rise of twice the cost over the variance by scatter, [`Fit::scatter`], that the data do not tell: half a standard error. \[-\]
+/// Insignificant increase of twice the cost over the variance by scatter, [`Fit::scatter`]: half a standard error. \[-\]
 pub const UNTOLD: f64 = 0.25;
-/// Fall of the same between two ends from which on the place between them is worth a search. \[-\]
+/// Decrease of the same between two ends above which a search starts between them. \[-\]
 const LOWER: f64 = 1e-3;
-/// Searches from places between ends at most.
+/// Maximum number of searches from points between ends.
 const SEARCHES: usize = 10;
 
-/// What lies between two ends.
+/// Relation of two ends.
 enum Between {
     /// They are one minimum.
     Nothing,
-    /// The data tell them apart.
+    /// The data distinguish them.
     Barrier,
-    /// Coordinates where the cost is lower than at both.
+    /// Coordinates between them with a lower cost than at both.
     Lower(Vec<f64>),
 }
 
-/// Ends of searches, the lowest first, as minima; those that are stuck are finished where that is needed.
+/// Merges ends of searches into minima, the lowest first; completes searches without progress if needed.
 ///
 /// # Errors
-/// If the problem has no residuals where it had some.
+/// If the problem has no residuals at a point where it had some.
 pub(super) fn unite(
     problem: &Problem<'_>,
     options: &Options<'_>,
@@ -94,7 +94,7 @@ pub(super) fn unite(
     Ok((minima, evaluations))
 }
 
-/// What lies between two ends, at places on a straight line.
+/// Relation of two ends, from points on a straight line.
 fn between(
     problem: &Problem<'_>,
     options: &Options<'_>,
@@ -105,7 +105,7 @@ fn between(
     let least = a.cost.min(b.cost);
     let variance = if a.cost <= b.cost { a.scatter() } else { b.scatter() };
     let rise = |cost: f64| 2.0 * (cost - least) / variance;
-    // A combination that changes nothing is a valley, and said to be one.
+    // A combination without effect is a valley and reported as one.
     let known = a.converged() && b.derivative.is_some();
     let untold = rise(a.cost.max(b.cost)) <= UNTOLD;
     if !(known && untold) {

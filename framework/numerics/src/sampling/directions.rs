@@ -1,11 +1,11 @@
 //! Primitive polynomials and initial numbers of the directions of Sobol points.
 //!
-//! Source: Joe, Kuo: Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci. Comput. 30 (2008)
-//! 2635-2654, the first 64 dimensions of the set they call new-joe-kuo-6. The tests check what the table must obey: every
-//! polynomial is primitive, every number odd and small enough, and Sobol's property A holds for all leading dimensions.
+//! Source: Joe, Kuo: Constructing Sobol sequences with better two-dimensional projections, SIAM J. Sci. Comput. 30 (2008) 2635-2654, the
+//! first 64 dimensions of the set new-joe-kuo-6. Tests check that every polynomial is primitive, every number odd and small enough, and
+//! that Sobol's property A holds for all leading dimensions.
 
-/// Dimensions from the second on: inner coefficients of the primitive polynomial as the bits of a number, highest power
-/// first, and the initial odd numbers m; their count is the degree. The first dimension is the one of van der Corput.
+/// Dimensions starting with the second: inner coefficients of the primitive polynomial as bits, highest power first, and the initial odd
+/// numbers m, whose count is the degree. The first dimension is that of van der Corput.
 #[rustfmt::skip]
 pub(super) const JOE_KUO: [(u32, &[u32]); 63] = [
     (0, &[1]),

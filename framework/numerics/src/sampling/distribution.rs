@@ -1,8 +1,8 @@
-//! Distributions of uncertain quantities, by which points of the unit cube become values.
+//! Distributions of uncertain quantities, which map the unit cube to values.
 
 use super::normal::inverse_normal;
 
-/// How an uncertain quantity is distributed, in the quantity's own unit.
+/// Distribution of an uncertain quantity, in its own unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distribution(Kind);
 
@@ -14,10 +14,10 @@ enum Kind {
 }
 
 impl Distribution {
-    /// Equally likely everywhere between two ends.
+    /// Uniform between two ends.
     ///
     /// # Errors
-    /// If the ends or their distance are not finite or not in order.
+    /// If the ends are reversed, or ends or distance are not finite.
     pub fn uniform(low: f64, high: f64) -> Result<Self, String> {
         if low < high && (high - low).is_finite() {
             Ok(Self(Kind::Uniform([low, high])))
@@ -28,22 +28,22 @@ impl Distribution {
         }
     }
 
-    /// Normal, without an end on either side.
+    /// Normal.
     ///
     /// # Errors
-    /// If the mean is not finite, or the standard deviation is not above zero.
+    /// If the mean is not finite, or the standard deviation is not positive.
     pub fn normal(mean: f64, deviation: f64) -> Result<Self, String> {
-        // No share that a number can hold lies forty deviations out.
+        // The probability beyond forty deviations underflows.
         if mean.is_finite() && deviation > 0.0 && (mean.abs() + 40.0 * deviation).is_finite() {
             Ok(Self(Kind::Normal { mean, deviation }))
         } else {
             Err(format!(
-                "a normal distribution needs a finite mean and a standard deviation above zero, not {mean} and {deviation}"
+                "a normal distribution needs a finite mean and a positive standard deviation, not {mean} and {deviation}"
             ))
         }
     }
 
-    /// Density rising straight from the lower end to the mode and falling straight to the upper end.
+    /// Triangular.
     ///
     /// # Errors
     /// If the numbers or the distance of the ends are not finite, the ends not in order or the mode not between them.
@@ -57,19 +57,19 @@ impl Distribution {
         }
     }
 
-    /// The value below which the quantity lies with a probability; zero and one are the ends, where there are ends.
+    /// The quantile of a probability; zero and one are the ends, if there are ends.
     ///
     /// # Errors
-    /// If the probability is not between zero and one, or is one of them and the quantity is normal.
+    /// If the probability is not between zero and one, or is zero or one for a normal quantity.
     pub fn value(&self, probability: f64) -> Result<f64, String> {
         if !(0.0..=1.0).contains(&probability) {
-            return Err(format!("{probability} is no probability"));
+            return Err(format!("{probability} is not a probability"));
         }
         Ok(match self.0 {
             Kind::Uniform([low, high]) => (low + probability * (high - low)).clamp(low, high),
             Kind::Normal { mean, deviation } => match inverse_normal(probability) {
                 Some(standard) => mean + deviation * standard,
-                None => return Err("a normal quantity has no end: give it a range".to_owned()),
+                None => return Err("a normal quantity has no ends: give it a range".to_owned()),
             },
             Kind::Triangular { low, mode, high } => {
                 let (width, rise) = (high - low, mode - low);
@@ -108,7 +108,7 @@ impl Distribution {
 /// Values at a point of the unit cube, one distribution for each coordinate.
 ///
 /// # Errors
-/// If there are not as many coordinates as distributions, or a coordinate has no value, [`Distribution::value`].
+/// If the numbers of coordinates and distributions differ, or a coordinate has no value, [`Distribution::value`].
 pub fn values(distributions: &[Distribution], point: &[f64]) -> Result<Vec<f64>, String> {
     if distributions.len() != point.len() {
         return Err(format!(

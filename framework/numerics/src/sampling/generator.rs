@@ -1,13 +1,13 @@
-//! Numbers that look random and are the same everywhere.
+//! Pseudorandom numbers that are identical on every platform.
 
-/// A small generator of numbers that look random and are the same everywhere.
+/// A small pseudorandom generator that is identical on every platform.
 ///
 /// Source: Steele, Lea, Flood: Fast splittable pseudorandom number generators, OOPSLA 2014 (SplitMix64).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Generator(u64);
 
 impl Generator {
-    /// The generator of a stream; streams of neighbouring numbers have nothing in common.
+    /// The generator of a stream; streams of neighbouring numbers are independent.
     pub fn new(stream: u64) -> Self {
         let mut start = Self(stream);
         Self(start.draw())
@@ -21,13 +21,13 @@ impl Generator {
         mixed ^ (mixed >> 31)
     }
 
-    /// The next whole number below a bound; zero where the bound is zero.
+    /// The next integer below a bound; zero if the bound is zero.
     pub fn below(&mut self, bound: usize) -> usize {
-        // The upper half of the product; its bias is that of the bound over 2^64.
+        // The upper half of the product; its bias is bound / 2^64.
         ((u128::from(self.draw()) * bound as u128) >> 64) as usize
     }
 
-    /// A list in another order, every order as likely as the others.
+    /// A random permutation of a list.
     ///
     /// Source: Durstenfeld, Comm. ACM 7 (1964) 420 (algorithm 235).
     pub fn shuffle<T>(&mut self, list: &mut [T]) {

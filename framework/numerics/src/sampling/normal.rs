@@ -1,6 +1,6 @@
 //! Quantiles of the normal distribution.
 
-/// Numerator and denominator, from the lowest power on, of the three ranges of Wichura's rational approximations.
+/// Numerator and denominator, in ascending powers, of the three ranges of Wichura's rational approximations.
 const CENTRE: [[f64; 8]; 2] = [
     [
         3.387_132_872_796_366_5,
@@ -68,8 +68,7 @@ const TAIL: [[f64; 8]; 2] = [
     ],
 ];
 
-/// The value below which a standard normal quantity lies with a probability; absent outside of the open interval from zero
-/// to one.
+/// Quantile of the standard normal distribution; absent outside the open interval from zero to one.
 ///
 /// Source: Wichura, Algorithm AS 241, Appl. Statist. 37 (1988) 477-484, the long version: relative error near 1e-16.
 pub fn inverse_normal(probability: f64) -> Option<f64> {

@@ -1,8 +1,8 @@
-//! Sobol points: a fixed list of points that fills the unit cube evenly, the same on every machine.
+//! Sobol points: a fixed sequence that fills the unit cube evenly, identical on every platform.
 //!
-//! Source: Sobol, USSR Comput. Math. Math. Phys. 7 (1967) 86-112, in the order of the Gray code after Antonov, Saleev (19
-//! (1979) 252-256); directions after Joe, Kuo (2008). The list starts at index zero and no point is skipped, for only whole
-//! blocks of 2^k points are balanced. Half of the last digit is added, so that no coordinate is zero or one.
+//! Source: Sobol, USSR Comput. Math. Math. Phys. 7 (1967) 86-112, in the order of the Gray code after Antonov, Saleev (19 (1979) 252-256);
+//! directions after Joe, Kuo (2008). The sequence starts at index zero and no point is skipped, because only complete blocks of 2^k points
+//! are balanced. Half of the last digit is added, so that no coordinate is zero or one.
 
 use super::directions::JOE_KUO;
 
@@ -12,22 +12,22 @@ const DIGITS: usize = 32;
 /// Sobol points of one number of dimensions.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sobol {
-    /// For each dimension the directions, the greatest first.
+    /// For each dimension the directions in descending order.
     directions: Vec<[u32; DIGITS]>,
 }
 
 impl Sobol {
-    /// Dimensions for which directions are tabulated.
+    /// Number of tabulated dimensions.
     pub const MOST: usize = JOE_KUO.len() + 1;
 
     /// Prepares points of a number of dimensions.
     ///
     /// # Errors
-    /// If there are more dimensions than the table has, [`Sobol::MOST`].
+    /// If there are more dimensions than [`Sobol::MOST`].
     pub fn new(dimensions: usize) -> Result<Self, String> {
         if dimensions > Self::MOST {
             return Err(format!(
-                "{dimensions} dimensions are more than the {} that Sobol points are tabulated for; vary fewer parameters",
+                "{dimensions} dimensions exceed the {} tabulated for Sobol points; vary fewer parameters",
                 Self::MOST
             ));
         }
@@ -43,7 +43,7 @@ impl Sobol {
 
     /// The point of an index, every coordinate inside the open interval from zero to one.
     pub fn point(&self, index: u32) -> Vec<f64> {
-        // The step from one index to the next flips one digit of the Gray code; all flips together are the code itself.
+        // The step from one index to the next flips one digit of the Gray code; all flips together are the code.
         let gray = index ^ (index >> 1);
         let digit = |i: &usize| (gray >> i) & 1 == 1;
         let whole = |directions: &[u32; DIGITS]| (0..DIGITS).filter(digit).fold(0, |sum, i| sum ^ directions[i]);

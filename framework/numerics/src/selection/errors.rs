@@ -1,11 +1,11 @@
-//! Standard deviations of measured losses whose accuracy is not stated point by point.
+//! Standard deviations of measured losses without a stated accuracy for each point.
 
-/// Share of the loss that is assumed where nothing is stated. \[%\]
+/// Assumed relative error if none is stated. \[%\]
 const ASSUMED_PERCENT: f64 = 5.0;
-/// Share of the root mean square of all losses below which no error is assumed to fall. \[-\]
+/// Assumed minimum error relative to the root mean square of all losses. \[-\]
 const ASSUMED_FLOOR: f64 = 0.01;
 
-/// Errors of losses: a share of the loss and a constant, which add as squares.
+/// Errors of losses: a relative and a constant part, added as squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LossErrors {
     /// Standard deviation over the loss. \[%\]
@@ -15,9 +15,8 @@ pub struct LossErrors {
 }
 
 impl LossErrors {
-    /// What is taken where nothing is stated: 5 % of the loss and 1 % of the root mean square of all losses. Both are assumptions, the
-    /// order of size of a good rig: the first treats points of any size alike, the second keeps points of
-    /// almost no loss from counting for more than all the others.
+    /// Default if nothing is stated: 5 % of the loss and 1 % of the root mean square of all losses. Both are assumptions with the order of
+    /// magnitude of a good rig; the second limits the weight of points with very small losses.
     pub fn assumed(losses: &[f64]) -> Self {
         let squares: f64 = losses.iter().map(|loss| loss * loss).sum();
         Self {

@@ -2,10 +2,10 @@
 
 use crate::inference::{PointSet, neighbours};
 
-/// What every candidate loses at each point, and what everything else loses there.
+/// Losses of every candidate at each point, and of all other components.
 #[derive(Debug, Clone)]
 pub struct Losses<'a> {
-    /// Loss of all that is not chosen, by point. \[W\]
+    /// Loss of all other components, by point. \[W\]
     pub rest: &'a [f64],
     /// For each mechanism and candidate the loss by point. \[W\]
     pub mechanisms: Vec<Vec<&'a [f64]>>,
@@ -17,7 +17,7 @@ impl Losses<'_> {
         self.mechanisms.iter().map(Vec::len).product()
     }
 
-    /// The candidates of a combination by its number, one place for each mechanism.
+    /// The candidates of combination `number`, one index for each mechanism.
     pub fn combination(&self, mut number: usize) -> Vec<usize> {
         let mut places = vec![0; self.mechanisms.len()];
         for (place, mechanism) in places.iter_mut().zip(&self.mechanisms).rev() {
@@ -36,31 +36,31 @@ impl Losses<'_> {
     }
 
     /// Loss of a combination at every point. \[W\]
-    pub fn all(&self, places: &[usize], factors: &[f64]) -> Vec<f64> {
+    pub fn of_combination(&self, places: &[usize], factors: &[f64]) -> Vec<f64> {
         (0..self.rest.len()).map(|i| self.loss(places, factors, i)).collect()
     }
 }
 
-/// Measured losses with their accuracy, and how they are divided.
+/// Measured losses with their accuracy and groups.
 #[derive(Debug, Clone)]
 pub struct MeasuredLosses {
     /// \[W\]
     pub losses: Vec<f64>,
-    /// Standard deviations, above zero. \[W\]
+    /// Standard deviations, positive. \[W\]
     pub deviations: Vec<f64>,
-    /// How much each point counts; one as a rule. \[-\]
+    /// Weight of each point; usually one. \[-\]
     pub weights: Vec<f64>,
-    /// Errors in the unit in which they are printed, for an error of one watt; absent where the quantity does not exist.
+    /// Factor from an error in W to the printed unit; absent if the quantity does not exist.
     pub units: Vec<Option<f64>>,
-    /// Places of points that are predicted together from all others.
+    /// Indices of points that are predicted together from all others.
     pub folds: Vec<Vec<usize>>,
     /// Neighbouring points and the shapes of common errors, for the correlation of errors.
     pub points: PointSet,
 }
 
 impl MeasuredLosses {
-    /// The same with what points at these torques, speeds and temperatures of the oil share. Common errors have four shapes: a
-    /// share of the accuracy, a gain of the loss, an offset of the loss, and an offset of a torque, whose power goes with the speed.
+    /// The same with common errors for points at these torques, speeds and oil temperatures. Common errors have four shapes: proportional
+    /// to the accuracy, a gain of the loss, an offset of the loss, and an offset of a torque, whose power is proportional to speed.
     #[must_use]
     pub fn with_conditions(mut self, torques: &[f64], speeds: &[f64], oils: &[f64]) -> Self {
         let over = |value: &dyn Fn(usize) -> f64| {
@@ -90,7 +90,7 @@ impl MeasuredLosses {
         self.losses.is_empty()
     }
 
-    /// Losses as residuals: less the measured ones, over their standard deviations.
+    /// Residuals of losses: calculated minus measured, over the standard deviations.
     pub fn residuals(&self, losses: &[f64]) -> Vec<f64> {
         let all = losses.iter().zip(&self.losses).zip(&self.deviations);
         all.map(|((loss, measured), deviation)| (loss - measured) / deviation)

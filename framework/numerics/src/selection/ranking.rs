@@ -6,35 +6,35 @@ use super::{Losses, MeasuredLosses};
 use crate::least_squares::bounded_linear;
 use crate::statistics::Statistics;
 
-/// Distance from a bound, over the range, below which a factor is on it.
+/// Distance from a bound, relative to the range, below which a factor is at it.
 const ON_BOUND: f64 = 1e-9;
 
-/// Bounds of the factors on the losses of the mechanisms: least and greatest; without them every factor is one.
+/// Lower and upper bound of the factors on the losses of the mechanisms; without bounds every factor is one.
 pub type Bounds = Option<[f64; 2]>;
 
-/// One combination against the measurement.
+/// Errors of one combination.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
-    /// Place of the candidate of each mechanism.
+    /// Index of the candidate of each mechanism.
     pub places: Vec<usize>,
-    /// Factor on the loss of each mechanism, fitted to all points; one where none are fitted. \[-\]
+    /// Factor on the loss of each mechanism, fitted to all points; one without a fit. \[-\]
     pub factors: Vec<f64>,
-    /// Mechanisms whose factor is on a bound.
+    /// Mechanisms whose factor is at a bound.
     pub on_bound: Vec<usize>,
-    /// Mean square of the predicted residuals of each fold in which a point counts. \[-\]
+    /// Mean square of the predicted residuals of each fold with a valid point. \[-\]
     pub mean_squares: Vec<f64>,
-    /// Root mean square of all residuals, each predicted with factors fitted to the other folds, over the accuracy. \[-\]
+    /// Root mean square of all residuals, each predicted with factors fitted to the other folds, relative to the accuracy. \[-\]
     pub predicted: f64,
-    /// Errors in the unit in which they are printed; absent where no point has one.
+    /// Errors in the printed unit; absent if no point has one.
     pub printed: Option<Printed>,
 }
 
-/// Errors in the unit in which they are printed.
+/// Errors in the printed unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Printed {
     /// Root mean square of the predicted errors.
     pub predicted: f64,
-    /// That of the worst fold.
+    /// The same of the worst fold.
     pub worst: f64,
     /// Root mean square of the errors with factors fitted to all points.
     pub fitted: f64,
@@ -42,7 +42,7 @@ pub struct Printed {
     pub mean: f64,
 }
 
-/// The factors that fit a combination to some of the points.
+/// The factors of a combination fitted to some of the points.
 fn factors(
     losses: &Losses<'_>,
     measured: &MeasuredLosses,
@@ -80,7 +80,7 @@ fn predictions(losses: &Losses<'_>, measured: &MeasuredLosses, bounds: Bounds, p
     predicted.iter().all(|loss| loss.is_finite()).then_some(predicted)
 }
 
-/// Cross-validates one combination. Absent where its factors cannot be fitted, or no point counts.
+/// Cross-validates one combination. Absent if its factors cannot be fitted, or there is no valid point.
 pub fn validate(
     losses: &Losses<'_>,
     measured: &MeasuredLosses,
@@ -89,7 +89,7 @@ pub fn validate(
 ) -> Option<Combination> {
     let all: Vec<usize> = (0..measured.len()).collect();
     let factors = factors(losses, measured, bounds, &places, &all)?;
-    let fitted = losses.all(&places, &factors);
+    let fitted = losses.of_combination(&places, &factors);
     let predicted = predictions(losses, measured, bounds, &places)?;
     let residuals = measured.residuals(&predicted);
     let weighted = |rows: &[usize]| Statistics::weighted(rows.iter().map(|i| (residuals[*i], measured.weights[*i])));
@@ -132,7 +132,7 @@ pub fn validate(
     })
 }
 
-/// All combinations that can be fitted, the smallest predicted error first. `going` is asked before each and ends the work.
+/// All combinations that can be fitted, sorted by predicted error. `going` is called before each combination and can stop the work.
 pub fn rank(
     losses: &Losses<'_>,
     measured: &MeasuredLosses,

@@ -1,22 +1,22 @@
-//! The combinations that the points do not tell from the winner, with weights, and the spread of their predictions.
+//! The combinations that are not distinguishable from the winner, with weights, and the spread of their predictions.
 //!
-//! Weights are Akaike weights on the misfit of the cross-validated predictions, averaged over resampled folds: pseudo-BMA with the Bayesian bootstrap
-//! (Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018) 917-1007, section 3.4; Rubin, Ann. Statist. 9 (1981) 130-134). For each of some
-//! draws of fold weights alpha, which are positive and sum to one, w_i ~ exp(-Q_i/2) with Q_i = K sum alpha_k Q_ik. Cross-validation counts no parameter, so
-//! none is added. Q_ik is the sum of squares of a fold over the variance of the errors and over 1 + (n - 1) rho, by which the n
-//! correlated points of a fold say less than independent ones (Kish, Survey Sampling, Wiley 1965).
+//! Weights are Akaike weights on the misfit of the cross-validated predictions, averaged over resampled folds: pseudo-BMA with the Bayesian
+//! bootstrap (Yao, Vehtari, Simpson, Gelman, Bayesian Analysis 13 (2018) 917-1007, section 3.4; Rubin, Ann. Statist. 9 (1981) 130-134). For
+//! each of some draws of fold weights alpha, which are positive and sum to one, w_i ~ exp(-Q_i/2) with Q_i = K sum alpha_k Q_ik.
+//! Cross-validation needs no penalty for parameters. Q_ik is the sum of squares of a fold over the variance of the errors and over 1 + (n -
+//! 1) rho, which accounts for the correlation of the n points of a fold (Kish, Survey Sampling, Wiley 1965).
 //!
-//! Plain Akaike weights take every point for independent evidence and give all the weight to one of many combinations that the
-//! folds do not tell apart; stacking does so too among predictions that are nearly equal. The spread would then say nothing of the others.
+//! Plain Akaike weights treat every point as independent evidence and give all the weight to one of many indistinguishable combinations; so
+//! does stacking for nearly equal predictions. The spread would then ignore the others.
 
 use super::{Combination, Losses, MeasuredLosses, Winner};
 use crate::inference::Decision;
 use crate::sampling::Sobol;
 
-/// The combinations that are not decidedly worse than the winner.
+/// The combinations that are not significantly worse than the winner.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shortlist {
-    /// Places in the ranking.
+    /// Indices in the ranking.
     pub members: Vec<usize>,
     /// Weight of each member; their sum is one. \[-\]
     pub weights: Vec<f64>,
@@ -24,18 +24,18 @@ pub struct Shortlist {
     pub means: Vec<f64>,
     /// Weighted standard deviation of them: the uncertainty from the choice of models. \[W\]
     pub deviations: Vec<f64>,
-    /// Least and greatest of them. \[W\]
+    /// Minimum and maximum of them. \[W\]
     pub ranges: Vec<[f64; 2]>,
 }
 
 /// Draws of fold weights.
 const DRAWS: u32 = 256;
 
-/// The combinations that the winner is not decidedly better than.
+/// The combinations that the winner is not significantly better than.
 pub fn shortlist(ranked: &[Combination], winner: &Winner, losses: &Losses<'_>, measured: &MeasuredLosses) -> Shortlist {
     let alike = |place: &usize| *place == winner.place || winner.standings[*place].decision != Decision::Better;
     let members: Vec<usize> = (0..ranked.len()).filter(alike).collect();
-    // Folds in which no point counts have no mean square in any combination.
+    // Folds without a valid point have no mean square in any combination.
     let counts = measured
         .folds
         .iter()
@@ -72,7 +72,7 @@ pub fn shortlist(ranked: &[Combination], winner: &Winner, losses: &Losses<'_>, m
 /// Weights from the misfits of each combination by fold.
 fn weights(misfits: &[Vec<f64>]) -> Vec<f64> {
     let folds = misfits.first().map_or(0, Vec::len);
-    // At most twenty folds, fewer than Sobol points have dimensions.
+    // At most twenty folds, fewer than the dimensions of Sobol points.
     let shares = |draw: u32, sobol: &Sobol| -> Vec<f64> {
         let raw: Vec<f64> = sobol.point(draw).iter().map(|u| -u.ln()).collect();
         let sum: f64 = raw.iter().sum();

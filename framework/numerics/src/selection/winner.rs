@@ -1,29 +1,30 @@
-//! Which combination is to be used, and which others the points do not tell from it.
+//! The winner of a ranking, and the combinations that are not distinguishable from it.
 
 use super::{Combination, Losses, MeasuredLosses};
 use crate::inference::{Decision, ErrorModel, FLOOR, Paired, Separation};
 
-/// How one combination stands against another one.
+/// Comparison of one combination with another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standing {
-    /// Errors of the folds, first over second; absent where there are fewer than two in which points count.
+    /// Errors of the folds, first over second; absent with fewer than two folds with valid points.
     pub folds: Option<Paired>,
-    /// How far apart the predictions are.
+    /// Separation of the predictions.
     pub separation: Separation,
-    /// Whether the first is better: where the folds say so, the set of points sees the difference, and errors that all points share
-    /// cannot be the reason.
+    /// Whether the first is better: the folds decide so, the set of points distinguishes the predictions, and common errors cannot be the
+    /// reason.
     pub decision: Decision,
 }
 
 /// Compares two combinations.
-pub fn stand(
+pub fn compare_pair(
     [first, second]: [&Combination; 2],
     losses: &Losses<'_>,
     measured: &MeasuredLosses,
     errors: &ErrorModel,
 ) -> Standing {
     let folds = Paired::from_folds(&first.mean_squares, &second.mean_squares, FLOOR);
-    let residuals = |c: &Combination| measured.weighted(&measured.residuals(&losses.all(&c.places, &c.factors)));
+    let residuals =
+        |c: &Combination| measured.weighted(&measured.residuals(&losses.of_combination(&c.places, &c.factors)));
     let separation = Separation::new([&residuals(first), &residuals(second)], errors);
     let found = folds.map_or(Decision::NotDecided, |folds| folds.decision());
     Standing {
@@ -40,22 +41,22 @@ pub fn stand(
 /// The outcome of a ranking.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Winner {
-    /// Place of the winner in the ranking: the best without a mark, unless the best of all is decidedly better than it.
+    /// Index of the winner in the ranking: the best without a mark, unless the best of all is significantly better.
     pub place: usize,
-    /// Place of the best combination without a mark; absent where all are marked.
+    /// Index of the best combination without a mark; absent if all are marked.
     pub unmarked: Option<usize>,
-    /// The best of all against the best without a mark; absent where they are the same, or all are marked.
+    /// The best of all compared with the best without a mark; absent if they are the same, or all are marked.
     pub best_against_unmarked: Option<Standing>,
-    /// The winner against every combination of the ranking.
+    /// The winner compared with every combination of the ranking.
     pub standings: Vec<Standing>,
     /// Errors of the measurement, with their correlation.
     pub errors: ErrorModel,
-    /// Whether the correlation was estimated from the residuals of the best.
+    /// Whether the correlation was estimated from the residuals of the best combination.
     pub is_estimated: bool,
 }
 
-/// Chooses from a ranking. `correlation` is that between the errors of any two points; absent, it is estimated from the residuals of the best.
-/// Absent where nothing is ranked.
+/// Chooses the winner of a ranking. `correlation` is the correlation between the errors of any two points; if absent, it is estimated from
+/// the residuals of the best combination. Absent if the ranking is empty.
 pub fn winner(
     ranked: &[Combination],
     is_marked: &dyn Fn(&Combination) -> bool,
@@ -64,13 +65,13 @@ pub fn winner(
     correlation: Option<f64>,
 ) -> Option<Winner> {
     let best = ranked.first()?;
-    let fitted = losses.all(&best.places, &best.factors);
+    let fitted = losses.of_combination(&best.places, &best.factors);
     let estimated = || ErrorModel::estimated(&measured.weighted(&measured.residuals(&fitted)), &measured.points);
-    // Without neighbours nothing tells the correlation, and errors count as independent.
+    // Without neighbours the correlation is unknown, and errors count as independent.
     let stated = |correlation: f64| ErrorModel::new(1.0, correlation, &measured.points.shapes);
     let errors = correlation.map_or_else(|| estimated().unwrap_or_else(|| stated(0.0)), stated);
     let unmarked = ranked.iter().position(|c| !is_marked(c));
-    let against = |a: usize, b: usize| stand([&ranked[a], &ranked[b]], losses, measured, &errors);
+    let against = |a: usize, b: usize| compare_pair([&ranked[a], &ranked[b]], losses, measured, &errors);
     let best_against_unmarked = unmarked.filter(|place| *place > 0).map(|place| against(0, place));
     let place = match (unmarked, best_against_unmarked) {
         (Some(place), Some(standing)) if standing.decision != Decision::Better => place,

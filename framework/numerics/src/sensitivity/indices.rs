@@ -1,9 +1,8 @@
-//! Shares of the variance of an output that the parameters explain, alone and with all others.
+//! First-order and total Sobol indices: shares of the variance of an output.
 //!
-//! Sources: Sobol, Math. Comput. Simul. 55 (2001) 271-280; estimators of Jansen, Comput. Phys. Commun. 117 (1999) 35-43, in
-//! the design of Saltelli et al., Comput. Phys. Commun. 181 (2010) 259-270. With A and B two samples and A_B,i the sample A
-//! with column i of B, and V the variance of f(A) and f(B) together:
-//! S_i = 1 - mean((f(B) - f(A_B,i))^2)/(2V), S_Ti = mean((f(A) - f(A_B,i))^2)/(2V).
+//! Sources: Sobol, Math. Comput. Simul. 55 (2001) 271-280; estimators of Jansen, Comput. Phys. Commun. 117 (1999) 35-43, in the design of
+//! Saltelli et al., Comput. Phys. Commun. 181 (2010) 259-270. With two samples A and B, the sample A_B,i (A with column i of B), and the
+//! variance V of f(A) and f(B) together: S_i = 1 - mean((f(B) - f(A_B,i))^2)/(2V), S_Ti = mean((f(A) - f(A_B,i))^2)/(2V).
 
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -13,35 +12,35 @@ use super::run::outputs;
 use crate::sampling::{Generator, Sobol};
 use crate::statistics::quantile;
 
-/// Sum of the first shares below which interactions matter.
+/// Sum of the first-order shares below which interactions are significant.
 const ALONE: f64 = 0.9;
-/// Spread over the greatest magnitude below which an output does not vary but for rounding.
+/// Spread over the largest magnitude below which an output varies by rounding only.
 const ROUNDING: f64 = 1e-13;
 
 /// A share with the ends of its 95 % interval by resampling the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Estimate {
-    /// The share. A small one may come out slightly negative; it is left as it is. [-]
+    /// The share. Small shares may be slightly negative and are not corrected. [-]
     pub value: f64,
     /// Quantiles 2.5 and 97.5 % of the resamples. [-]
     pub interval: [f64; 2],
 }
 
-/// How the parameters share the variance of one output.
+/// Variance shares of one output.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VarianceShares {
     /// Mean of the output.
     pub mean: f64,
-    /// Variance of the output; where it is rounding only, it and all shares are zero.
+    /// Variance of the output; if it is rounding only, it and all shares are zero.
     pub variance: f64,
-    /// Share that each parameter explains alone.
+    /// First-order share of each parameter.
     pub first: Vec<Estimate>,
-    /// Share of each parameter with all its interactions.
+    /// Total share of each parameter, including interactions.
     pub total: Vec<Estimate>,
 }
 
 impl VarianceShares {
-    /// Whether parameters act together: the shares alone add up to less than 90 %.
+    /// Whether parameters interact: the first-order shares sum to less than 90 %.
     pub fn interact(&self) -> bool {
         self.variance > 0.0 && self.first.iter().map(|s| s.value).sum::<f64>() < ALONE
     }
@@ -49,12 +48,12 @@ impl VarianceShares {
 
 /// Shares of the variance of each output of a function of unit coordinates, each evenly distributed between zero and one.
 ///
-/// The function is run for each row once with A, once with B and once for each parameter. Intervals come from resampling the
-/// rows, 200 times as a rule; with none they are the value itself.
+/// The function is evaluated for each row once with A, once with B and once for each parameter. Intervals come from resampling the rows,
+/// usually 200 times; without resampling they are the value.
 ///
 /// # Errors
-/// If the rows are not a power of two (only then are Sobol points balanced), there are more than 32 parameters, or the function
-/// fails or answers with numbers that are not finite.
+/// If the number of rows is not a power of two (otherwise Sobol points are not balanced), there are more than 32 parameters, or the
+/// function fails or returns non-finite numbers.
 pub fn variance_shares<F>(
     parameters: usize,
     rows: usize,
@@ -98,14 +97,14 @@ where
         .collect()
 }
 
-/// Values of one output: for each row those of A, B and each mixture.
+/// Values of one output: for each row those of A, B and each A_B,i.
 struct Sample {
     a: Vec<f64>,
     b: Vec<f64>,
     mixed: Vec<Vec<f64>>,
 }
 
-/// Mean, variance, and first and total shares.
+/// Mean, variance, first-order and total shares.
 struct Raw {
     mean: f64,
     variance: f64,
@@ -144,7 +143,7 @@ impl Sample {
         })
     }
 
-    /// Estimators over some rows; absent where squares leave the range of numbers.
+    /// Estimators over some rows; absent if squares overflow.
     fn raw(&self, rows: &[usize]) -> Option<Raw> {
         let count = rows.len() as f64;
         let both = || rows.iter().flat_map(|i| [self.a[*i], self.b[*i]]);

@@ -8,20 +8,19 @@ use crate::inference::{Parameter, Scale, Standing};
 pub struct Local {
     /// Change of the output over the change of the coordinate u (theta, or ln theta).
     pub slope: f64,
-    /// Slope times the range of the coordinate over the output; absent where the output is zero.
+    /// Slope times the range of the coordinate over the output; absent if the output is zero.
     pub scaled: Option<f64>,
-    /// Relative change of the output over the relative change of the parameter; absent where the output is zero.
+    /// Relative change of the output over the relative change of the parameter; absent if the output is zero.
     pub elasticity: Option<f64>,
 }
 
 /// Slopes of outputs over the coordinates of the parameters, by output, then by parameter; zero for fixed parameters.
 ///
-/// The function is given the parameters in their own units. Differences are central and stay inside the bounds; where there is
-/// no room on one side they take two points on the other. `noise` is the relative noise of one evaluation; zero stands for
-/// rounding.
+/// The function receives the parameters in their own units. Differences are central and stay within the bounds; without space on one side
+/// they use two points on the other. `noise` is the relative noise of one evaluation; zero means rounding.
 ///
 /// # Errors
-/// If the function fails or answers with numbers that are not finite.
+/// If the function fails or returns non-finite numbers.
 pub fn gradients<F>(parameters: &[Parameter], noise: f64, function: F) -> Result<Vec<Vec<f64>>, String>
 where
     F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
@@ -32,7 +31,7 @@ where
 /// Local sensitivities of outputs, by output, then by parameter. As [`gradients`].
 ///
 /// # Errors
-/// If the function fails or answers with numbers that are not finite.
+/// If the function fails or returns non-finite numbers.
 pub fn local<F>(parameters: &[Parameter], noise: f64, function: F) -> Result<Vec<Vec<Local>>, String>
 where
     F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
@@ -96,7 +95,7 @@ where
     }
 }
 
-/// The two places at which a coordinate is tried; both are its own value where it cannot move.
+/// The two evaluated values of a coordinate; both are its own value if it is fixed.
 fn stencil(parameter: &Parameter, noise: f64) -> [f64; 2] {
     let (u, [low, high]) = (parameter.u, parameter.bounds);
     if parameter.standing == Standing::Fixed || low >= high {

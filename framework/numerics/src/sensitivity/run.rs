@@ -1,11 +1,11 @@
-//! Many evaluations of a function of the user.
+//! Evaluations of a user function.
 
 use rayon::prelude::*;
 
-/// Outputs at points that are made from their number, in the order of the numbers.
+/// Outputs at points generated from their index, in order.
 ///
 /// # Errors
-/// The first fault in that order: of the function, of outputs that are not finite, or of a count of outputs that changes.
+/// The first error in that order: from the function, from non-finite outputs, or from a changed number of outputs.
 pub(super) fn outputs<F>(
     count: usize,
     point: impl Fn(usize) -> Vec<f64> + Sync,
@@ -23,7 +23,7 @@ where
             None => Ok(list),
         }
     };
-    // All runs end before a fault is looked for, so that it is the same one on any number of threads.
+    // All evaluations finish before errors are checked, so that the reported error does not depend on the number of threads.
     let all: Vec<Result<Vec<f64>, String>> = (0..count).into_par_iter().with_max_len(1).map(run).collect();
     let all = all.into_iter().collect::<Result<Vec<_>, _>>()?;
     let width = all.first().map_or(0, Vec::len);

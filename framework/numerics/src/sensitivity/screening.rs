@@ -1,9 +1,8 @@
-//! Screening: which of many parameters matter at all, from few runs.
+//! Screening of many parameters with few runs.
 //!
-//! Source: Morris, Technometrics 33 (1991) 161-174; the mean of magnitudes after Campolongo, Cariboni, Saltelli, Environ.
-//! Model. Softw. 22 (2007) 1509-1518. Each trajectory starts on a lattice of four levels from zero to one and moves one
-//! coordinate after the other by two levels. Starts and orders come from Sobol points instead of a random source, so that a
-//! screening is the same every time.
+//! Source: Morris, Technometrics 33 (1991) 161-174; the mean of magnitudes after Campolongo, Cariboni, Saltelli, Environ. Model. Softw. 22
+//! (2007) 1509-1518. Each trajectory starts on a lattice of four levels from zero to one and moves one coordinate after the other by two
+//! levels. Starts and orders come from Sobol points instead of a random source, so that a screening is reproducible.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,9 +12,9 @@ use crate::sampling::Sobol;
 
 /// Levels of a coordinate, from zero to one.
 const LEVELS: usize = 4;
-/// Levels of a step, half of their count: every level is then left and reached equally often.
+/// Levels of a step, half the number of levels: every level is then used equally often.
 const STEP: usize = LEVELS / 2;
-/// Share of the greatest effect below which a parameter has no influence.
+/// Share of the largest effect below which a parameter has no influence.
 const NEGLIGIBLE: f64 = 0.05;
 
 /// Elementary effects of one parameter on one output: change of the output over the change of the unit coordinate.
@@ -25,19 +24,19 @@ pub struct Effect {
     pub mean: f64,
     /// Mean of the magnitudes: mu*. Effects of both signs do not cancel.
     pub magnitude: f64,
-    /// Standard deviation: sigma. It is zero where the effect is the same everywhere.
+    /// Standard deviation: sigma. It is zero if the effect is the same everywhere.
     pub deviation: f64,
 }
 
-/// What a screening says of one parameter.
+/// Influence of one parameter by screening.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Influence {
-    /// Its effect is below 5 % of the greatest.
+    /// Its effect is below 5 % of the largest.
     None,
-    /// Its effect varies by more than its size: it is curved, or depends on other parameters.
+    /// Its effect varies by more than its size: nonlinear, or interacting with other parameters.
     NonlinearOrInteracting,
-    /// It matters in much the same way everywhere.
+    /// Its effect is similar everywhere.
     Steady,
 }
 
@@ -51,7 +50,7 @@ impl Influence {
         }
     }
 
-    /// In words.
+    /// As text.
     pub fn words(self) -> &'static str {
         match self {
             Self::None => "not influential",
@@ -64,14 +63,14 @@ impl Influence {
 /// Effects of all parameters on all outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Screening {
-    /// Evaluations that were needed.
+    /// Number of evaluations.
     pub runs: usize,
     /// Effects: by output, then by parameter.
     pub effects: Vec<Vec<Effect>>,
 }
 
 impl Screening {
-    /// What is said of each parameter, for one output.
+    /// Influence of each parameter on one output.
     pub fn influences(&self, output: usize) -> Vec<Influence> {
         let effects = self.effects.get(output).map_or(&[][..], Vec::as_slice);
         let greatest = effects.iter().fold(0.0, |most: f64, e| most.max(e.magnitude));
@@ -88,20 +87,19 @@ impl Screening {
     }
 }
 
-/// Screens a function of unit coordinates, which it is given from zero to one, both included.
+/// Screens a function of unit coordinates from zero to one, both included.
 ///
-/// A quantity without ends has no value there: it takes a range of the user. Twenty trajectories are customary; each costs
-/// one run more than there are parameters.
+/// A quantity without ends needs a range from the user. Twenty trajectories are customary; each needs one run more than there are
+/// parameters.
 ///
 /// # Errors
-/// If there are fewer than two trajectories, more than 32 parameters, or the function fails or answers with numbers that are
-/// not finite.
+/// If there are fewer than two trajectories, more than 32 parameters, or the function fails or returns non-finite numbers.
 pub fn screening<F>(parameters: usize, trajectories: usize, function: F) -> Result<Screening, String>
 where
     F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
 {
     if trajectories < 2 {
-        return Err("a screening needs two trajectories or more".to_owned());
+        return Err("a screening needs at least two trajectories".to_owned());
     }
     let sobol = Sobol::new(2 * parameters)?;
     let paths: Vec<Trajectory> = (1..=trajectories)
@@ -132,7 +130,7 @@ where
     })
 }
 
-/// A start on the lattice and the order in which coordinates move.
+/// A start on the lattice and the order of coordinate steps.
 struct Trajectory {
     start: Vec<usize>,
     order: Vec<usize>,

@@ -179,7 +179,7 @@ pub fn minimise(rows: &[usize], measured: &[f64], mut at: Vec<Parameter>, held: 
             .map(|c| c.iter().zip(&r).map(|(j, r)| j * r).sum())
             .collect();
         for (p, g) in at.iter_mut().zip(&gradient) {
-            p.stand(*g);
+            p.update_state(*g);
         }
         let free: Vec<usize> = (0..8)
             .filter(|k| !held.contains(k) && at[*k].standing == Standing::Free)

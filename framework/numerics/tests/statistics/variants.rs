@@ -36,7 +36,7 @@ fn check_7_5_active_bound() {
     list[5].bounds[1] = 0.7;
     let (r, jacobian) = linearised(&list, &all(), &measured());
     let gradient: f64 = jacobian.column(5).iter().zip(&r).map(|(j, r)| j * r).sum();
-    list[5].stand(gradient);
+    list[5].update_state(gradient);
     assert_eq!(list[5].standing, Standing::Active(Side::Upper));
     let fit = Fit::new(list, &jacobian, &r, 0, Accuracy::Given).unwrap();
     // Parameters are given with nine digits; the objective is flat there, its gradient in h is not: 1e-9 of the others

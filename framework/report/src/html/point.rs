@@ -31,7 +31,7 @@ fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
     let greatest = |values: Vec<f64>| values.into_iter().reduce(|a, b| if b.abs() > a.abs() { b } else { a });
     let torque = greatest(torques(runner, &path, &grid.torque, t).ok()?)?;
     let speed = greatest(speeds(runner, &path, &grid.speed, t).ok()?)?;
-    let gear = grid.gear.of(t).into_iter().next()?;
+    let gear = grid.gear.selected(t).into_iter().next()?;
     t.state(&gear).ok()?;
     Some((gear, given(torque, speed)))
 }

@@ -49,7 +49,7 @@ struct Draw<'a> {
 }
 
 /// Draws everything.
-pub(super) fn all(canvas: &mut Canvas, things: &Things, along: &Along, axes: &Axes, scale: f64) {
+pub(super) fn draw_all(canvas: &mut Canvas, things: &Things, along: &Along, axes: &Axes, scale: f64) {
     let mut draw = Draw {
         canvas,
         things,

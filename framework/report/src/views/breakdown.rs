@@ -65,7 +65,7 @@ impl Row<'_> {
                 "{name}: loss, gear {}, {}, models {}",
                 of_set.gear, self.title, of_set.model_set
             ),
-            over: over(self.along).to_owned(),
+            over: axis_title(self.along).to_owned(),
             height: format!("loss in {}", self.unit.symbol()),
             names: shown.iter().map(|k| of_set.shares[*k].clone()).collect(),
             bars: bars
@@ -97,7 +97,7 @@ impl Row<'_> {
             of_set.model_set
         ));
         let shown = spread(self.points.len());
-        let mut titles = vec![over(self.along)];
+        let mut titles = vec![axis_title(self.along)];
         titles.extend(shown.iter().map(|i| self.labels[*i].as_str()));
         let mut table = TextTable::new(&titles);
         let mut line = |title: &str, value: &dyn Fn(&PointOfBreakdown) -> Option<f64>| {
@@ -132,7 +132,7 @@ fn title(common: &Common) -> String {
 }
 
 /// Name and unit of the quantity along the bars.
-fn over(along: Along) -> &'static str {
+fn axis_title(along: Along) -> &'static str {
     match along {
         Along::Speed => "speed in rpm",
         Along::Torque => "torque in Nm",

@@ -37,7 +37,7 @@ pub struct BalanceEntry {
     #[serde(default)]
     pub set: Ordered<Value>,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

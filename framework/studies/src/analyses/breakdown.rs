@@ -220,7 +220,7 @@ fn beside(measured: &Measured, point: &PointResult, gear: &str) -> Option<(f64, 
         if !(same && warm && near(value("torque"), point.torque) && near(value("speed"), point.speed)) {
             continue;
         }
-        let seen = Seen::of(measured, row, point);
+        let seen = Seen::without_rig(measured, row, point);
         let Some(loss) = seen.quantity(Quantity::Loss) else {
             continue;
         };

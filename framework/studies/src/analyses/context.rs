@@ -390,7 +390,7 @@ impl<'a> Context<'a> {
     /// # Errors
     /// If it has several.
     pub fn one_gear(&self, path: &str, grid: &Grid, t: &Transmission) -> Result<String, Stopped> {
-        match &grid.gear.of(t)[..] {
+        match &grid.gear.selected(t)[..] {
             [gear] => Ok(gear.clone()),
             several => Err(self.wrong(
                 path,

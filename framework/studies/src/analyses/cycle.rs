@@ -46,7 +46,7 @@ pub struct CycleAnalysisEntry {
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

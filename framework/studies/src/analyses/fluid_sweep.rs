@@ -48,7 +48,7 @@ pub struct FluidSweepEntry {
     #[serde(default)]
     pub by: By,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

@@ -38,7 +38,7 @@ pub struct OperatingPointsEntry {
     #[serde(default)]
     pub by: By,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

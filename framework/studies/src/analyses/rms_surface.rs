@@ -54,7 +54,7 @@ pub struct RmsSurfaceEntry {
     /// The second quantity.
     pub y: SurfaceAxisEntry,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

@@ -44,7 +44,7 @@ pub struct SweepEntry {
     /// Speeds.
     pub speed: SpeedAxis,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

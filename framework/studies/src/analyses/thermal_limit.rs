@@ -39,7 +39,7 @@ pub struct ThermalLimitEntry {
     /// Speeds: those at which the torque is looked for; or the range in which the limit is.
     pub speed: SpeedAxis,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

@@ -67,7 +67,7 @@ pub struct TournamentEntry {
     #[schemars(range(min = 1, max = 1000))]
     pub shown: u32,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

@@ -1,6 +1,6 @@
 //! The usual sums of losses.
 
-use gearloss_framework::evaluate::PartLoss;
+use gearloss_framework::evaluate::{PartLoss, Solution};
 use gearloss_framework::registry::Instance;
 use gearloss_framework::transmission::{PartInfo, Transmission};
 
@@ -32,4 +32,15 @@ pub(super) fn add(sums: &mut [f64; 6], transmission: &Transmission, part: &PartI
     for term in instance.entry.terms {
         sums[sum_of(part.mechanism, term.load_dependent)] += loss.term_watts(term.index);
     }
+}
+
+/// The sums of a point; absent if no flow was found. \[W\]
+pub fn sums(transmission: &Transmission, solution: &Solution<'_>) -> Option<[f64; 6]> {
+    solution.has_flow().then(|| {
+        let mut sums = [0.0; 6];
+        for (part, loss) in solution.parts() {
+            add(&mut sums, transmission, part, &loss);
+        }
+        sums
+    })
 }

@@ -27,7 +27,7 @@ pub struct ShippedCycleEntry {
     /// Name of the cycle, such as `wltc_class3b`.
     pub shipped: String,
     /// How often it is driven. [-]
-    #[serde(default = "one")]
+    #[serde(default = "one_time")]
     #[schemars(range(min = 1, max = 1000))]
     pub repeat: u32,
     /// Rows before this time are left out. [s]
@@ -66,7 +66,7 @@ pub struct FileCycleEntry {
     /// Encoding; absent, UTF-8, and Latin-1 where that fails.
     pub encoding: Option<Encoding>,
     /// How often the series is driven. [-]
-    #[serde(default = "one")]
+    #[serde(default = "one_time")]
     #[schemars(range(min = 1, max = 1000))]
     pub repeat: u32,
     /// Rows before this time are left out. [s]
@@ -101,7 +101,7 @@ pub struct SpectrumCycleEntry {
     pub duration: f64,
 }
 
-pub(super) fn one() -> u32 {
+pub(super) fn one_time() -> u32 {
     1
 }
 pub(super) fn input() -> String {
@@ -208,7 +208,7 @@ impl FileCycleEntry {
             separator: None,
             decimal: None,
             encoding: None,
-            repeat: one(),
+            repeat: one_time(),
             start: None,
             end: None,
             gap: None,

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::{Demand, Given, Interval};
 use crate::measured::text::Form;
 use crate::measured::{Decimal, Encoding, MeasuredFault, Separator, fault};
-use gearloss_document::data::sheet::{Sheet, Wanted, told};
+use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
 use gearloss_framework::description::Ordered;
 
 /// The loads of a spectrum: a list, or a file.
@@ -108,7 +108,7 @@ impl SpectrumFile {
         if faulty.is_empty() {
             Ok(loads)
         } else {
-            Err(told(faulty, "correct the cell, or leave the row out"))
+            Err(limited_faults(faulty, "correct the cell, or leave the row out"))
         }
     }
 }

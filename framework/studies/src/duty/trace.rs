@@ -3,7 +3,7 @@
 use super::{Demand, FileCycleEntry, Given, Interval, Vehicle};
 use crate::measured::text::Form;
 use crate::measured::{MeasuredFault, fault};
-use gearloss_document::data::sheet::{Sheet, Wanted, told};
+use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
 
 /// One row of a series; SI.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -84,13 +84,13 @@ impl Trace {
             }
         }
         if !faulty.is_empty() {
-            return Err(told(faulty, "correct the cell, or leave the row out"));
+            return Err(limited_faults(faulty, "correct the cell, or leave the row out"));
         }
         let found = sheet.table.rows.len();
         let inside = |s: &Sample| entry.start.is_none_or(|t| s.time >= t) && entry.end.is_none_or(|t| s.time <= t);
         let ordered = not_rising(&samples);
         if !ordered.is_empty() {
-            return Err(told(
+            return Err(limited_faults(
                 ordered,
                 "sort the rows by time, with one row for each; a recording that starts again is another file",
             ));
@@ -296,7 +296,7 @@ fn gaps(samples: &[Sample], stated: Option<f64>) -> Vec<MeasuredFault> {
             ));
         }
     }
-    told(
+    limited_faults(
         messages,
         &format!("fill it, or accept it by `gap: {} s`", tidy(longest)),
     )
@@ -321,7 +321,7 @@ fn jumps(samples: &[Sample], entry: &FileCycleEntry) -> Vec<MeasuredFault> {
             )
         })
         .collect();
-    let mut found = told(
+    let mut found = limited_faults(
         vehicle,
         "correct the speeds and their unit, or state `most_acceleration`",
     );
@@ -337,7 +337,7 @@ fn jumps(samples: &[Sample], entry: &FileCycleEntry) -> Vec<MeasuredFault> {
                 )
             })
             .collect();
-        found.extend(told(
+        found.extend(limited_faults(
             shaft,
             "correct the speeds and their unit, or state another `most_speed_change`",
         ));

@@ -225,7 +225,7 @@ impl Identification<'_> {
     /// What a fit says of the parameters.
     fn fitted(&self, minima: Minima, options: &Options<'_>) -> Result<Fitted, Fault> {
         let fit = &minima.minima[0].fit;
-        let none = |message: String| Fault::of("the end of the search", message, "begin with other values");
+        let none = |message: String| Fault::single("the end of the search", message, "begin with other values");
         let Some(derivative) = &fit.derivative else {
             let reason = fit.reason.name();
             return Err(none(format!("it ended ({reason}) where residuals have no derivatives")));
@@ -251,7 +251,7 @@ impl Identification<'_> {
         let inference = if options.loss == Loss::Linear {
             inference::Fit::new(parameters, &derivative.jacobian, &fit.residuals, priors, self.accuracy)
         } else {
-            let rows = RobustRows::of(options.loss, fit.loss_scale, &fit.residuals[..fit.rows]);
+            let rows = RobustRows::new(options.loss, fit.loss_scale, &fit.residuals[..fit.rows]);
             let residuals = &fit.residuals;
             inference::Fit::robust(
                 parameters,

@@ -167,8 +167,8 @@ impl Identification<'_> {
             let none = |what: &str| format!("no {what} at {} Nm and {speed:.0} rpm", candidate.torque);
             let loss = point.loss.ok_or_else(|| none("loss"))?;
             let what = quantity.words(crate::study::Difference::Points).0;
-            quantity.of(point).ok_or_else(|| none(what))?;
-            let seen = Seen::on(&calculated.rig, &measured, &measured.rows[i], point);
+            quantity.value(point).ok_or_else(|| none(what))?;
+            let seen = Seen::with_rig(&calculated.rig, &measured, &measured.rows[i], point);
             let own = seen.accuracy(quantity).filter(|a| *a > 0.0);
             deviations.push(own.map_or_else(|| self.nearest(candidate, quantity) * scatter, |own| own * factor));
             losses.push(

@@ -122,7 +122,7 @@ impl Identified {
     ///
     /// # Errors
     /// What is wrong with path, bounds, start or prior.
-    pub fn of(
+    pub fn from_entry(
         name: &str,
         entry: &IdentifiedEntry,
         rig: &Rig,
@@ -402,7 +402,7 @@ impl Identified {
     }
 
     /// Faults of parameters that write the same value twice. Paths of findings begin with `parameters`.
-    pub(super) fn twice(parameters: &[Self]) -> Option<Diagnostic> {
+    pub(super) fn find_duplicate(parameters: &[Self]) -> Option<Diagnostic> {
         for (i, one) in parameters.iter().enumerate() {
             for other in &parameters[..i] {
                 let same_curve = matches!((&one.target, &other.target), (Target::Over { .. }, Target::Over { .. }))

@@ -88,12 +88,12 @@ impl<'a> Identification<'a> {
         let mut found = Vec::new();
         let mut parameters = Vec::new();
         for (name, entry) in entries {
-            match Identified::of(name, entry, &rows.measured.rig, (language, &built[0].0)) {
+            match Identified::from_entry(name, entry, &rows.measured.rig, (language, &built[0].0)) {
                 Ok(list) => parameters.extend(list),
                 Err(error) => found.push(error),
             }
         }
-        found.extend(Identified::twice(&parameters));
+        found.extend(Identified::find_duplicate(&parameters));
         if parameters.is_empty() && found.is_empty() {
             found.push(identification_error("parameters", "there is nothing to identify").help("name a parameter"));
         }
@@ -232,7 +232,7 @@ impl<'a> Identification<'a> {
     pub fn pair(&self, observation: &Observation, calculated: &Calculated) -> Result<Pair, String> {
         let row = &self.rows.measured.rows[observation.row];
         let point = calculated.point(observation.row);
-        let seen = Seen::on(&calculated.rig, self.rows.measured, row, point);
+        let seen = Seen::with_rig(&calculated.rig, self.rows.measured, row, point);
         let what = observation.quantity.words(crate::study::Difference::Points).0;
         let none = |which: &str| {
             let reason = match (&point.undefined, point.balance) {
@@ -243,7 +243,7 @@ impl<'a> Identification<'a> {
             format!("{}: no {which} {what}{reason}", self.rows.measured.origin(row))
         };
         let measured = seen.quantity(observation.quantity).ok_or_else(|| none("measured"))?;
-        let model = observation.quantity.of(point).filter(|x| x.is_finite());
+        let model = observation.quantity.value(point).filter(|x| x.is_finite());
         let model = model.ok_or_else(|| none("calculated"))?;
         Ok(Pair { measured, model })
     }
@@ -279,7 +279,7 @@ impl<'a> Identification<'a> {
     fn size_offsets(&mut self, start: &Calculated) {
         for port in [0, 1] {
             let torque = |(i, row): (usize, &crate::measured::Row)| {
-                let seen = Seen::on(&start.rig, self.rows.measured, row, start.point(i));
+                let seen = Seen::with_rig(&start.rig, self.rows.measured, row, start.point(i));
                 let there = match (port, start.point(i).output_speed) {
                     (0, _) => 1.0,
                     (_, Some(speed)) => start.point(i).reference_speed / speed,
@@ -345,7 +345,7 @@ impl<'a> Identification<'a> {
     ) -> Option<(Observation, Option<f64>)> {
         let measured = self.rows.measured;
         let own = &measured.rows[row];
-        let seen = Seen::on(&calculated.rig, measured, own, calculated.point(row));
+        let seen = Seen::with_rig(&calculated.rig, measured, own, calculated.point(row));
         let weight = measured.value(own, "weight").unwrap_or(1.0);
         let drowns = quantity == Quantity::Efficiency && seen.is_drowned();
         let quantity = if drowns { Quantity::LossTorque } else { quantity };
@@ -413,7 +413,7 @@ impl<'a> Identification<'a> {
             }
             let below = |(o, _): &&(Observation, Option<f64>)| {
                 let row = &measured.rows[o.row];
-                let loss = Seen::on(&start.rig, measured, row, start.point(o.row)).loss;
+                let loss = Seen::with_rig(&start.rig, measured, row, start.point(o.row)).loss;
                 loss.is_some_and(|loss| loss < 0.0)
             };
             let below = found[before..].iter().filter(below).count();

@@ -24,16 +24,16 @@ pub struct ChangedColumnEntry {
     /// Header of the column.
     pub column: String,
     /// Factor on the numbers of the column; not zero. [-]
-    #[serde(default = "one")]
+    #[serde(default = "unit_factor")]
     #[schemars(range(min = -1e12, max = 1e12))]
     pub scale: f64,
     /// Sign of the numbers of the column: -1 for a rig that counts the other way, otherwise 1. [-]
-    #[serde(default = "one")]
+    #[serde(default = "unit_factor")]
     #[schemars(range(min = -1.0, max = 1.0))]
     pub sign: f64,
 }
 
-fn one() -> f64 {
+fn unit_factor() -> f64 {
     1.0
 }
 

@@ -179,7 +179,7 @@ impl Condition {
             ));
         }
         let mut reader = Reader { text, at: 0 };
-        let rule = reader.any(0)?;
+        let rule = reader.disjunction(0)?;
         reader.skip_spaces();
         if reader.at < text.len() {
             let rest = reader.rest().chars().next().unwrap_or_default();
@@ -416,10 +416,10 @@ impl Reader<'_> {
         found
     }
 
-    fn any(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
-        let mut rules = vec![self.all(depth)?];
+    fn disjunction(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
+        let mut rules = vec![self.conjunction(depth)?];
         while self.take_word("or") {
-            rules.push(self.all(depth)?);
+            rules.push(self.conjunction(depth)?);
         }
         Ok(if rules.len() == 1 {
             rules.remove(0)
@@ -428,7 +428,7 @@ impl Reader<'_> {
         })
     }
 
-    fn all(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
+    fn conjunction(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
         let mut rules = vec![self.single(depth)?];
         while self.take_word("and") {
             rules.push(self.single(depth)?);
@@ -451,7 +451,7 @@ impl Reader<'_> {
             return Ok(Rule::Not(Box::new(self.single(depth + 1)?)));
         }
         if self.take_sign("(") {
-            let rule = self.any(depth + 1)?;
+            let rule = self.disjunction(depth + 1)?;
             return if self.take_sign(")") {
                 Ok(rule)
             } else {

@@ -83,8 +83,8 @@ impl MeasuredEntry {
         let mut measured = Measured {
             files: files.iter().map(|file| file.name.to_owned()).collect(),
             divisor: self.divisor(),
-            rig: Rig::of(&self.rig),
-            instruments: Instruments::of(&self.rig, self.divisor()),
+            rig: Rig::from_entry(&self.rig),
+            instruments: Instruments::from_entry(&self.rig, self.divisor()),
             accuracies,
             oil_temperature: self.rig.oil_temperature.map(|a| a / self.divisor()),
             ..Measured::default()

@@ -150,7 +150,7 @@ pub type PortSpeeds = [f64; 2];
 
 impl Rig {
     /// As an entry states it.
-    pub fn of(entry: &RigEntry) -> Self {
+    pub fn from_entry(entry: &RigEntry) -> Self {
         Self {
             offset: [entry.torque_offset_in, entry.torque_offset_out],
             support: [entry.support_in, entry.support_out],
@@ -214,7 +214,7 @@ pub struct Powers {
 
 impl Instruments {
     /// Of a rig whose torque meters are both stated.
-    pub fn of(entry: &RigEntry, divisor: f64) -> Option<Self> {
+    pub fn from_entry(entry: &RigEntry, divisor: f64) -> Option<Self> {
         let torque = [entry.torque_in?, entry.torque_out?];
         let speed = [entry.speed_in, entry.speed_out];
         Some(Self { torque, speed, divisor })
@@ -311,7 +311,7 @@ mod tests {
             torque_out: Some(meter(500.0)),
             ..RigEntry::default()
         };
-        let instruments = Instruments::of(&entry, StatedAs::Limit.divisor(2.0)).expect("both are stated");
+        let instruments = Instruments::from_entry(&entry, StatedAs::Limit.divisor(2.0)).expect("both are stated");
         let at = Powers {
             torque: [10.0, 98.0],
             speed: [1000.0, 100.0],
@@ -328,7 +328,7 @@ mod tests {
             speed_out: 0.1,
             ..entry
         };
-        let turning = Instruments::of(&turning, 1.0).expect("both are stated");
+        let turning = Instruments::from_entry(&turning, 1.0).expect("both are stated");
         assert!((turning.loss_torque(&at, 0.2) - turning.loss(&at) / 1000.0).abs() < 1e-12);
         assert!(!turning.drowns(&at));
         let small = Powers {

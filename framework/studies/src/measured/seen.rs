@@ -30,12 +30,12 @@ pub struct Seen {
 impl Seen {
     /// Torque and speed are those at the ports of the conditions, `out` columns those at the other port. The solved point tells
     /// the speeds of the ports, which follow from the gear state alone, and with them what the rig of the data adds.
-    pub fn of(measured: &Measured, row: &Row, point: &PointResult) -> Self {
-        Self::on(&measured.rig, measured, row, point)
+    pub fn without_rig(measured: &Measured, row: &Row, point: &PointResult) -> Self {
+        Self::with_rig(&measured.rig, measured, row, point)
     }
 
-    /// As [`Seen::of`], with what another rig adds. The point was solved with the torque that is left for the transmission.
-    pub fn on(rig: &Rig, measured: &Measured, row: &Row, point: &PointResult) -> Self {
+    /// As [`Seen::without_rig`], with what another rig adds. The point was solved with the torque that is left for the transmission.
+    pub fn with_rig(rig: &Rig, measured: &Measured, row: &Row, point: &PointResult) -> Self {
         let value = |quantity: &str| measured.value(row, quantity);
         let shown = value("torque").map_or(0.0, |t| measured.applied_torque(t, point)) * point.torque_speed;
         let here = if rig.is_silent() {
@@ -236,7 +236,7 @@ mod tests {
             offset: [offset, 0.0],
             ..Rig::default()
         };
-        Seen::on(&rig, &measured, &measured.rows[0], &point)
+        Seen::with_rig(&rig, &measured, &measured.rows[0], &point)
     }
 
     #[test]

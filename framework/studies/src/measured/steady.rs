@@ -150,7 +150,7 @@ pub(super) fn stretches(
         times,
         rows,
     };
-    let found = series.found()?;
+    let found = series.stretches()?;
     let points: Vec<Row> = found.iter().map(|place| series.mean(quantities, *place)).collect();
     let note = series.note(quantities, &points);
     Ok((points, note))
@@ -192,7 +192,7 @@ struct Series<'a> {
 
 impl Series<'_> {
     /// Steady stretches from the first to the last, without overlap.
-    fn found(&self) -> Result<Vec<Span>, MeasuredFault> {
+    fn stretches(&self) -> Result<Vec<Span>, MeasuredFault> {
         let (mut found, mut windows, mut sparse) = (Vec::new(), 0, 0);
         let mut sliding = Sliding::new(self);
         for [first, last] in self.pieces() {

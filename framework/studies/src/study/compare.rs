@@ -61,7 +61,7 @@ impl Quantity {
     }
 
     /// The quantity of a solved point; efficiency as a share, temperature in degC.
-    pub fn of(self, point: &PointResult) -> Option<f64> {
+    pub fn value(self, point: &PointResult) -> Option<f64> {
         match self {
             Self::Efficiency => point.efficiency,
             Self::Loss => point.loss,

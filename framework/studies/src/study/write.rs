@@ -24,7 +24,7 @@ impl Write {
     }
 
     /// CSV, JSON and pictures.
-    pub(crate) fn all() -> Vec<Self> {
+    pub(crate) fn every_format() -> Vec<Self> {
         vec![Self::Csv, Self::Json, Self::Svg]
     }
 }

@@ -9,14 +9,14 @@ impl Work<'_> {
         let wide = width(part, self.scale);
         let x = match part.between {
             [Some(a), Some(b)] => self.between(a, b, wide, sides),
-            [Some(m), None] | [None, Some(m)] => self.on(m, part, wide, sides),
+            [Some(m), None] | [None, Some(m)] => self.on_member(m, part, wide, sides),
             [None, None] => 0.0,
         };
         self.put(i, x);
     }
 
     /// A free position on a member that is connected to the housing.
-    fn on(&self, member: usize, part: &Part, wide: f64, sides: &[f64]) -> f64 {
+    fn on_member(&self, member: usize, part: &Part, wide: f64, sides: &[f64]) -> f64 {
         if let (Some(g), true) = (self.things.wheel_of(member), self.things.floats(member)) {
             return middle(self.along.wheels[g]);
         }

@@ -10,7 +10,7 @@ const LOCK: f64 = 30.0;
 
 impl Work<'_> {
     /// Side on which a body continues from a position; absent if nothing else is attached to it.
-    fn way(&self, member: usize, x: f64, sides: &[f64]) -> Option<f64> {
+    fn continuation_side(&self, member: usize, x: f64, sides: &[f64]) -> Option<f64> {
         let port = self.things.ports.iter().position(|p| p.1 == member);
         match self.along.extents[member].map(middle) {
             Some(other) if (other - x).abs() > 1.0 => Some((other - x).signum()),
@@ -49,7 +49,7 @@ impl Work<'_> {
                     return None;
                 };
                 let x = self.along.extents[body].map_or(0.0, middle);
-                self.way(carrier, x, sides).map(|side| (carrier, side))
+                self.continuation_side(carrier, x, sides).map(|side| (carrier, side))
             })
             .collect();
         for (body, way) in ways.into_iter().enumerate() {
@@ -74,7 +74,7 @@ impl Work<'_> {
                     return None;
                 }
                 let x = middle(self.along.wheels[g]);
-                let wanted = self.way(wheel.member, x, sides).unwrap_or(RIGHT);
+                let wanted = self.continuation_side(wheel.member, x, sides).unwrap_or(RIGHT);
                 Some(self.web(g, if self.barred(g, wanted) { -wanted } else { wanted }))
             })
             .collect();

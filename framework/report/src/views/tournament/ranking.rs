@@ -135,7 +135,7 @@ fn shortlist(name: &str, ranking: &Ranking, page: &mut Page) {
         .collect();
     let rms = |percent: fn(&RankedPoint) -> f64| {
         let all = ranking.points.iter().map(percent).filter(|x| x.is_finite());
-        Statistics::of(all).map(|s| s.rms)
+        Statistics::from_values(all).map(|s| s.rms)
     };
     page.verdict(format!(
         "{name}: the shortlist of {} spreads by {} % of the loss (weighted standard deviation, root mean square over the points; half the distance between its extremes {} %); largest weights: {}",

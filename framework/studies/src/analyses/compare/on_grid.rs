@@ -155,7 +155,7 @@ fn check_grid(cx: &Context<'_>, name: &str, grid: &Grid) -> Result<(), Stopped> 
 /// One set beside the base.
 fn comparison(entry: &CompareEntry, base: &Base<'_>, built: &Built<'_>, other: &GridResult) -> GridComparison {
     let point = |(base, other): (&PointResult, &PointResult)| {
-        let (base_model, model) = (entry.quantity.of(base), entry.quantity.of(other));
+        let (base_model, model) = (entry.quantity.value(base), entry.quantity.value(other));
         GridDifference {
             torque_nm: other.torque,
             speed_rpm: tidy(other.speed * RPM),
@@ -190,8 +190,8 @@ fn comparison(entry: &CompareEntry, base: &Base<'_>, built: &Built<'_>, other: &
         least: at(extreme(&points, |a, b| a < b)),
         greatest: at(extreme(&points, |a, b| a > b)),
         mean: (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64),
-        difference: Statistics::of(known),
-        loss_difference_percent_of_loss: Statistics::of(pairs().filter_map(of_loss)),
+        difference: Statistics::from_values(known),
+        loss_difference_percent_of_loss: Statistics::from_values(pairs().filter_map(of_loss)),
         notes: notes(&built.transmission, &other.seen),
         outside: pairs().map(|(a, b)| a.outside || b.outside).collect(),
         points,

@@ -163,7 +163,7 @@ fn comparison(entry: &CompareEntry, measured: &Measured, solved: &Solved<'_>) ->
         loss_difference_percent_of_loss: Statistics::weighted(losses),
         bands: bands_of_points(&points),
         notes: solved.notes.clone(),
-        accuracy: Statistics::of(accuracies).map(|s| s.rms).or(entry.accuracy),
+        accuracy: Statistics::from_values(accuracies).map(|s| s.rms).or(entry.accuracy),
         points,
     }
 }
@@ -174,8 +174,8 @@ fn compared(
     (row, gear): (&Row, &str),
     point: &PointResult,
 ) -> ComparedPoint {
-    let seen = Seen::of(measured, row, point);
-    let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.of(point));
+    let seen = Seen::without_rig(measured, row, point);
+    let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.value(point));
     let losses = seen.loss.zip(point.loss);
     ComparedPoint {
         line: row.line,

@@ -60,7 +60,7 @@ pub struct IdentifyEntry {
     /// Name of a set of models for the analyses after this one: the fitted set with the values that were found.
     pub then: Option<String>,
     /// Formats to write; absent, CSV, JSON and SVG.
-    #[serde(default = "Write::all")]
+    #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 

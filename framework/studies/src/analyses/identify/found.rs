@@ -237,7 +237,7 @@ fn rows(there: &Calculated, measured: &Measured, mechanisms: &[&'static str]) ->
                 .filter(|(part, _)| part.mechanism == *mechanism);
             own.map(|(_, watts)| watts).sum()
         };
-        let seen = Seen::on(&there.rig, measured, row, point);
+        let seen = Seen::with_rig(&there.rig, measured, row, point);
         let accuracy = seen.accuracy(Quantity::Loss).unwrap_or(0.0);
         RowOfSet {
             gear: gear.clone(),

@@ -268,6 +268,6 @@ fn between(cx: &Context<'_>, map: &Map<'_>, grid: &LossGrid) -> Result<Option<(f
         .into_iter()
         .zip(losses)
         .filter_map(|(mean, loss)| Some(mean - loss?));
-    let gaps = Statistics::of(gaps);
+    let gaps = Statistics::from_values(gaps);
     Ok(gaps.map(|g| (g.greatest.abs().max(g.least.abs()), g.rms)))
 }

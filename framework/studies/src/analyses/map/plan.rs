@@ -73,7 +73,7 @@ pub fn on_grid<'s>(
                     "correct one of them",
                 ));
             }
-            for gear in grid.gear.of(t) {
+            for gear in grid.gear.selected(t) {
                 maps.push(Planned {
                     built: Arc::clone(&built),
                     bound: bound.clone(),

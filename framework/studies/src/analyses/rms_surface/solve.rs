@@ -108,8 +108,8 @@ fn pair(entry: &RmsSurfaceEntry, measured: &Measured, at: [f64; 2], solved: Resu
     };
     let (mut differences, mut accuracies) = (Vec::new(), Vec::new());
     for (row, (point, why)) in measured.rows.iter().zip(&solved) {
-        let seen = Seen::of(measured, row, point);
-        let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.of(point));
+        let seen = Seen::without_rig(measured, row, point);
+        let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.value(point));
         let accuracy = seen.accuracy(entry.quantity);
         accuracies.push(accuracy.and_then(|a| counted(entry.quantity, entry.difference, a, saw)));
         differences.push(match (saw, model) {
@@ -185,7 +185,7 @@ pub fn counted_points(
         .iter()
         .filter_map(|i| first?.accuracies.get(*i).copied().flatten());
     Ok(Counted {
-        accuracy: Statistics::of(own).map(|s| s.rms).or(entry.accuracy),
+        accuracy: Statistics::from_values(own).map(|s| s.rms).or(entry.accuracy),
         places,
         left_out: faults.into_iter().collect(),
     })

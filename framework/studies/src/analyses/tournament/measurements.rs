@@ -64,7 +64,7 @@ impl Measurements {
         let data = format!("{}.data", cx.path());
         let (mut losses, mut stated) = (Vec::new(), Vec::new());
         for (row, point) in rows.iter().zip(&field.points) {
-            let seen = Seen::of(measured, row, point);
+            let seen = Seen::without_rig(measured, row, point);
             let Some(loss) = seen.loss else {
                 let message = format!("{}: no measured loss follows", measured.origin(row));
                 let help = "give the loss, the loss torque, the efficiency, or torque and speed at both ports";

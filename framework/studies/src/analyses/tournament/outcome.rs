@@ -307,7 +307,7 @@ impl Ranking {
             rest: &self.rest_w,
             mechanisms: mechanisms.collect(),
         };
-        losses.all(&combination.places, &combination.factors)
+        losses.of_combination(&combination.places, &combination.factors)
     }
 
     /// Whether a combination is the winner, or is not distinguishable from it.

@@ -177,7 +177,7 @@ fn gap_of_sum(cx: &Context<'_>, field: &Field<'_>, c: &Combination) -> Result<f6
     let solved = run_grid(&transmission, &points, &|_| cx.goes_on());
     let solved = solved.map_err(|list| Stopped::from(base.gearbox.findings(list)))?;
     let solved = solved.ok_or(Stopped::Interrupted)?;
-    let added = field.losses().all(&c.places, &vec![1.0; c.places.len()]);
+    let added = field.losses().of_combination(&c.places, &vec![1.0; c.places.len()]);
     let gaps = solved.points.iter().zip(&added);
     let gaps = gaps.filter_map(|(p, added)| Some(100.0 * (added - p.loss?) / p.loss?));
     Ok(gaps.fold(0.0_f64, |worst, gap| if gap.abs() > worst.abs() { gap } else { worst }))

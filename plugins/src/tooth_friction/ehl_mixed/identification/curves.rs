@@ -33,7 +33,7 @@ pub fn curves(points: &[TractionPoint], slide_roll: Option<&[f64]>) -> Vec<Curve
     for (row, point) in points.iter().enumerate() {
         let place = curves.iter().position(|curve| curve.holds(point));
         let place = place.unwrap_or_else(|| {
-            curves.push(Curve::beginning_with(point));
+            curves.push(Curve::from_point(point));
             curves.len() - 1
         });
         if slide_roll.is_some_and(|ratio| ratio[row] < CREEP) {
@@ -59,7 +59,7 @@ pub fn limiting(curves: &[Curve]) -> Option<&Curve> {
 }
 
 impl Curve {
-    fn beginning_with(point: &TractionPoint) -> Self {
+    fn from_point(point: &TractionPoint) -> Self {
         Self {
             pressure: point.pressure,
             temperature: point.temperature,

@@ -3,12 +3,12 @@
 use gearloss_framework::transmission::{Stage, Transmission};
 use serde_json::Value;
 
-use crate::output::{Table, number, significant};
+use crate::text::{TextTable, number, significant};
 
 /// One indented line per stage and per gear.
 pub fn card(transmission: &Transmission) -> String {
     let mut text = String::new();
-    let mut stages = Table::new(&[
+    let mut stages = TextTable::new(&[
         "stage",
         "z",
         "ratio",
@@ -66,7 +66,7 @@ fn row(stage: &Stage) -> Vec<String> {
 }
 
 /// All data of a stage at full precision, one line each: key and value as in JSON.
-pub fn figures(stage: &Stage) -> Vec<String> {
+pub fn stage_lines(stage: &Stage) -> Vec<String> {
     let value = serde_json::to_value(stage).unwrap_or_default();
     let fields = value.as_object().into_iter().flatten();
     fields

@@ -3,30 +3,37 @@
 use gearloss_framework::evaluate::{Point, PowerFlow, Solution};
 use gearloss_framework::flow::Status;
 use gearloss_framework::transmission::Transmission;
-use serde_json::{Value, json};
+use serde::Serialize;
 
-use super::point::Prepared;
-use crate::output::significant;
+use super::PreparedPoint;
 
 /// Factor on the torque to test whether more torque helps.
 const HARDER: f64 = 1.5;
 
 /// The direction in which a transmission locks.
-pub struct Locking {
+#[derive(Debug, Clone, Serialize)]
+pub struct SelfLocking {
     /// Ports where power would enter without losses.
-    from: Vec<String>,
+    pub from: Vec<String>,
     /// Ports where power would leave without losses.
-    to: Vec<String>,
+    pub to: Vec<String>,
     /// Meshes that lock; empty if a torque at another port maintains the equilibrium.
-    meshes: Vec<String>,
+    pub meshes: Vec<String>,
     /// Efficiency in the other direction; absent if there is none.
-    back: Option<f64>,
+    #[serde(skip)]
+    pub back: Option<f64>,
     /// Torques that the output ports must apply; empty if no torque maintains the equilibrium. \[Nm\]
-    helping: Vec<(String, f64)>,
+    #[serde(skip)]
+    pub helping: Vec<(String, f64)>,
 }
 
 /// Determines whether a solved point is self-locking; with ideal flow it is not.
-pub fn find(t: &Transmission, prepared: &Prepared, solution: &Solution<'_>, temperatures: &[f64]) -> Option<Locking> {
+pub fn self_locking(
+    t: &Transmission,
+    prepared: &PreparedPoint,
+    solution: &Solution<'_>,
+    temperatures: &[f64],
+) -> Option<SelfLocking> {
     let status = solution.status();
     if prepared.flow == PowerFlow::Ideal || !matches!(status, Status::SelfLocking | Status::Dragged) {
         return None;
@@ -70,7 +77,7 @@ pub fn find(t: &Transmission, prepared: &Prepared, solution: &Solution<'_>, temp
     }
     let (_, back, _) = powers(PowerFlow::Real, -1.0);
     let names = |ports: Vec<usize>| ports.into_iter().map(|port| t.ports()[port].name.clone()).collect();
-    Some(Locking {
+    Some(SelfLocking {
         from: names(from),
         to: names(to),
         meshes,
@@ -85,43 +92,4 @@ fn port_powers(t: &Transmission, solution: &Solution<'_>) -> Vec<f64> {
     ports
         .map(|(i, port)| solution.speed(port.member) * solution.torque(i))
         .collect()
-}
-
-impl Locking {
-    /// As a sentence.
-    pub fn words(&self) -> String {
-        let quoted = |names: &[String]| -> String {
-            let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-            quoted.join(" and ")
-        };
-        let (from, to) = (quoted(&self.from), quoted(&self.to));
-        let mut text = if self.helping.is_empty() {
-            format!("self-locking: no power flows from {from} to {to} at any torque at {from}")
-        } else {
-            let torques: Vec<String> = self
-                .helping
-                .iter()
-                .map(|(port, torque)| format!("`{port}` ({} Nm)", significant(*torque)))
-                .collect();
-            let pushes = if torques.len() == 1 { "pushes" } else { "push" };
-            format!(
-                "self-locking: torque at {from} alone does not turn it; the speeds are only maintained because {} {pushes} as well, and \
-                 no power comes out",
-                torques.join(" and ")
-            )
-        };
-        if !self.meshes.is_empty() {
-            text.push_str(&format!("; locked by {}", self.meshes.join(", ")));
-        }
-        if let Some(back) = self.back {
-            text.push_str(&format!("; efficiency from {to}: {:.2} %", 100.0 * back));
-        }
-        text.push('\n');
-        text
-    }
-
-    /// As a record.
-    pub fn json(&self) -> Value {
-        json!({ "from": self.from, "to": self.to, "meshes": self.meshes })
-    }
 }

@@ -3,13 +3,13 @@
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::Steady;
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analyses::balance::reason;
 use serde_json::{Value, json};
 
-use crate::output::{Table, significant};
-use gearloss_studies::analyses::balance::reason;
+use crate::text::{TextTable, significant};
 
 /// The temperatures of the nodes as text.
-pub fn of_network(transmission: &Transmission, steady: &Steady) -> String {
+pub(super) fn network_text(transmission: &Transmission, steady: &Steady) -> String {
     let Some(network) = transmission.network() else {
         return String::new();
     };
@@ -24,7 +24,7 @@ pub fn of_network(transmission: &Transmission, steady: &Steady) -> String {
         }
         return text;
     }
-    let mut table = Table::new(&["node", "degC", "heat in W", "heat out W"]);
+    let mut table = TextTable::new(&["node", "degC", "heat in W", "heat out W"]);
     for (node, name) in network.names().iter().enumerate() {
         table.row(vec![
             name.clone(),
@@ -49,7 +49,7 @@ pub fn of_network(transmission: &Transmission, steady: &Steady) -> String {
 }
 
 /// The nodes and the heat paths.
-pub fn json_of_network(transmission: &Transmission, steady: &Steady) -> Value {
+pub(super) fn network_json(transmission: &Transmission, steady: &Steady) -> Value {
     let Some(network) = transmission.network() else {
         return Value::Null;
     };

@@ -1,0 +1,312 @@
+//! One solved point: text and record.
+
+mod explain;
+mod network;
+
+use std::fmt::Display;
+
+use gearloss_framework::evaluate::{PowerFlow, Solution};
+use gearloss_framework::loads::SupportLoad;
+use gearloss_framework::resolve::Resolved;
+use gearloss_framework::transmission::Transmission;
+use gearloss_studies::analyses::balance::BalanceOfPoint;
+use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::analysis::{Found, PreparedPoint, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+pub use explain::{explain_heat_path, explain_part};
+use network::{network_json, network_text};
+
+use crate::page::outside;
+use crate::text::{TextTable, fixed, number, significant};
+use crate::views::balance::balance_text;
+
+/// Lines on what has no model, on changed coefficients, and on the lowest evidence grade.
+pub fn remarks(resolved: &Resolved, changed: &[impl Display], evidence: &[WeakPoint]) -> Vec<String> {
+    let missing = resolved.unreached.iter().chain(&resolved.without);
+    let mut lines: Vec<String> = missing.map(|line| format!("note: {line}")).collect();
+    lines.extend(changed.iter().map(|changed| format!("note: {changed}")));
+    lines.extend(evidence.first().map(|weak| {
+        let grade = weak.grade.name();
+        format!("lowest evidence grade: {grade} ({}: {})", weak.what, weak.because)
+    }));
+    lines
+}
+
+/// The point as text and the state of the transmission.
+pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &PreparedPoint, at: &str) -> String {
+    let mut text = String::new();
+    if !transmission.title().is_empty() {
+        text.push_str(&format!("{}\n", transmission.title()));
+    }
+    text.push_str(&format!(
+        "gear {}, {at}, {} flow\n\n",
+        prepared.gear,
+        if matches!(prepared.flow, PowerFlow::Real) {
+            "real"
+        } else {
+            "ideal"
+        }
+    ));
+    let mut ports = TextTable::new(&["port", "speed rpm", "torque Nm", "power W"]);
+    for (i, port) in transmission.ports().iter().enumerate() {
+        let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
+        ports.row(vec![
+            port.name.clone(),
+            fixed(speed * RPM, 2),
+            number(torque, 4),
+            number(torque.map(|torque| speed * torque), 2),
+        ]);
+    }
+    text.push_str(&ports.render());
+    text.push('\n');
+    text
+}
+
+/// A solved point as text: ports, loads, losses, sums, temperatures, and what was outside its stated range.
+pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved: &SolvedPoint<'_>) -> String {
+    let (solution, found) = (&solved.solution, &solved.found);
+    let at = if found.is_sound() {
+        format!("oil {} degC", significant(found.oil))
+    } else {
+        format!("no heat balance, losses at {} degC", significant(found.oil))
+    };
+    let mut text = heading(transmission, solution, prepared, &at);
+    // Without a power flow there are no loads and losses.
+    let flow = solution.has_flow();
+    if flow && !transmission.supports().is_empty() {
+        let mut loads = TextTable::new(&["bearing", "radial N", "axial N", "tilting Nm"]);
+        let row = |path: String, load: SupportLoad| {
+            vec![
+                path,
+                fixed(load.radial, 1),
+                fixed(load.axial, 1),
+                fixed(load.tilting, 3),
+            ]
+        };
+        for (i, path) in transmission.supports().iter().enumerate() {
+            loads.row(row(path.clone(), solution.load(i)));
+            if let Some(load) = solution.most_loaded(i) {
+                loads.row(row(format!("{path}, most loaded planet"), load));
+            }
+        }
+        text.push_str(&loads.render());
+        text.push('\n');
+    }
+    let mut parts = TextTable::new(&[
+        "component",
+        "model",
+        "loss W",
+        "load-dependent W",
+        "moment Nm",
+        "relative rpm",
+    ]);
+    for (part, loss) in solution.parts() {
+        let entry = &transmission.instances()[part.notes.instance()].entry;
+        let dependent: f64 = entry
+            .terms
+            .iter()
+            .filter(|t| t.load_dependent)
+            .fold(0.0, |sum, t| sum + loss.term_watts(t.index));
+        let watts = match &loss.result {
+            Err(_) if flow => "undefined".to_owned(),
+            _ => number(flow.then(|| loss.watts()), 4),
+        };
+        parts.row(vec![
+            part.path.clone(),
+            entry.name.to_owned(),
+            watts,
+            number(flow.then_some(dependent), 4),
+            number(loss.moment().filter(|_| flow), 6),
+            fixed(loss.speed * RPM, 1),
+        ]);
+    }
+    text.push_str(&parts.render());
+    text.push('\n');
+    if let Some(sums) = sums(transmission, solution) {
+        let words: Vec<String> = SUMS
+            .iter()
+            .zip(sums)
+            .map(|((name, _), watts)| format!("{name} {}", fixed(watts, 3)))
+            .collect();
+        text.push_str(&format!("sums W: {}\n", words.join(", ")));
+    }
+    text.push_str(&format!(
+        "status {}, loss {} W, efficiency {} %, loss torque {} Nm, {} iterations\n",
+        solution.status().name(),
+        number(solution.loss(), 4),
+        number(solution.efficiency().map(|e| 100.0 * e), 4),
+        number(solution.loss_torque(), 6),
+        solution.passes(),
+    ));
+    // The internal power exceeds the input only with circulating power.
+    if let Some(times) = multiplied(solution).filter(|times| *times > 1.001) {
+        text.push_str(&format!(
+            "largest internal power {} W, {times:.2} times the input\n",
+            number(Some(solution.largest_power()), 2),
+        ));
+    }
+    if let Some((part, reason)) = solution.undefined() {
+        text.push_str(&format!("{}: {reason}\n", part.path));
+    }
+    text.extend(solved.locking.as_ref().map(locking_text));
+    text.push_str(&temperature_text(transmission, found));
+    text.push_str(&outside(&solved.notes));
+    text
+}
+
+/// Self-locking as a sentence.
+pub fn locking_text(locking: &SelfLocking) -> String {
+    let quoted = |names: &[String]| -> String {
+        let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        quoted.join(" and ")
+    };
+    let (from, to) = (quoted(&locking.from), quoted(&locking.to));
+    let mut text = if locking.helping.is_empty() {
+        format!("self-locking: no power flows from {from} to {to} at any torque at {from}")
+    } else {
+        let torques: Vec<String> = locking
+            .helping
+            .iter()
+            .map(|(port, torque)| format!("`{port}` ({} Nm)", significant(*torque)))
+            .collect();
+        let pushes = if torques.len() == 1 { "pushes" } else { "push" };
+        format!(
+            "self-locking: torque at {from} alone does not turn it; the speeds are only maintained because {} {pushes} as well, and \
+             no power comes out",
+            torques.join(" and ")
+        )
+    };
+    if !locking.meshes.is_empty() {
+        text.push_str(&format!("; locked by {}", locking.meshes.join(", ")));
+    }
+    if let Some(back) = locking.back {
+        text.push_str(&format!("; efficiency from {to}: {:.2} %", 100.0 * back));
+    }
+    text.push('\n');
+    text
+}
+
+/// The heat balance of a point as text; empty if temperatures are given.
+pub fn temperature_text(transmission: &Transmission, warm: &Found) -> String {
+    let balance = warm
+        .balance
+        .as_ref()
+        .map(|b| balance_text(&BalanceOfPoint::new(transmission, b), true));
+    let network = warm.network.as_ref().map(|n| network_text(transmission, n));
+    balance.or(network).unwrap_or_default()
+}
+
+/// The largest internal power relative to the input power.
+fn multiplied(solution: &Solution<'_>) -> Option<f64> {
+    let input = solution.input_power().filter(|input| *input > 0.0)?;
+    Some(solution.largest_power() / input)
+}
+
+/// The usual sums by their names.
+fn by_name(sums: [f64; 6]) -> Value {
+    let named = SUMS.iter().zip(sums);
+    named
+        .map(|((name, _), watts)| ((*name).to_owned(), json!(watts)))
+        .collect()
+}
+
+/// A solved point as a record of the format `gearloss-point/1`; `packages` are the crates with models.
+pub fn point_json(
+    transmission: &Transmission,
+    prepared: &PreparedPoint,
+    solved: &SolvedPoint<'_>,
+    packages: impl Serialize,
+) -> Value {
+    let (solution, found) = (&solved.solution, &solved.found);
+    // Without a power flow loads and losses are null.
+    let flow = solution.has_flow();
+    let known = |value: f64| flow.then_some(value);
+    let ports: Vec<Value> = transmission
+        .ports()
+        .iter()
+        .enumerate()
+        .map(|(i, port)| {
+            let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
+            let power = torque.map(|torque| speed * torque);
+            json!({ "port": port.name, "speed_rpm": tidy(speed * RPM), "torque_nm": torque, "power_w": power })
+        })
+        .collect();
+    let members: Vec<Value> = transmission
+        .members()
+        .iter()
+        .enumerate()
+        .map(|(i, name)| json!({ "member": name, "speed_rpm": tidy(solution.speed(i) * RPM) }))
+        .collect();
+    let loads: Vec<Value> = transmission
+        .supports()
+        .iter()
+        .enumerate()
+        .map(|(i, path)| {
+            let load = solution.load(i);
+            let most = solution
+                .most_loaded(i)
+                .filter(|_| flow)
+                .map(|load| json!({ "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting }));
+            json!({
+                "support": path, "radial_n": known(load.radial), "axial_n": known(load.axial), "tilting_nm": known(load.tilting),
+                "most_loaded_planet": most, "static_safety": solution.static_safety(i),
+            })
+        })
+        .collect();
+    let parts: Vec<Value> = solution
+        .parts()
+        .map(|(part, loss)| {
+            let entry = &transmission.instances()[part.notes.instance()].entry;
+            let terms: Vec<Value> = entry
+                .terms
+                .iter()
+                .map(|t| json!({ "term": t.name, "load_dependent": t.load_dependent, "loss_w": known(loss.term_watts(t.index)) }))
+                .collect();
+            json!({
+                "part": part.path,
+                "mechanism": part.mechanism,
+                "model": entry.name,
+                "count": part.count,
+                "relative_speed_rpm": tidy(loss.speed * RPM),
+                "moment_of_one_nm": loss.moment().filter(|_| flow),
+                "loss_w": loss.result.is_ok().then(|| loss.watts()).filter(|_| flow),
+                "undefined": loss.result.err().filter(|_| flow).map(|e| e.to_string()),
+                "terms": terms,
+            })
+        })
+        .collect();
+    json!({
+        "format": "gearloss-point/1",
+        "gearloss": env!("CARGO_PKG_VERSION"),
+        "gear": prepared.gear,
+        "power_flow": prepared.flow,
+        "status": solution.status(),
+        "efficiency": solution.efficiency(),
+        "loss_w": solution.loss(),
+        "loss_torque_nm": solution.loss_torque(),
+        "power": {
+            "input_w": solution.input_power(),
+            "output_w": solution.output_power(),
+            "loss_w": solution.loss(),
+            "residual_w": solution.residual(),
+            "largest_internal_power_w": known(solution.largest_power()),
+            "largest_internal_over_input": multiplied(solution),
+        },
+        "sums_w": sums(transmission, solution).map(by_name),
+        "ports": ports,
+        "members": members,
+        "stages": transmission.stages().collect::<Vec<_>>(),
+        "supports": loads,
+        "parts": parts,
+        "packages": packages,
+        "self_locking": solved.locking,
+        // Without a heat balance there is no oil temperature; the losses are at another one.
+        "oil_temperature_degc": found.is_sound().then_some(found.oil),
+        "evaluated_at_degc": found.oil,
+        "balance": found.balance.as_ref().map(|b| BalanceOfPoint::new(transmission, b)),
+        "network": found.network.as_ref().map(|n| network_json(transmission, n)),
+        "notes": solved.notes,
+    })
+}
