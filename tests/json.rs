@@ -79,17 +79,17 @@ fn every_finding_has_its_code_place_and_help() {
         file["findings"][0].clone()
     };
     for (case, code, line) in [
-        ("not_yaml", "syntax", true),
-        ("duplicate_key", "syntax", true),
-        ("misspelt_key", "unknown-key", true),
-        ("missing_key", "missing-key", true),
-        ("model_without_type", "missing-key", true),
-        ("unknown_type", "unknown-name", true),
-        ("wrong_unit", "value", true),
-        ("out_of_range", "value", true),
-        ("extends_missing", "unreadable", true),
-        ("unknown_designation", "choice", true),
-        ("no_overlap", "gearbox", true),
+        ("not_yaml", "E0002", true),
+        ("duplicate_key", "E0003", true),
+        ("misspelt_key", "E0101", true),
+        ("missing_key", "E0102", true),
+        ("model_without_type", "E0102", true),
+        ("unknown_type", "E0103", true),
+        ("wrong_unit", "E0106", true),
+        ("out_of_range", "E0105", true),
+        ("extends_missing", "E0001", true),
+        ("unknown_designation", "E0205", true),
+        ("no_overlap", "E0302", true),
     ] {
         let finding = of(case);
         assert_eq!(finding["code"], code, "{case}: {finding:#}");

@@ -15,6 +15,7 @@ mod cycle;
 mod editor;
 mod ehl_mixed;
 mod electric_drive_unit;
+mod errors;
 mod explained;
 mod files;
 mod fit_rheology;

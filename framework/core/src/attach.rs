@@ -16,6 +16,7 @@ pub use clearance::{Clearance, ClearancePlace, ClearanceSeat, ClearanceSite};
 pub use member::{MemberPlace, MemberSite, OnMember};
 pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::immersion::Height;
 use crate::loads::SupportLoad;
@@ -308,7 +309,7 @@ impl<'a> Names<'a> {
 
 /// The error for an unknown id.
 pub fn dangling(path: &str, what: &str, id: &str, ids: &[&str]) -> Diagnostic {
-    let error = Diagnostic::error(path, format!("no {what} is called `{id}`"));
+    let error = Diagnostic::error(path, format!("no {what} is called `{id}`")).code(codes::UNKNOWN_NAME);
     let error = if ids.is_empty() {
         error
     } else {

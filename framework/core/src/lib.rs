@@ -1,6 +1,7 @@
 //! The framework of gearloss: description, registry, kinematics, loads, evaluation. It names no concrete loss model.
 
 pub mod attach;
+pub mod codes;
 pub mod coefficients;
 pub mod conformance;
 pub mod contact;

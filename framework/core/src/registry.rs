@@ -20,6 +20,7 @@ pub use placed::{Common, Placed, Section};
 pub use recipe::NetworkRecipe;
 pub use slot::{ModelRef, NamedSlots, Slot};
 
+use crate::codes;
 use crate::conformance;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::eval::{self, Evaluated};
@@ -586,16 +587,19 @@ impl Registry {
 }
 
 fn missing(message: String, name: &str, names: &[&str]) -> Diagnostic {
-    Diagnostic::error("", message).help(match did_you_mean(name, names.iter().copied()) {
-        Some(close) => format!("write {close}"),
-        None => format!("use one of {}", names.join(", ")),
-    })
+    Diagnostic::error("", message)
+        .code(codes::UNKNOWN_NAME)
+        .help(match did_you_mean(name, names.iter().copied()) {
+            Some(close) => format!("write {close}"),
+            None => format!("use one of {}", names.join(", ")),
+        })
 }
 
 fn twice(what: &str, name: &str, one: Origin, other: Origin) -> Diagnostic {
     Diagnostic::error("", format!("two registrations of the {what} `{name}`"))
         .note(format!("one at {one}, the other at {other}"))
         .help("rename one of them")
+        .code(codes::REGISTRATION)
 }
 
 /// Reads a struct from a resolved value; a failure is a bug. `type` is the framework's key, not the model's.

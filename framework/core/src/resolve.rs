@@ -19,6 +19,7 @@ pub use paths::{lookup, matches};
 
 pub use paths::{meets, no_match};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::Files;
@@ -341,7 +342,7 @@ fn apply(
 
 /// The error for a path whose last key does not exist: suggests a similar key, or where the keys are listed.
 fn no_place(value: &Value, pattern: &str, key: &str) -> Diagnostic {
-    let error = Diagnostic::error(pattern, format!("the key `{key}` does not exist here"));
+    let error = Diagnostic::error(pattern, format!("the key `{key}` does not exist here")).code(codes::UNKNOWN_PATH);
     let above = pattern.rsplit_once('.').map_or("", |(above, _)| above);
     let records = matches(value, above);
     let record = records.iter().find_map(|path| lookup(value, path)?.as_object());

@@ -1,6 +1,7 @@
 //! Text, figures, pages and files of results.
 
 pub mod card;
+pub mod codes;
 mod contours;
 pub mod csv;
 pub mod deviations;

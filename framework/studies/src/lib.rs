@@ -2,6 +2,7 @@
 
 pub mod analyses;
 pub mod analysis;
+pub mod codes;
 pub mod duty;
 pub mod fit;
 pub mod identify;

@@ -1,5 +1,6 @@
 //! Quantities of a description that a study varies: uncertain, unknown, swept.
 
+use crate::codes;
 use serde_json::Value;
 
 use gearloss_framework::document::{Diagnostic, Dimension, Unit};
@@ -50,7 +51,7 @@ impl Varied {
         paths.retain(|path| language.has_place(&resolved.value, path));
         if paths.is_empty() {
             let key = pattern.rsplit('.').next().unwrap_or(pattern);
-            return Err(Diagnostic::error(pattern, format!("nothing here has a key `{key}`"))
+            return Err(varied_error(pattern, format!("nothing here has a key `{key}`"))
                 .help("`gearloss check --resolved` prints every path"));
         }
         // Of several, a factor moves those that have a value.
@@ -69,7 +70,7 @@ impl Varied {
         };
         for path in paths {
             let Some((unit, least, greatest)) = language.number_at(&resolved.value, &path) else {
-                return Err(Diagnostic::error(pattern, format!("`{path}` is no number"))
+                return Err(varied_error(pattern, format!("`{path}` is no number"))
                     .help("name the path of a quantity; `gearloss check --resolved` prints every path"));
             };
             let base = lookup(&resolved.value, &path)
@@ -77,10 +78,8 @@ impl Varied {
                 .map(|si| unit.from_si(si));
             match tie {
                 Tie::Factor if base.is_none() => {
-                    return Err(
-                        Diagnostic::error(pattern, format!("`{path}` has no value to be multiplied"))
-                            .help("state it in the gearbox, or leave `tie: factor` out"),
-                    );
+                    return Err(varied_error(pattern, format!("`{path}` has no value to be multiplied"))
+                        .help("state it in the gearbox, or leave `tie: factor` out"));
                 }
                 Tie::Factor => {}
                 Tie::Value => {
@@ -175,4 +174,9 @@ pub(crate) fn words(unit: &Unit, value: f64) -> String {
     } else {
         format!("{digits} {}", unit.symbol)
     }
+}
+
+/// A finding about a varied quantity.
+fn varied_error(path: impl Into<String>, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(path, message).code(codes::VARIED)
 }

@@ -10,6 +10,7 @@ use serde_json::Value;
 
 use super::slot::{ModelRef, Slot};
 use super::{Entry, Registry, from_resolved};
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::NoteBase;
@@ -135,7 +136,7 @@ impl<'a> Build<'a> {
 
     /// An error at the path that is being built.
     pub fn error(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::error(self.path.clone(), message)
+        Diagnostic::error(self.path.clone(), message).code(codes::MODEL)
     }
 
     /// The path that is being built.

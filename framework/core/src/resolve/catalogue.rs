@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 use super::designation::suggest;
 use super::{ValueSource, absent, entries_mut};
 use crate::attach::dangling;
+use crate::codes;
 use crate::document::{Diagnostic, Dimension, Unit};
 use crate::language::{LUBRICANTS, Language};
 use crate::registry::Files;
@@ -160,11 +161,13 @@ pub(super) fn fill(
                         .map(String::as_str)
                         .collect();
                     let path = format!("{section}.{id}.designation");
-                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`")).note(format!(
-                        "{} designations are known: `gearloss catalogue {}` lists them",
-                        names.len(),
-                        if section == LUBRICANTS { "oils" } else { section }
-                    ));
+                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`"))
+                        .code(codes::UNKNOWN_DESIGNATION)
+                        .note(format!(
+                            "{} designations are known: `gearloss catalogue {}` lists them",
+                            names.len(),
+                            if section == LUBRICANTS { "oils" } else { section }
+                        ));
                     if let Some((base, suffix)) = without_suffix(&designation, names.iter().copied()) {
                         found.push(error.help(format!(
                             "write `{base}`, which has the same dimensions and ratings; no row states what `{suffix}` changes, such as seals, \

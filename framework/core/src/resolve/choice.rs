@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::language::Language;
 
@@ -129,6 +130,7 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
                 format!("model_sets.{known}.extends"),
                 "model sets extend each other in a circle",
             )
+            .code(codes::EXTENDS)
             .note(format!("the circle: {}", chain.join(", ")))
             .help("remove one `extends`"));
         }

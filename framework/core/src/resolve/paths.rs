@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 
 /// The value at a path.
@@ -125,7 +126,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
         };
         let Some(next) = next else {
             if let Some(file) = file_of(at, &good, key) {
-                let error = Diagnostic::error(pattern, format!("the values of the table are in the file `{file}`"));
+                let error = missing(pattern, format!("the values of the table are in the file `{file}`"));
                 return error.help(
                     "only values of the document have paths: write the table there, as `axes:` and `values:` of `type: table` in \
                      place of `file:`",
@@ -133,7 +134,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             }
             if let Some(list) = at.as_array() {
                 let last = list.len().saturating_sub(1);
-                let error = Diagnostic::error(pattern, format!("`{good}` is a list and has no entry `{key}`"));
+                let error = missing(pattern, format!("`{good}` is a list and has no entry `{key}`"));
                 return error.help(format!("write a number from 0 to {last}, or `*` for all"));
             }
             let place = if good.is_empty() {
@@ -141,7 +142,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             } else {
                 format!("`{good}`")
             };
-            let error = Diagnostic::error(pattern, format!("{place} has no `{key}`"));
+            let error = missing(pattern, format!("{place} has no `{key}`"));
             let keys: Vec<&str> = at.as_object().into_iter().flatten().map(|(k, _)| k.as_str()).collect();
             if ["models", "model_sets"].contains(&key) {
                 return error.help(

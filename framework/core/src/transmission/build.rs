@@ -13,8 +13,9 @@ use super::states::states;
 use super::statics::{imported, load_factors, shaft_loads};
 use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
 use crate::attach::{Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
+use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
-use crate::document::Diagnostic;
+use crate::document::{Diagnostic, classify};
 use crate::language::Language;
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
@@ -38,9 +39,12 @@ impl Transmission {
         let members = Members::new(&entry, &mut found);
         let ports = ports(&entry, &members, &mut found);
         let (ports, wheels) = joined(&entry, &members, ports, &mut found);
+        classify(&mut found, codes::SHAFTS);
         let (gears, meshes) = gearing(language.registry(), &entry, &members, &mut found, &mut warnings);
         let sharing = planets::sharing(&entry, &members, &mut found);
+        classify(&mut found, codes::GEARING);
         let nodes = NodeNames::new(&entry, &mut found);
+        classify(&mut found, codes::NETWORK);
         let mut oils = OilNumbers::new(&entry, &members, &meshes, &nodes);
         let mut build = Build::new(language.registry(), files);
 
@@ -52,6 +56,7 @@ impl Transmission {
         } = place(
             language, resolved, &members, &sharing, &mut oils, &mut build, &mut found,
         );
+        classify(&mut found, codes::COMPONENT);
         let mut mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
         for mesh in &mut mesh_models {
             let gears = mesh.seat.gears.map(|g| gears[g].id.as_str());
@@ -85,14 +90,17 @@ impl Transmission {
             });
             components.push(Component::new(model.placed, model.loss_factor, None));
         }
+        classify(&mut found, codes::MODEL);
         let levels = levels(&entry, &gears, &oils);
         warnings.extend(plausible::oil_level(&entry, &gears, &levels, &oils));
         let drags = drags(
             language, &entry, &gears, &meshes, &levels, covered, &mut oils, &mut build, &mut parts, &mut found,
         );
 
+        classify(&mut found, codes::DRAG);
         planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
         let housing = Housing::new(&entry, &mut build, &mut found);
+        classify(&mut found, codes::THERMAL);
         let around = Around {
             names: &nodes,
             members: &members.names,
@@ -116,11 +124,13 @@ impl Transmission {
                     .help("add `network: auto` under `thermal`, or nodes and links"),
             );
         }
+        classify(&mut found, codes::NETWORK);
         let states = if found.is_empty() {
             states(&entry, &members, &meshes, &clearances, (&ports, &wheels), &mut found)
         } else {
             Vec::new()
         };
+        classify(&mut found, codes::POWER_FLOW);
         let loads = shaft_loads(&entry, &members, &meshes, &supports, &mut found, &mut warnings);
         let load_factors = load_factors(&supports, &ports, &mut found);
         let imported = match &entry.imported_loads {

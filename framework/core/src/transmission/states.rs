@@ -3,6 +3,7 @@
 use super::gearing::MeshSeat;
 use super::members::Members;
 use crate::attach::{SeatedClearance, dangling};
+use crate::codes;
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::flow::{MeshRow, Share};
@@ -307,11 +308,13 @@ pub(crate) fn explain(
             )
             .note(format!("tied by {}", rows(by)))
             .help("prescribe one of them")
+            .code(codes::OVERDETERMINED)
         }
         Fault::Locked { port: locked, rows: by } => {
             Diagnostic::error(path, format!("{} cannot rotate in `{}`", port(locked), state.name))
                 .note(format!("locked by {}", rows(by)))
                 .help("engage fewer couplings, or correct the tooth numbers of the loop")
+                .code(codes::OVERDETERMINED)
         }
     }
 }

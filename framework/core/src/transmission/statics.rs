@@ -6,6 +6,7 @@ use super::gearing::MeshSeat;
 use super::members::Members;
 use super::planets::orbit;
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
+use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
@@ -240,6 +241,7 @@ fn unsupported(
                 let what = if members.loose[i] { "gear" } else { "shaft" };
                 found.push(
                     Diagnostic::error(path, format!("the {what} is loaded and has no bearings"))
+                        .code(codes::NO_BEARING)
                         .note("without them its bearing loads and losses would be missing from every result")
                         .help(
                             "add its bearings, with `model: none` for bearings without loss; or write `bearings: none` here",

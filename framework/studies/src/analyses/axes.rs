@@ -4,6 +4,7 @@ use crate::study::{Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 
 use super::{Context, Stopped};
+use crate::codes;
 
 /// Values of an axis, or the error with its path.
 pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Stopped> {
@@ -13,7 +14,7 @@ pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, String>) -> R
         } else {
             "give a step that divides the range"
         };
-        cx.wrong(path, reason, help)
+        cx.wrong_as(codes::AXIS, path, reason, help)
     })
 }
 

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Code, Diagnostic};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
@@ -16,6 +16,7 @@ use serde_json::Value;
 use super::head::{Head, InputFile};
 use super::progress::{Progress, Running};
 use crate::analysis::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
+use crate::codes;
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
 use crate::tasks::{Task, TaskResults};
@@ -527,7 +528,12 @@ impl<'a> Context<'a> {
 
     /// An error of the study at a path.
     pub fn wrong(&self, path: &str, message: impl Into<String>, help: &str) -> Stopped {
-        self.found(vec![Diagnostic::error(path, message.into()).help(help)])
+        self.wrong_as(codes::ANALYSIS, path, message, help)
+    }
+
+    /// As [`Context::wrong`], with the code of its kind.
+    pub fn wrong_as(&self, code: Code, path: &str, message: impl Into<String>, help: &str) -> Stopped {
+        self.found(vec![Diagnostic::error(path, message.into()).help(help).code(code)])
     }
 
     /// Findings about the study.

@@ -16,6 +16,7 @@ use super::numbers::tidy;
 use super::shares::{Shares, together};
 use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
 use crate::analysis::Note;
+use crate::codes;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::{Cell, Column, Table};

@@ -1,9 +1,10 @@
 //! Reads and simulates the cycles of a study.
 
 use crate::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
+use crate::codes;
 use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
 use crate::study::{By, Conditions, DriveEntry};
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Diagnostic, classify};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
@@ -73,7 +74,7 @@ impl<'a> Duties<'a> {
                     found.extend(
                         faults
                             .into_iter()
-                            .map(|f| Diagnostic::error(&at, f.message).help(f.help)),
+                            .map(|f| Diagnostic::error(&at, f.message).help(f.help).code(codes::DUTY)),
                     );
                     continue;
                 }
@@ -86,10 +87,11 @@ impl<'a> Duties<'a> {
                     port: cycle.port().map(str::to_owned),
                     about: cycle.about().map(str::to_owned),
                 }),
-                Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help)),
+                Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help).code(codes::DUTY)),
             }
         }
         if !found.is_empty() {
+            classify(&mut found, codes::DUTY);
             return Err(cx.study.findings(found).into());
         }
         Ok(Self {
@@ -115,7 +117,7 @@ impl<'a> Duties<'a> {
                 read.name
             );
             let help = "write `thermal: { mode: network, network: auto }` in the gearbox, or `conditions: { oil_temperature: ... }`";
-            return Err(cx.wrong(path, message, help));
+            return Err(cx.wrong_as(codes::DUTY, path, message, help));
         }
         // Keys that need transient or computed temperatures.
         let goes_on = oil == OilTemperature::Network && in_time.is_some();
@@ -139,7 +141,7 @@ impl<'a> Duties<'a> {
                 OilTemperature::Network => "delete it",
                 _ => "delete it, or give the gearbox a thermal network",
             };
-            return Err(cx.wrong(&format!("{path}.{key}"), message, help));
+            return Err(cx.wrong_as(codes::DUTY, &format!("{path}.{key}"), message, help));
         }
         let told = |read: &&Read| read.intervals.iter().any(|i| i.given.oil_temperature.is_some());
         if let (OilTemperature::Network, Some(read)) = (oil, self.list.iter().find(told)) {

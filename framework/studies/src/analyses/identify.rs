@@ -27,6 +27,7 @@ pub use outcome::{IdentificationOfSet, IdentifyOutcome};
 
 use super::{Analysis, Built, Context, Stopped, gear_of};
 use crate::analysis::Rows;
+use crate::codes;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
 use crate::register_analysis;
@@ -262,7 +263,9 @@ fn fault_of_search(cx: &Context<'_>, fault: &Fault) -> Stopped {
     let path = cx.path();
     let finding = |f: &least_squares::Finding| {
         let message = format!("{}: {}", f.place, f.message);
-        Diagnostic::error(&path, message).help(f.help.clone())
+        Diagnostic::error(&path, message)
+            .help(f.help.clone())
+            .code(codes::NO_CONVERGENCE)
     };
     cx.found(fault.findings.iter().map(finding).collect())
 }

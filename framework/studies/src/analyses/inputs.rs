@@ -1,5 +1,6 @@
 //! Uncertain inputs: quantities of the description with distributions.
 
+use crate::codes;
 use crate::study::{Shape, ToleranceEntry};
 use gearloss_numerics::sampling::Distribution;
 

@@ -1,5 +1,6 @@
 //! Quantities that are varied over ranges.
 
+use crate::codes;
 use crate::study::RangeEntry;
 use crate::varied::Varied;
 use serde_json::Value;
@@ -17,7 +18,8 @@ pub struct Range {
 impl Range {
     /// `path` is the entry's place in the study.
     pub fn new(cx: &Context<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
-        let wrong = |message: String, help: &str| cx.wrong(path, format!("{}: {message}", entry.path), help);
+        let wrong =
+            |message: String, help: &str| cx.wrong_as(codes::VARIED, path, format!("{}: {message}", entry.path), help);
         let varied = varied(cx, path, (&entry.path, entry.tie), b)?;
         let about = || {
             varied.start().ok_or_else(|| {
@@ -73,7 +75,7 @@ impl Range {
             self.varied.words(low),
             self.varied.words(high)
         );
-        Err(cx.wrong(path, said, "narrow the range"))
+        Err(cx.wrong_as(codes::VARIED, path, said, "narrow the range"))
     }
 
     /// The value at a fraction of the range.

@@ -1,5 +1,6 @@
 //! The vehicle between wheels and road: what torque a course of speeds asks of the wheels, and how much of it may be regained.
 
+use crate::codes;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -174,10 +175,8 @@ impl VehicleEntry {
             (Some(coast_down), None, None) => {
                 if self.air_density.is_some() {
                     let at = format!("{path}.air_density");
-                    return Err(
-                        Diagnostic::error(at, "a coast-down test holds the air's density already")
-                            .help("leave `air_density` out"),
-                    );
+                    return Err(vehicle_error(at, "a coast-down test holds the air's density already")
+                        .help("leave `air_density` out"));
                 }
                 RoadLoad::CoastDown(coast_down)
             }
@@ -186,14 +185,14 @@ impl VehicleEntry {
                 rolling_resistance,
                 air_density: self.air_density.unwrap_or(AIR_DENSITY),
             },
-            (None, None, None) => return Err(Diagnostic::error(path, "no road load is stated").help(help)),
+            (None, None, None) => return Err(vehicle_error(path, "no road load is stated").help(help)),
             (None, Some(_), None) => {
-                return Err(Diagnostic::error(path, "`rolling_resistance` is missing beside `drag_area`").help(help));
+                return Err(vehicle_error(path, "`rolling_resistance` is missing beside `drag_area`").help(help));
             }
             (None, None, Some(_)) => {
-                return Err(Diagnostic::error(path, "`drag_area` is missing beside `rolling_resistance`").help(help));
+                return Err(vehicle_error(path, "`drag_area` is missing beside `rolling_resistance`").help(help));
             }
-            (Some(_), ..) => return Err(Diagnostic::error(path, "the road load is stated twice").help(help)),
+            (Some(_), ..) => return Err(vehicle_error(path, "the road load is stated twice").help(help)),
         };
         Ok(Vehicle {
             mass: self.mass,
@@ -260,6 +259,11 @@ impl Vehicle {
         let limit = self.regeneration.map_or(0.0, |r| r.limit(port_speed, vehicle_speed));
         port_torque.max(-limit)
     }
+}
+
+/// A finding about a vehicle.
+fn vehicle_error(path: impl Into<String>, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(path, message).code(codes::DUTY)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Rows that are held out of a fit, and groups of rows of which each is predicted from the others.
 
+use crate::codes;
 use crate::measured::{Condition, Measured, Row};
 use crate::study::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
 use gearloss_framework::document::{Diagnostic, did_you_mean};
@@ -54,11 +55,11 @@ impl HoldOut {
             } else {
                 "the rows that are held out are chosen in several ways"
             };
-            return Err(Diagnostic::error("hold_out", message)
+            return Err(hold_out_error("hold_out", message)
                 .help("write one of `column`, `where`, `every` and `random`, such as `hold_out: torque > 1000 Nm`"));
         }
         if rows.seed.is_some() && rows.random.is_none() {
-            return Err(Diagnostic::error(place("seed"), "nothing is drawn at random here")
+            return Err(hold_out_error(place("seed"), "nothing is drawn at random here")
                 .help("leave `seed` out, or write `random`"));
         }
         let (chosen, words) = choice(&rows, measured, &place)?;
@@ -81,12 +82,12 @@ impl HoldOut {
         let all = measured.rows.len();
         if found.held_out.rows.is_empty() {
             return Err(
-                Diagnostic::error("hold_out", format!("none of {all} rows is held out ({})", found.words))
+                hold_out_error("hold_out", format!("none of {all} rows is held out ({})", found.words))
                     .help("hold out rows that the data have, or leave `hold_out` out"),
             );
         }
         if found.fitted.rows.is_empty() {
-            return Err(Diagnostic::error(
+            return Err(hold_out_error(
                 "hold_out",
                 format!("all {all} rows are held out: nothing is left to be fitted"),
             )
@@ -105,7 +106,7 @@ impl HoldOut {
             return Ok(());
         }
         let message = format!("{left} rows are left to be fitted, for {parameters} parameters");
-        Err(Diagnostic::error("hold_out", message).help("hold out fewer rows, or identify fewer parameters"))
+        Err(hold_out_error("hold_out", message).help("hold out fewer rows, or identify fewer parameters"))
     }
 }
 
@@ -133,7 +134,7 @@ fn choice(
                 "line {}: `{cell}` in column `{column}` says neither yes nor no",
                 row.line
             );
-            Err(Diagnostic::error(place("column"), message)
+            Err(hold_out_error(place("column"), message)
                 .help("write 1, true or yes in rows that are held out, 0, false, no or nothing in the others"))
         };
         let held = measured.rows.iter().map(held).collect::<Result<_, _>>()?;
@@ -141,7 +142,7 @@ fn choice(
     }
     if let Some(text) = &rows.condition {
         let wrong = |found: crate::measured::ConditionFault| {
-            Diagnostic::error(place("where"), format!("`{text}`, {}", found.message)).help(found.help)
+            hold_out_error(place("where"), format!("`{text}`, {}", found.message)).help(found.help)
         };
         let condition = Condition::parse(text).map_err(wrong)?;
         condition.check(measured).map_err(wrong)?;
@@ -181,7 +182,7 @@ fn column_place(measured: &Measured, name: &str) -> Result<usize, Diagnostic> {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the columns are {}", headers.join(", ")),
         };
-        Diagnostic::error("", format!("the file has no column `{name}`")).help(help)
+        hold_out_error("", format!("the file has no column `{name}`")).help(help)
     })
 }
 
@@ -208,7 +209,7 @@ impl Identification<'_> {
         let measured = self.measured();
         let rows: Vec<&Row> = self.observations.iter().map(|o| &measured.rows[o.row]).collect();
         let too_few = |path: &str, message: String| {
-            Diagnostic::error(path, message).help("group by what differs between rows, or write `folds: 0` for none")
+            hold_out_error(path, message).help("group by what differs between rows, or write `folds: 0` for none")
         };
         let values = |quantity: &str| {
             rows.iter()
@@ -225,7 +226,7 @@ impl Identification<'_> {
         let most = by.count.map_or(COUNT, |count| count as usize);
         let few = |message: String| too_few("folds.by", message);
         if by.seed.is_some() && by.by != "random" {
-            return Err(Diagnostic::error("folds.seed", "nothing is drawn at random here")
+            return Err(hold_out_error("folds.seed", "nothing is drawn at random here")
                 .help("leave `seed` out, or write `by: random`"));
         }
         let found = match by.by.as_str() {
@@ -247,7 +248,7 @@ impl Identification<'_> {
             }
             quantity if measured.holds(quantity) => {
                 let Some(values) = values(quantity) else {
-                    return Err(Diagnostic::error("folds.by", format!("some rows have no `{quantity}`"))
+                    return Err(hold_out_error("folds.by", format!("some rows have no `{quantity}`"))
                         .help("group by another quantity, or leave these rows out"));
                 };
                 return folds(&values, most).map_err(few);
@@ -260,8 +261,7 @@ impl Identification<'_> {
     /// Groups of texts: bands where all are numbers, else a group for each.
     fn labelled(by: &FoldsBy, texts: Vec<String>, most: usize) -> Result<Vec<Fold>, Diagnostic> {
         let few = |message: String| {
-            Diagnostic::error("folds.by", message)
-                .help("group by what differs between rows, or write `folds: 0` for none")
+            hold_out_error("folds.by", message).help("group by what differs between rows, or write `folds: 0` for none")
         };
         let numbers: Option<Vec<f64>> = texts
             .iter()
@@ -271,7 +271,7 @@ impl Identification<'_> {
             return folds(&numbers, most).map_err(few);
         }
         if by.count.is_some() {
-            return Err(Diagnostic::error(
+            return Err(hold_out_error(
                 "folds.count",
                 format!("the groups of `{}` are given by its values", by.by),
             )
@@ -287,7 +287,7 @@ impl Identification<'_> {
         if found.len() > GROUPS {
             let message = format!("`{}` makes {} groups, and each is a fit", by.by, found.len());
             return Err(
-                Diagnostic::error("folds.by", message).help(format!("group by a column with {GROUPS} values at most"))
+                hold_out_error("folds.by", message).help(format!("group by a column with {GROUPS} values at most"))
             );
         }
         Ok(found)
@@ -313,7 +313,7 @@ fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, 
     let at = column_place(measured, name).map_err(|found| {
         let words = "torque, speed, oil_temperature, sign, random";
         if words.split(", ").any(|word| word == name) {
-            return Diagnostic::error("folds.by", format!("the data hold no `{name}`")).help(format!(
+            return hold_out_error("folds.by", format!("the data hold no `{name}`")).help(format!(
                 "name its column under `columns: {{ {name}: ... }}`, or group by another quantity"
             ));
         }
@@ -324,10 +324,15 @@ fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, 
                 found.help.unwrap_or_default()
             ),
         };
-        Diagnostic::error("folds.by", found.message).help(help)
+        hold_out_error("folds.by", found.message).help(help)
     })?;
     Ok(rows
         .iter()
         .map(|row| row.cells.get(at).cloned().unwrap_or_default())
         .collect())
+}
+
+/// A finding about held-out rows or folds.
+fn hold_out_error(path: impl Into<String>, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(path, message).code(codes::HOLD_OUT)
 }

@@ -1,5 +1,6 @@
 //! Parameters that are identified: what they move, from where, and how far.
 
+use crate::codes;
 use serde_json::{Value, json};
 
 use crate::measured::Rig;
@@ -113,7 +114,7 @@ fn usual_size(unit: &Unit, range: [f64; 2]) -> Option<f64> {
 
 /// A path of the study below the analysis, with what is wrong there.
 fn fault(place: &str, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
-    Diagnostic::error(place, message).help(help)
+    Diagnostic::error(place, message).help(help).code(codes::VARIED)
 }
 
 impl Identified {

@@ -1,6 +1,7 @@
 //! The least-squares problem of an identification: measured points, and what a gearbox with given parameters does there.
 
 use crate::analysis::{OnRig, PointResult, Rows, SolvedRows};
+use crate::codes;
 use crate::measured::{Measured, PortSpeeds, Rig, Seen};
 use crate::study::{IdentifiedEntry, Quantity};
 use gearloss_framework::document::Diagnostic;
@@ -94,7 +95,7 @@ impl<'a> Identification<'a> {
         }
         found.extend(Identified::find_duplicate(&parameters));
         if parameters.is_empty() && found.is_empty() {
-            found.push(Diagnostic::error("parameters", "there is nothing to identify").help("name a parameter"));
+            found.push(identification_error("parameters", "there is nothing to identify").help("name a parameter"));
         }
         for parameter in &parameters {
             if let Target::Over { port, .. } = &parameter.target
@@ -305,7 +306,7 @@ impl<'a> Identification<'a> {
 
     /// Refuses quantities that follow from the same measured numbers.
     fn counted_once(&self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
-        let wrong = |message: String, help: &str| Err(vec![Diagnostic::error("residuals", message).help(help)]);
+        let wrong = |message: String, help: &str| Err(vec![identification_error("residuals", message).help(help)]);
         let powers: Vec<Quantity> = residuals
             .iter()
             .copied()
@@ -363,7 +364,7 @@ impl<'a> Identification<'a> {
 
     /// Chooses what is fitted, with its standard deviations at the start.
     fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
-        let data = |message: String, help: &str| vec![Diagnostic::error("data", message).help(help)];
+        let data = |message: String, help: &str| vec![identification_error("data", message).help(help)];
         self.counted_once(residuals)?;
         let start = self.calculate(&self.start());
         let start = start.map_err(|reason| data(reason, "begin with other values"))?;
@@ -406,7 +407,7 @@ impl<'a> Identification<'a> {
             }
             if *quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {
                 return Err(vec![
-                    Diagnostic::error("residuals", "the temperature of the oil is given, not calculated")
+                    identification_error("residuals", "the temperature of the oil is given, not calculated")
                         .help("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
                 ]);
             }
@@ -461,7 +462,7 @@ impl<'a> Identification<'a> {
             let place = format!("parameters.{}.prior", parameter.base_name());
             let message = "a prior and the points count together only by their accuracies, and none is stated";
             let help = "state the instruments under `rig`, or columns such as `loss_accuracy`, or leave the prior out";
-            return Err(vec![Diagnostic::error(place, message).help(help)]);
+            return Err(vec![identification_error(place, message).help(help)]);
         }
         if with == 0 && self.observations.len() <= free {
             return Err(data(
@@ -519,4 +520,9 @@ impl From<Findings> for Faults {
     fn from(findings: Findings) -> Self {
         Self::Gearbox(findings)
     }
+}
+
+/// A finding about an identification.
+fn identification_error(path: impl Into<String>, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(path, message).code(codes::IDENTIFICATION)
 }

@@ -12,10 +12,11 @@ use super::then::PromisedSets;
 use super::{Data, Grid, StudyEntry, Uses};
 use crate::analyses::AnalysisEntry;
 use crate::analysis::{Field, OilTemperature, Points, Rows};
+use crate::codes;
 use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
-use gearloss_framework::document::{Code, Diagnostic, Places, Sources, read_yaml};
+use gearloss_framework::document::{self, Diagnostic, Places, Sources, read_yaml};
 use gearloss_framework::files::{Disk, LONGEST_DATA, LONGEST_TEXT, SharedSource};
 use gearloss_framework::gearbox::{DocumentKind, Findings, Gearbox, other_kind};
 use gearloss_framework::language::Language;
@@ -58,7 +59,7 @@ impl Study {
         let text = files.read_text(file, LONGEST_TEXT).map_err(|e| {
             Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
                 .help("check the file name")
-                .code(Code::Unreadable)
+                .code(document::codes::UNREADABLE)
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));
         Self::from_text(language, files, text, &file.display().to_string(), folder)
@@ -114,7 +115,7 @@ impl Study {
         let taken_over = match replace_names(&mut walked.value) {
             Ok(taken_over) => taken_over,
             Err(list) => {
-                let list = list.into_iter().map(|d| walked.places.place(d).code(Code::Study));
+                let list = list.into_iter().map(|d| walked.places.place(d).code(codes::STUDY));
                 return Err(Findings {
                     list: list.collect(),
                     sources,
@@ -187,7 +188,7 @@ impl Study {
                 Some(path) => Diagnostic { path, ..found },
                 None => found,
             };
-            self.places.place(found).code(Code::Study)
+            self.places.place(found).code(codes::STUDY)
         };
         Findings {
             list: list.into_iter().map(placed).collect(),
@@ -443,7 +444,8 @@ impl Study {
                 let order = |analysis: &str| self.entry.analyses.index(analysis);
                 if order(name) <= order(&by) {
                     let message = format!("the set `{set}` has no values before the analysis `{by}`");
-                    found.push(Diagnostic::error(&path, message).help(format!("write this analysis below `{by}`")));
+                    let below = Diagnostic::error(&path, message).help(format!("write this analysis below `{by}`"));
+                    found.push(below.code(codes::NOT_FOUND_YET));
                 }
             }
             for set in sets {
@@ -554,7 +556,8 @@ impl Study {
                 Ok(bytes) => contents.push(bytes),
                 Err(e) => {
                     let error = Diagnostic::error(format!("{place}.file"), format!("{}: cannot read: {e}", file.file));
-                    faults.push(error.help("file names are relative to the study"));
+                    let error = error.help("file names are relative to the study");
+                    faults.push(error.code(document::codes::UNREADABLE));
                 }
             }
         }
@@ -660,7 +663,9 @@ fn diagnostics(faults: Vec<MeasuredFault>, own: &str, analysis: &str) -> Vec<Dia
             FaultPlace::Entry(key) => format!("{own}.{key}"),
             FaultPlace::Bind(column) => format!("{analysis}.bind.{column}"),
         };
-        Diagnostic::error(path, fault.message).help(fault.help)
+        Diagnostic::error(path, fault.message)
+            .help(fault.help)
+            .code(codes::DATA)
     };
     faults.into_iter().map(at_place).collect()
 }

@@ -10,6 +10,7 @@ use super::next::{self, Candidates, Next};
 use super::posterior::{self, PosteriorOfSet};
 use crate::analyses::{Context, Stopped};
 use crate::analysis::{Note, merge, notes};
+use crate::codes;
 use crate::identify::{
     Calculated, Fitted, HoldOut, Identification, Identified, Observation, Pair, Profiled, Settings, ShareBands,
 };
