@@ -119,7 +119,8 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
                 .last()
                 .map_or_else(|| "model_sets".to_owned(), |last| format!("model_sets.{last}.extends"));
             let error = Diagnostic::error(path, format!("no model set is called `{name}`"))
-                .note(format!("available: {}", names.join(", ")));
+                .note(format!("available: {}", names.join(", ")))
+                .code(codes::UNKNOWN_NAME);
             return Err(match did_you_mean(name, names.iter().copied()) {
                 Some(close) => error.help(format!("write `{close}`")),
                 None => error.help("use one of them, or add it under `model_sets`"),

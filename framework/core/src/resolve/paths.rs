@@ -165,7 +165,12 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
         good.push_str(key);
         at = next;
     }
-    Diagnostic::error(pattern, "the path matches nothing")
+    missing(pattern, "the path matches nothing")
+}
+
+/// A path that the resolved description does not have.
+fn missing(pattern: &str, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(pattern, message).code(codes::UNKNOWN_PATH)
 }
 
 #[cfg(test)]

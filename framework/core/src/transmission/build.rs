@@ -150,7 +150,9 @@ impl Transmission {
             }
             None => None,
         };
-        let (oils, more) = oils.finish();
+        classify(&mut found, codes::SUPPORT);
+        let (oils, mut more) = oils.finish();
+        classify(&mut more, codes::LUBRICANT);
         // Errors of an oil cause many of the later ones.
         found.splice(0..0, more);
         if let (true, Some(loads)) = (found.is_empty(), loads) {

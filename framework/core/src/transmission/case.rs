@@ -233,7 +233,8 @@ impl Transmission {
                 path,
                 format!("the given torques depend on each other in `{}`", state.name),
             )
-            .help("state a torque at another port, or correct the torque shares"),
+            .help("state a torque at another port, or correct the torque shares")
+            .code(codes::POWER_FLOW),
         }
     }
 }

@@ -274,7 +274,8 @@ pub(crate) fn explain(
     };
     match fault {
         Fault::Under { columns, ports: among } => {
-            let error = Diagnostic::error(path, format!("{} can rotate freely in `{}`", list(columns), state.name));
+            let error = Diagnostic::error(path, format!("{} can rotate freely in `{}`", list(columns), state.name))
+                .code(codes::UNDERDETERMINED);
             if among.is_empty() {
                 error.help(format!(
                     "engage a coupling, or write `{}: {{ engaged: [...], standstill: [{}] }}`",

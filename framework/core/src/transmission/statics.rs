@@ -265,6 +265,7 @@ fn unsupported(
                 if !taken {
                     warnings.push(
                         Diagnostic::warning(path.clone(), format!("no bearing takes thrust towards {words}"))
+                            .code(codes::THRUST)
                             .help("set `axial:` of a bearing to left, right or both"),
                     );
                 }
@@ -286,7 +287,8 @@ fn unsupported(
                         bare.join(", ")
                     ),
                 )
-                .help("add bearings between the planets and the carrier, or write `bearings: none` for these shafts"),
+                .help("add bearings between the planets and the carrier, or write `bearings: none` for these shafts")
+                .code(codes::UNCOUNTED),
             );
         }
     }

@@ -32,12 +32,17 @@ pub fn grid_axes(cx: &Context<'_>, name: &str, grid: &Grid, t: &Transmission) ->
         let along = |rises: bool| list.windows(2).all(|w| if rises { w[0] < w[1] } else { w[0] > w[1] });
         if !along(true) && !along(false) {
             let message = "the values of a grid axis are not monotonic";
-            return Err(cx.wrong(&format!("{path}.{key}"), message, "sort them and remove duplicates"));
+            return Err(cx.wrong_as(
+                codes::AXIS,
+                &format!("{path}.{key}"),
+                message,
+                "sort them and remove duplicates",
+            ));
         }
     }
     if own.0.len().saturating_mul(own.1.len()) > MOST_POINTS {
         let message = format!("the grid has more than {MOST_POINTS} points");
-        return Err(cx.wrong(&path, message, "use larger steps"));
+        return Err(cx.wrong_as(codes::AXIS, &path, message, "use larger steps"));
     }
     Ok(own)
 }

@@ -555,7 +555,8 @@ impl<'a> Context<'a> {
             format!(", {points},")
         };
         let message = format!("more points{of} than the maximum of {MOST_HELD} in memory");
-        Err(self.wrong(
+        Err(self.wrong_as(
+            codes::TOO_LARGE,
             path,
             message,
             "use fewer samples, values or points; a `map` over a grid can have more, because it stores none",

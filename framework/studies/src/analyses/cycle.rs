@@ -199,7 +199,11 @@ impl Outcome for CycleOutcome {
             duty.cycle, broken.time_s, broken.reason
         );
         let error = Diagnostic::error(format!("analyses.{}", self.head.analysis), message);
-        Some(error.help("the results up to there are kept; examine the point with `explain`"))
+        Some(
+            error
+                .help("the results up to there are kept; examine the point with `explain`")
+                .code(codes::BROKEN_OFF),
+        )
     }
 }
 

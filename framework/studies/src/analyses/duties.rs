@@ -42,13 +42,13 @@ impl<'a> Duties<'a> {
         let study = &cx.study.entry;
         if entry.step.is_some() && entry.tolerance.is_some() {
             let message = "both `step` and `tolerance` are given";
-            return Err(cx.wrong(path, message, "delete one of them"));
+            return Err(cx.wrong_as(codes::DUTY, path, message, "delete one of them"));
         }
         let mut found = Vec::new();
         if entry.vehicle.is_none() && study.vehicles.len() > 1 {
             let names: Vec<&str> = study.vehicles.ids().collect();
             let message = format!("the study has several vehicles: {}", names.join(", "));
-            return Err(cx.wrong(path, message, "select one, such as `vehicle: car`"));
+            return Err(cx.wrong_as(codes::DUTY, path, message, "select one, such as `vehicle: car`"));
         }
         let own = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
         let vehicle = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
@@ -150,7 +150,7 @@ impl<'a> Duties<'a> {
                 read.name
             );
             let help = "delete them, or state `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is used for comparison";
-            return Err(cx.wrong(&format!("cycles.{}", read.name), message, help));
+            return Err(cx.wrong_as(codes::DUTY, &format!("cycles.{}", read.name), message, help));
         }
         for read in &self.list {
             can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(cx, read, list))?;
@@ -179,7 +179,7 @@ impl<'a> Duties<'a> {
                 };
                 let message = format!("`{column}` of `{}` needs {what}", read.name);
                 let help = "delete the column, or describe the component that uses it";
-                return Err(cx.wrong(&format!("cycles.{}.columns", read.name), message, help));
+                return Err(cx.wrong_as(codes::DUTY, &format!("cycles.{}.columns", read.name), message, help));
             }
             let Duty::Trace(trace) = &read.duty else { continue };
             let nodes: Vec<&str> = match network {
@@ -331,7 +331,8 @@ impl Duties<'_> {
 pub fn sums_energies(cx: &Context<'_>, path: &str, by: By) -> Result<(), Stopped> {
     if matches!(by, By::Term | By::Sum) {
         let message = "the energies of a cycle can be summed by mechanism, component or stage only";
-        return Err(cx.wrong(
+        return Err(cx.wrong_as(
+            codes::DUTY,
             &format!("{path}.by"),
             message,
             "write `by: mechanism`, `component` or `stage`",

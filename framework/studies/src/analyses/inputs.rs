@@ -43,7 +43,7 @@ impl Input {
         };
         let wrong = |reason: String| {
             let message = format!("{}: {reason}", entry.range.path);
-            cx.wrong(path, message, "give a range with a positive width")
+            cx.wrong_as(codes::VARIED, path, message, "give a range with a positive width")
         };
         Ok(Self {
             distribution: distribution.map_err(wrong)?,

@@ -120,7 +120,7 @@ pub fn varied(
     let fixed = cx.study.entry.conditions.oil_temperature.is_some();
     if fixed && varied.paths.iter().any(|path| path == "thermal.oil") {
         let message = "the conditions fix the temperature, so it cannot be varied";
-        return Err(cx.wrong(path, message, "delete `conditions.oil_temperature`"));
+        return Err(cx.wrong_as(codes::VARIED, path, message, "delete `conditions.oil_temperature`"));
     }
     Ok(varied)
 }
@@ -131,7 +131,7 @@ pub fn once(cx: &Context<'_>, place: &str, all: &[&Varied]) -> Result<(), Stoppe
         let twice = |other: &&&Varied| other.paths.iter().any(|p| own.paths.contains(p));
         if let Some(other) = all[..i].iter().find(twice) {
             let message = format!("`{}` and `{}` change the same value", other.pattern, own.pattern);
-            return Err(cx.wrong(&format!("{place}.{i}"), message, "list every value once"));
+            return Err(cx.wrong_as(codes::VARIED, &format!("{place}.{i}"), message, "list every value once"));
         }
     }
     Ok(())

@@ -66,7 +66,8 @@ pub fn check(shape: &Shape<'_>, found: &mut Vec<Diagnostic>) {
                 at(ring[0]),
                 format!("oil flows in a loop without heat capacity: {}", names.join(", ")),
             )
-            .help("state a `heat_capacity`, mass times specific heat, for the oil of one of these nodes"),
+            .help("state a `heat_capacity`, mass times specific heat, for the oil of one of these nodes")
+            .code(codes::NO_HEAT_PATH),
         );
     }
 }

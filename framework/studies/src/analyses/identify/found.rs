@@ -93,7 +93,14 @@ impl Found {
         prepared: Prepared<'_>,
     ) -> Result<(Self, Beside), Stopped> {
         let path = cx.path();
-        let failed = |reason: String| cx.wrong(&path, reason, "use other start values, or narrow the bounds");
+        let failed = |reason: String| {
+            cx.wrong_as(
+                codes::NO_CONVERGENCE,
+                &path,
+                reason,
+                "use other start values, or narrow the bounds",
+            )
+        };
         let at = |theta: &[f64]| -> Result<(Calculated, Vec<Pair>), String> {
             let calculated = identification.calculate(theta)?;
             let pairs = identification.pairs(&calculated)?;
@@ -136,7 +143,7 @@ impl Found {
         });
         let held_out = held_out.transpose().map_err(|reason| {
             let help = "hold out rows with measured values of the fitted quantity, at which the gearbox has a value";
-            cx.wrong(&format!("{path}.hold_out"), reason, help)
+            cx.wrong_as(codes::HOLD_OUT, &format!("{path}.hold_out"), reason, help)
         })?;
         let transmission = &after.solved.transmissions[0].1;
         let mut seen = after.solved.seen.clone();
