@@ -4,6 +4,7 @@
 
 mod analyses;
 mod api;
+mod batched;
 mod cards;
 mod coefficients;
 mod common;
