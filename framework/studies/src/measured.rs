@@ -35,25 +35,24 @@ pub use steady::{SteadyEntry, SteadyLimitsEntry, Stretch};
 /// Files of measured points, and how to read them.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeasuredEntry {
-    /// CSV file beside the study, or a list of files with the same quantities.
+    /// CSV file relative to the study, or a list of files with the same quantities.
     pub file: MeasuredFiles,
-    /// What a reader of the report has to know of these data: where they come from, or that they are synthetic.
+    /// Note for the report: origin of these data, or that they are synthetic.
     pub about: Option<String>,
-    /// Column of each quantity, where it is not named as the quantity: `torque: T_in`, or with a factor and a sign
-    /// `torque: { column: T_in, scale: 0.001, sign: -1 }`. Quantities: `torque` and `speed` at the
-    /// ports of the conditions, `torque_out`, `speed_out`, `efficiency`, `loss`, `loss_torque`, `oil_temperature`,
-    /// `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as `efficiency_accuracy`. Torque and speed may
-    /// both be given at the other port alone, by `torque_out` and `speed_out`.
+    /// Column of each quantity, unless it has the name of the quantity: `torque: T_in`, or with a factor and a sign `torque: { column:
+    /// T_in, scale: 0.001, sign: -1 }`. Quantities: `torque` and `speed` at the ports of the conditions, `torque_out`, `speed_out`,
+    /// `efficiency`, `loss`, `loss_torque`, `oil_temperature`, `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as
+    /// `efficiency_accuracy`. Torque and speed may both be given at the other port alone, by `torque_out` and `speed_out`.
     #[serde(default)]
     pub columns: Ordered<ColumnEntry>,
-    /// Unit of each quantity, where neither the header nor a row of units states it: `efficiency: "%"`.
+    /// Unit of each quantity, unless the header or a row of units states it: `efficiency: "%"`.
     #[serde(default)]
     pub units: Ordered<String>,
-    /// What separates cells; absent, it is recognised.
+    /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; absent, it is recognised.
+    /// Decimal sign; default: detected.
     pub decimal: Option<Decimal>,
-    /// Encoding; absent, UTF-8, and Latin-1 where that fails.
+    /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,
     /// What happens to a row with blanks or text where a number is due.
     #[serde(default)]

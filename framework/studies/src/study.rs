@@ -109,7 +109,7 @@ pub struct Conditions {
     /// Port at which the torque is given, as applied to the transmission.
     #[serde(default = "input")]
     pub torque_at: String,
-    /// Port at which the speed is given.
+    /// Port with given speed.
     #[serde(default = "input")]
     pub speed_at: String,
     /// Ports of the gearbox that turn at one speed and count as one port, `wheels`: both wheels of a driven axle on a straight road.

@@ -27,7 +27,7 @@ pub struct Column {
     pub name: String,
     /// Unit; `-` for a number without one, empty for texts.
     pub unit: Cow<'static, str>,
-    /// What it is.
+    /// Kind.
     pub meaning: Cow<'static, str>,
     /// The cells.
     pub values: Values,

@@ -114,7 +114,7 @@ impl Varied {
         }
     }
 
-    /// What a value changes of the source, in words; absent where it changes no coefficient of a formula.
+    /// The difference of a value from the source as text; absent if it changes no coefficient of a formula.
     pub fn changed_from_source(&self, value: f64) -> Option<String> {
         self.overrides(value)
             .zip(&self.published)

@@ -27,7 +27,7 @@ pub struct TemperatureSweepEntry {
     /// Watts, or percent of the total loss.
     #[serde(default, rename = "as")]
     pub unit: As,
-    /// Temperatures of the oil, in place of that of the conditions.
+    /// Oil temperatures, instead of that of the conditions.
     pub oil_temperature: TemperatureAxis,
     /// Torques.
     pub torque: TorqueAxis,

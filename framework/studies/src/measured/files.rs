@@ -12,7 +12,7 @@ use gearloss_framework::description::Ordered;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MeasuredFiles {
-    /// CSV file beside the study.
+    /// CSV file, relative to the study.
     One(String),
     /// Several files with the same quantities, read one after the other.
     Several(#[schemars(length(min = 1))] Vec<FileEntry>),
@@ -22,7 +22,7 @@ pub enum MeasuredFiles {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FileEntry {
-    /// CSV file beside the study.
+    /// CSV file, relative to the study.
     Name(String),
     /// A file whose columns, units or name differ from those of the others.
     Own(Box<OwnFileEntry>),
@@ -31,7 +31,7 @@ pub enum FileEntry {
 /// A file whose columns, units or name differ from those of the others.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OwnFileEntry {
-    /// CSV file beside the study.
+    /// CSV file, relative to the study.
     pub file: String,
     /// Name of the file in messages and tables; absent, the file name.
     pub name: Option<String>,

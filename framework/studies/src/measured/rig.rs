@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 /// count positive where they leave a driven transmission.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 pub struct RigEntry {
-    /// What the torque meter at `in` shows too much. [Nm]
+    /// Offset of the torque meter at `in`. [Nm]
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub torque_offset_in: f64,
-    /// What the torque meter at `out` shows too much. [Nm]
+    /// Offset of the torque meter at `out`. [Nm]
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub torque_offset_out: f64,

@@ -449,7 +449,7 @@ impl Study {
         }
     }
 
-    /// The entry of data: that of the measurements of the study, or the analysis' own.
+    /// The data entry: from the measurements of the study, or from the analysis.
     ///
     /// # Errors
     /// If nothing has the name.

@@ -74,7 +74,7 @@ pub struct PriorEntry {
 /// Torques at which a load factor is found.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OverEntry {
-    /// Port whose torque counts.
+    /// Port of the torque.
     pub port: String,
     /// Torques, rising. [Nm]
     #[schemars(inner(range(min = 0.0, max = 1e9)), length(min = 2, max = 20))]
