@@ -25,7 +25,7 @@ pub struct SpinLossEntry {
     pub model_sets: Vec<String>,
     /// Driven port; default: that of the conditions. `output` is towing.
     pub turned_at: Option<String>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
     /// Speeds of that port.

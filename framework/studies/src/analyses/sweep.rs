@@ -36,7 +36,7 @@ pub struct SweepEntry {
     pub values: Vec<Value>,
     /// A second varied path: every combination is solved.
     pub second: Option<SecondEntry>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
     /// Torques.

@@ -7,9 +7,9 @@ use gearloss_framework::transmission::{PartInfo, Transmission};
 /// Names and meanings of the sums, in order.
 pub const SUMS: [(&str, &str); 6] = [
     ("P_VZP", "gears, load-dependent"),
-    ("P_VZ0", "gears, not load-dependent"),
+    ("P_VZ0", "gears, load-independent"),
     ("P_VLP", "bearings, load-dependent"),
-    ("P_VL0", "bearings, not load-dependent"),
+    ("P_VL0", "bearings, load-independent"),
     ("P_VD", "seals"),
     ("P_VX", "others"),
 ];
