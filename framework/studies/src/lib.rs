@@ -1,4 +1,4 @@
-//! Studies of gearloss: their documents, measured data, duties, identification and analyses.
+//! Studies of gearloss: documents, measured data, cycles, identification and analyses.
 
 pub mod analyses;
 pub mod analysis;

@@ -32,7 +32,7 @@ pub struct CycleAnalysisEntry {
     /// Cycles and settings of the simulation.
     #[serde(flatten)]
     pub drive: DriveEntry,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
     /// Reference mean losses by cycle, such as published values, for comparison.

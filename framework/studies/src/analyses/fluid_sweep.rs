@@ -43,7 +43,7 @@ pub struct FluidSweepEntry {
     /// Adds values between the listed ones until the minimum loss is found.
     #[serde(default = "yes")]
     pub refine: bool,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
     /// Formats to write; default: CSV, JSON and SVG.

@@ -42,9 +42,9 @@ pub struct Head {
 /// Conditions of all analyses of a study.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ConditionsOfResult {
-    /// Port at which the torque is given.
+    /// Port with given torque.
     pub torque_at: String,
-    /// Port at which the speed is given.
+    /// Port with given speed.
     pub speed_at: String,
     /// Oil temperature; absent: from the gearbox. [degC]
     pub oil_temperature_degc: Option<f64>,

@@ -34,7 +34,7 @@ pub struct OperatingPointsEntry {
     /// header: `volume [ml]`.
     #[serde(default)]
     pub bind: Ordered<String>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
     /// Formats to write; default: CSV, JSON and SVG.

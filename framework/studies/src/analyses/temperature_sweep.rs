@@ -21,13 +21,13 @@ pub struct TemperatureSweepEntry {
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
     /// Watts, or percent of the total loss.
     #[serde(default, rename = "as")]
     pub unit: As,
-    /// Temperatures of the oil, in place of that of the conditions.
+    /// Oil temperatures, instead of that of the conditions.
     pub oil_temperature: TemperatureAxis,
     /// Torques.
     pub torque: TorqueAxis,

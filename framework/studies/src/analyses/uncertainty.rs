@@ -1,4 +1,4 @@
-//! What uncertain inputs do: samples of all inputs, solved over a grid, and the bands that they leave.
+//! Uncertainty propagation: samples of all inputs, solved over a grid, and the resulting bands.
 
 mod samples;
 
@@ -15,17 +15,17 @@ use crate::register_analysis;
 use crate::study::{NameOr, ToleranceEntry, Uses, Write};
 use crate::table::{Cell, Column, Table};
 
-/// What uncertain inputs do to efficiency, loss and temperature over a grid: every input is drawn from its distribution.
+/// Effect of uncertain inputs on efficiency, loss and temperature over a grid: every input is drawn from its distribution.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct UncertaintyEntry {
     /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Grid, of one gear state.
+    /// Grid with one gear.
     pub grid: String,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// The uncertain inputs. A name takes over a parameter of the study, evenly distributed.
+    /// The uncertain inputs. A name refers to a parameter of the study, uniformly distributed.
     #[schemars(length(min = 1), with = "Vec<NameOr<ToleranceEntry>>")]
     pub inputs: Vec<ToleranceEntry>,
     /// Number of samples; powers of two fill the ranges most evenly. [-]
@@ -43,7 +43,7 @@ fn samples() -> u32 {
 
 impl Entry for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
-    const MEANING: &'static str = "Bands of efficiency, loss and temperature from uncertain inputs.";
+    const MEANING: &'static str = "Uncertainty bands of efficiency, loss and temperature from uncertain inputs.";
 
     fn uses(&self) -> Uses<'_> {
         Uses {
@@ -55,7 +55,7 @@ impl Entry for UncertaintyEntry {
 
 register_analysis!(UncertaintyEntry);
 
-/// Bands over a grid under each model set.
+/// Uncertainty bands over a grid with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UncertaintyOutcome {
     /// Provenance.
@@ -63,21 +63,21 @@ pub struct UncertaintyOutcome {
     pub head: Head,
     /// One for each model set.
     pub bands: Vec<BandsOfSet>,
-    /// Stated ranges that the nominal points or samples left, set after set.
+    /// Quantities outside their stated ranges at nominal points or in samples, by set.
     #[serde(skip)]
     pub left: Vec<(String, String)>,
 }
 
-/// Bands over a grid under one model set.
+/// Uncertainty bands over a grid with one model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BandsOfSet {
     /// Name of the set.
     pub model_set: String,
     /// Gear state.
     pub gear: String,
-    /// Number of samples that were solved. [-]
+    /// Number of solved samples. [-]
     pub samples: usize,
-    /// Number of samples that could not be built or solved. [-]
+    /// Number of failed samples. [-]
     pub failed: usize,
     /// Probabilities of the lower end, the middle and the upper end of each band. [-]
     pub quantiles: [f64; 3],
@@ -88,13 +88,13 @@ pub struct BandsOfSet {
     /// Torques of the grid. [Nm]
     #[serde(skip)]
     pub torques_nm: Vec<f64>,
-    /// Speeds of the grid with the noise of their conversion. [rpm]
+    /// Speeds of the grid, not rounded. [rpm]
     #[serde(skip)]
     pub speeds_rpm: Vec<f64>,
     /// Why the first of the failed samples has no value.
     #[serde(skip)]
     pub first_failure: Option<String>,
-    /// Which of the inputs are coefficients of formulas, in the order of the study.
+    /// Inputs that are coefficients of formulas, in the order of the study.
     #[serde(skip)]
     pub published: Vec<PublishedCoefficient>,
 }
@@ -102,7 +102,7 @@ pub struct BandsOfSet {
 /// An uncertain input.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UncertainInput {
-    /// Path of the quantity as the study writes it, perhaps a pattern.
+    /// Path of the quantity as in the study, possibly a pattern.
     pub path: String,
     /// Resolved paths that change together.
     pub paths: Vec<String>,
@@ -114,7 +114,7 @@ pub struct UncertainInput {
     pub to: f64,
     /// Correlation with the mean loss over the grid; absent if one of them is constant. [-]
     pub correlation_with_mean_loss: Option<f64>,
-    /// Both ends with their unit, in words.
+    /// Both ends with their unit, as text.
     #[serde(skip)]
     pub words: [String; 2],
 }
@@ -134,7 +134,7 @@ pub struct PointOfBand {
     pub loss_torque_nm: QuantityBand,
     /// Oil temperature. [degC]
     pub oil_temperature_degc: QuantityBand,
-    /// The efficiency as it is printed. [%]
+    /// The efficiency in percent. [%]
     #[serde(skip)]
     pub efficiency_percent: QuantityBand,
 }
@@ -142,14 +142,14 @@ pub struct PointOfBand {
 /// A quantity at one point, in its unit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
 pub struct QuantityBand {
-    /// Value without any deviation; absent where there is none.
+    /// Nominal value; absent if there is none.
     pub nominal: Option<f64>,
-    /// Lower end, median and upper end of the 95 % band; absent where fewer than half of the samples have a value.
+    /// Lower end, median and upper end of the 95 % band; absent if fewer than half the samples have a value.
     pub band: Option<[f64; 3]>,
 }
 
 impl QuantityBand {
-    /// Half of the width of the band.
+    /// Half the width of the band.
     pub fn half_width(&self) -> Option<f64> {
         self.band.map(|band| 0.5 * (band[2] - band[0]))
     }
@@ -170,7 +170,7 @@ impl Analysis for UncertaintyEntry {
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         let grid = cx.study.grid(&path, &self.grid)?;
         if !grid.bind.is_empty() || grid.envelope.is_some() {
-            let message = "a band takes a grid without bound values and envelope";
+            let message = "uncertainty bands need a grid without bound values and envelope";
             return Err(cx.wrong(&path, message, "give it its own grid"));
         }
         let built = cx.built(gearbox, &self.model_sets)?;

@@ -1,4 +1,4 @@
-//! Rows that are held out of a fit, and groups of rows of which each is predicted from the others.
+//! Held-out rows, and groups of rows for cross-validation.
 
 use crate::codes;
 use crate::measured::{Condition, Measured, Row};
@@ -9,20 +9,20 @@ use gearloss_numerics::sampling::Generator;
 
 use super::Identification;
 
-/// What cells of a column say of rows that are held out, and of the others; small letters.
+/// Cell texts for held-out rows, and for the others; lower case.
 const HELD: [&str; 4] = ["1", "true", "yes", "x"];
 const FITTED: [&str; 4] = ["", "0", "false", "no"];
-/// Groups by the texts of a column at most.
+/// Maximum number of groups by the texts of a column.
 const GROUPS: usize = 20;
-/// Groups where no count is stated.
+/// Default number of groups.
 const COUNT: usize = 5;
 
-/// Rows of a measurement that are fitted, and rows that are held out, each as a measurement of its own.
+/// Fitted and held-out rows of a measurement, each as a separate measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HoldOut {
-    /// Rows that are fitted.
+    /// Fitted rows.
     pub fitted: Measured,
-    /// Rows that are predicted afterwards.
+    /// Held-out rows, predicted after the fit.
     pub held_out: Measured,
     /// Their selection as text.
     pub words: String,
@@ -34,8 +34,8 @@ impl HoldOut {
     /// Chooses the rows.
     ///
     /// # Errors
-    /// What is wrong with the choice, with its path below the analysis: no or several ways, a condition that does not fit the data,
-    /// cells of a column that say neither yes nor no, nothing held out, nothing left.
+    /// Errors of the selection, with their path below the analysis: none or several selections, an invalid condition, invalid cells, no
+    /// held-out row, no fitted row.
     pub fn choose(entry: &HoldOutEntry, measured: &Measured) -> Result<Self, Diagnostic> {
         let rows = entry.rows();
         let place = |key: &str| match entry {
@@ -51,9 +51,9 @@ impl HoldOut {
         let count = ways.iter().filter(|way| **way).count();
         if count != 1 {
             let message = if count == 0 {
-                "nothing says which rows are held out"
+                "the selection of held-out rows is missing"
             } else {
-                "the rows that are held out are chosen in several ways"
+                "there are several selections of held-out rows"
             };
             return Err(hold_out_error("hold_out", message)
                 .help("write one of `column`, `where`, `every` and `random`, such as `hold_out: torque > 1000 Nm`"));
@@ -89,14 +89,14 @@ impl HoldOut {
         if found.fitted.rows.is_empty() {
             return Err(hold_out_error(
                 "hold_out",
-                format!("all {all} rows are held out: nothing is left to be fitted"),
+                format!("all {all} rows are held out, so there are no rows to fit"),
             )
             .help("hold out fewer rows"));
         }
         Ok(found)
     }
 
-    /// Refuses what leaves fewer rows than are needed for the parameters, `parameters` less `priors`.
+    /// Rejects a selection with fewer rows than needed for the parameters, `parameters` minus `priors`.
     ///
     /// # Errors
     /// If there are fewer.
@@ -110,7 +110,7 @@ impl HoldOut {
     }
 }
 
-/// Whether each row is held out, absent where it lacks what decides; and the choice in words.
+/// Whether each row is held out, absent if a value is missing; and the selection as text.
 fn choice(
     rows: &HoldOutRows,
     measured: &Measured,
@@ -174,7 +174,7 @@ fn tidy_percent(share: f64) -> String {
     text.trim_end_matches(".0").to_owned()
 }
 
-/// The place of a column, or its nearest name.
+/// The index of a column, or the nearest name.
 fn column_place(measured: &Measured, name: &str) -> Result<usize, Diagnostic> {
     measured.column(name).ok_or_else(|| {
         let headers: Vec<&str> = measured.columns.iter().map(|c| c.header.as_str()).collect();
@@ -201,10 +201,10 @@ pub fn group_words(entry: &FoldsEntry) -> String {
 }
 
 impl Identification<'_> {
-    /// Groups of observations of which each is to be predicted from the others.
+    /// Groups of observations for cross-validation.
     ///
     /// # Errors
-    /// If there are too few groups, or the data do not hold what they are made by, with the path below the analysis.
+    /// If there are too few groups, or the data lack the grouping quantity, with the path below the analysis.
     pub fn groups(&self, entry: &FoldsEntry) -> Result<Vec<Fold>, Diagnostic> {
         let measured = self.measured();
         let rows: Vec<&Row> = self.observations.iter().map(|o| &measured.rows[o.row]).collect();
@@ -258,7 +258,7 @@ impl Identification<'_> {
         Self::labelled(by, found, most)
     }
 
-    /// Groups of texts: bands where all are numbers, else a group for each.
+    /// Groups of texts: bands if all are numbers, otherwise a group for each text.
     fn labelled(by: &FoldsBy, texts: Vec<String>, most: usize) -> Result<Vec<Fold>, Diagnostic> {
         let few = |message: String| {
             hold_out_error("folds.by", message).help("group by what differs between rows, or write `folds: 0` for none")
@@ -273,9 +273,9 @@ impl Identification<'_> {
         if by.count.is_some() {
             return Err(hold_out_error(
                 "folds.count",
-                format!("the groups of `{}` are given by its values", by.by),
+                format!("the number of groups of `{}` is given by its values", by.by),
             )
-            .help("leave `count` out"));
+            .help("delete `count`"));
         }
         let name = |text: String| match (by.by.as_str(), text.as_str()) {
             ("sign", _) => text,
@@ -285,7 +285,11 @@ impl Identification<'_> {
         let labels: Vec<String> = texts.into_iter().map(name).collect();
         let found = labelled_folds(&labels).map_err(few)?;
         if found.len() > GROUPS {
-            let message = format!("`{}` makes {} groups, and each is a fit", by.by, found.len());
+            let message = format!(
+                "`{}` results in {} groups, each of which needs a fit",
+                by.by,
+                found.len()
+            );
             return Err(
                 hold_out_error("folds.by", message).help(format!("group by a column with {GROUPS} values at most"))
             );
@@ -294,7 +298,7 @@ impl Identification<'_> {
     }
 }
 
-/// Texts of a column, or of gear states and names.
+/// Texts of a column, or of gears and names.
 fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, Diagnostic> {
     let known = |text: &dyn Fn(&Row) -> Option<String>| -> Option<Vec<String>> {
         measured.rows.iter().any(|row| text(row).is_some()).then(|| {

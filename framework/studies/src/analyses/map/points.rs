@@ -219,13 +219,13 @@ struct Sums {
     /// Gears, load-dependent. [W]
     #[serde(rename = "P_VZP")]
     gears_loaded: f64,
-    /// Gears, not load-dependent. [W]
+    /// Gears, load-independent. [W]
     #[serde(rename = "P_VZ0")]
     gears_unloaded: f64,
     /// Bearings, load-dependent. [W]
     #[serde(rename = "P_VLP")]
     bearings_loaded: f64,
-    /// Bearings, not load-dependent. [W]
+    /// Bearings, load-independent. [W]
     #[serde(rename = "P_VL0")]
     bearings_unloaded: f64,
     /// Seals. [W]

@@ -1,4 +1,4 @@
-//! Samples of uncertain inputs over a grid, and the bands that they leave.
+//! Samples of uncertain inputs over a grid, and the resulting bands.
 
 use gearloss_numerics::sampling::Sobol;
 use serde::{Deserialize, Serialize};
@@ -48,7 +48,7 @@ pub struct Samples {
     pub failed: Vec<String>,
 }
 
-/// Solves all samples; the same whatever the number of threads. Adds the stated ranges that they left.
+/// Solves all samples, independent of the number of threads. Adds quantities outside their stated ranges.
 pub fn solve(
     cx: &Context<'_>,
     count: u32,
@@ -107,7 +107,7 @@ impl Samples {
             PointOfBand {
                 torque_nm: p.torque,
                 speed_rpm: tidy(p.speed * RPM),
-                // Results hold efficiencies as shares.
+                // Results contain efficiencies as fractions.
                 efficiency: efficiency_percent.scaled(0.01),
                 loss_w: quantity(|p| p.loss),
                 loss_torque_nm: quantity(|p| p.loss_torque),
