@@ -2,9 +2,9 @@
 //! hundred megabytes. A module is a file or a folder beside this one; `cargo test --test all MODULE::` runs the tests of one.
 #![allow(clippy::unwrap_used)]
 
-mod abreast;
 mod analyses;
 mod api;
+mod batched;
 mod cards;
 mod coefficients;
 mod common;

@@ -150,7 +150,7 @@ fn the_explanation_of_an_unequal_planet_has_the_bits_of_the_solution() {
         let (loss, trace) = solution.explain(i);
         assert_eq!(loss.watts(), *watts);
         let steps = format!("{:?}", trace.into_steps());
-        assert!(steps.contains("the most loaded planet") && steps.contains("each of the other planets"));
+        assert!(steps.contains("the most loaded planet") && steps.contains("each other planet"));
     }
 }
 
@@ -192,7 +192,7 @@ fn a_set_that_cannot_be_assembled_is_warned_of() {
     };
     assert!(!warnings("count: 3", [24, 24, 72]).contains("planets"));
     assert!(warnings("count: 5", [24, 24, 72]).contains("cannot be spaced equally"));
-    assert!(warnings("count: 7", [24, 24, 72]).contains("neighbouring planets touch"));
+    assert!(warnings("count: 7", [24, 24, 72]).contains("adjacent planets touch"));
     let text = simple([24, 24, 72], ["none", "none"], "count: 3, load_sharing: 3.5", "");
     let gearbox = Gearbox::of_text(&language, &text, "input.yaml", ".").unwrap();
     let error = gearbox
@@ -375,7 +375,7 @@ fn a_faulty_table_is_refused_with_line_and_column() {
         ),
         (
             TABLE.replace("400,", "50,"),
-            "line 6, column 1 `speed [rpm]`: 50 comes up after 100",
+            "line 6, column 1 `speed [rpm]`: 50 follows 100",
         ),
         (
             TABLE.replace("[mm2/s]", "[m2/s]"),
@@ -399,7 +399,7 @@ fn a_faulty_table_is_refused_with_line_and_column() {
         ),
         (
             TABLE.replace("nu [mm2/s]", "viscosity [mm2/s]"),
-            "the axis `volume` stands behind `viscosity`",
+            "the axis `volume` follows `viscosity`",
         ),
         (
             TABLE.replace("0.050", "-0.050"),

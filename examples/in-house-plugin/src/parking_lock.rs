@@ -61,7 +61,7 @@ impl Component for ParkingLock {
     const SECTION: &'static str = "parking_locks";
     type Attachment = OnMember;
 
-    fn at<'a>(part: &'a ParkingLockPart, site: MemberSite<'a>, notes: Notes<'a>) -> ParkingLockAt<'a> {
+    fn context<'a>(part: &'a ParkingLockPart, site: MemberSite<'a>, notes: Notes<'a>) -> ParkingLockAt<'a> {
         ParkingLockAt {
             part,
             speed: site.speed,

@@ -118,7 +118,7 @@ pub struct State<'a> {
     /// Loads of the supports.
     pub loads: &'a [SupportLoad],
     /// Number of loss model evaluations.
-    pub asked: &'a Cell<usize>,
+    pub calls: &'a Cell<usize>,
 }
 
 impl<'a> State<'a> {

@@ -53,7 +53,8 @@ pub trait Coefficients: Copy + Default {
 
 /// Writes all coefficients as a map.
 ///
-/// # Errors If the serializer fails.
+/// # Errors
+/// If the serializer fails.
 pub fn serialize<C: Coefficients, S: Serializer>(coefficients: &C, serializer: S) -> Result<S::Ok, S::Error> {
     let mut own = *coefficients;
     let mut map = serializer.serialize_map(Some(C::LIST.len()))?;

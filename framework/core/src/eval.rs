@@ -54,7 +54,8 @@ impl Evaluated {
 
 /// A mechanism and a model of a language by their names, `MECHANISM/MODEL`.
 ///
-/// # Errors If there is no such model; the error lists the available ones, or a close match.
+/// # Errors
+/// If there is no such model; the error lists the available ones, or a close match.
 pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEntry, &'a Entry), Diagnostic> {
     let Some((mechanism, model)) = name.split_once('/') else {
         return Err(Diagnostic::error("", format!("`{name}` is not a model"))
@@ -69,7 +70,13 @@ pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEnt
 ///
 /// # Errors
 /// If there is no such model, or the input is invalid, or [`eval`] fails.
-pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &Path) -> Result<Evaluated, Findings> {
+pub fn evaluate_input(
+    language: &Language,
+    name: &str,
+    source: &str,
+    input: &str,
+    folder: &Path,
+) -> Result<Evaluated, Findings> {
     let mut sources = Sources::default();
     let source = sources.add(source.to_owned(), input);
     let found = |mut list: Vec<Diagnostic>| {

@@ -75,7 +75,8 @@ pub struct Formula {
 impl Formula {
     /// Compiles a formula over named quantities.
     ///
-    /// # Errors The column, the problem and its fix.
+    /// # Errors
+    /// The column, the problem and its fix.
     pub fn compile(text: &str, names: &[&str]) -> Result<Self, FormulaFault> {
         let mut parser = Parser {
             text,
@@ -124,7 +125,8 @@ impl Formula {
 
     /// The value at the named quantities, in the order of the names.
     ///
-    /// # Errors If the value is not a finite number.
+    /// # Errors
+    /// If the value is not a finite number.
     pub fn value(&self, inputs: &[f64]) -> Result<f64, Undefined> {
         let mut stack = [0.0_f64; DEEPEST];
         let mut top = 0;

@@ -12,7 +12,7 @@ use crate::document::{Diagnostic, Node, PlacedDiagnostic, Places, Severity, Sour
 use crate::files::{Disk, LONGEST_TEXT, SharedSource};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
-use crate::resolve::{Came, Choice, Resolved, called_own, expand_set, meets, resolve, sets_of};
+use crate::resolve::{Choice, Resolved, ValueSource, called_own, expand_set, meets, resolve, sets_of};
 use crate::transmission::Transmission;
 
 /// Maximum number of files that may extend each other.
@@ -128,7 +128,8 @@ impl From<Diagnostic> for Findings {
 impl Language {
     /// The language of all linked crates; the starting point of reading.
     ///
-    /// # Errors All faults of the linked mechanisms, models, catalogues and sets.
+    /// # Errors
+    /// All faults of the linked mechanisms, models, catalogues and sets.
     pub fn linked() -> Result<Self, Findings> {
         Ok(Self::new(Registry::linked()?)?)
     }
@@ -137,7 +138,8 @@ impl Language {
 impl Gearbox {
     /// Reads a gearbox file of the disk and the files that it extends.
     ///
-    /// # Errors All findings of reading and checking.
+    /// # Errors
+    /// All findings of reading and checking.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
         Self::read_from(language, &Disk::shared(), file)
     }
@@ -158,7 +160,8 @@ impl Gearbox {
 
     /// Reads a gearbox from a text; `folder` on the disk contains the files that it names.
     ///
-    /// # Errors All findings of reading and checking.
+    /// # Errors
+    /// All findings of reading and checking.
     pub fn of_text(language: &Language, text: &str, name: &str, folder: impl Into<PathBuf>) -> Result<Self, Findings> {
         Self::from_text(language, &Disk::shared(), text, name, folder)
     }
@@ -203,7 +206,8 @@ impl Gearbox {
 
     /// Resolves the description with a choice of models and overrides.
     ///
-    /// # Errors All findings of resolving, with positions.
+    /// # Errors
+    /// All findings of resolving, with positions.
     pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
         resolve(language, &self.files, &self.value, choice).map_err(|list| {
             self.findings(
@@ -264,7 +268,8 @@ impl Gearbox {
 
     /// Builds the transmission of a resolved description.
     ///
-    /// # Errors All findings of building, with positions.
+    /// # Errors
+    /// All findings of building, with positions.
     pub fn build(&self, language: &Language, resolved: &Resolved) -> Result<Transmission, Findings> {
         let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
             self.findings(
@@ -283,7 +288,7 @@ impl Gearbox {
 
     /// For a model that a component takes from `models`, a finding also shows where it is written.
     fn inherited(&self, language: &Language, resolved: &Resolved, finding: Diagnostic) -> Diagnostic {
-        if *resolved.came(&finding.path) != Came::Models {
+        if *resolved.source_of(&finding.path) != ValueSource::Models {
             return finding;
         }
         let mut keys = finding.path.split('.');
@@ -304,7 +309,8 @@ impl Gearbox {
 
     /// Resolves and builds.
     ///
-    /// # Errors All findings of both.
+    /// # Errors
+    /// All findings of both.
     pub fn transmission(&self, language: &Language, choice: &Choice) -> Result<Transmission, Findings> {
         self.build(language, &self.resolve(language, choice)?)
     }

@@ -10,7 +10,7 @@ use crate::formula::Formula;
 use crate::loss::{Limit, Loss, Undefined};
 use crate::mechanism::gear_drag::Scope;
 use crate::mechanism::{Mechanism, Noted, Quantity};
-use crate::registry::{Build, Built, Entry, Evidence, Graded, formula};
+use crate::registry::{Build, Built, Entry, Evidence, Graded, USER_DEFINED, formula};
 use crate::table::{self, Interpolation, Outside, Reading, Scale, Table};
 
 /// Maximum number of quantities of a context, for the inputs of a formula.
@@ -33,7 +33,8 @@ enum Law<M: Mechanism> {
 impl<M: Mechanism> Scalar<M> {
     /// The value at a context, SI.
     ///
-    /// # Errors If the formula is undefined, the table ends, or the value is negative.
+    /// # Errors
+    /// If the formula is undefined, the table ends, or the value is negative.
     pub fn value(&self, at: &M::At<'_>) -> Result<f64, Undefined> {
         let value = match &self.law {
             Law::None => return Ok(0.0),
@@ -100,7 +101,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
                  build: fn(&Value, &mut Build<'_>) -> Result<Built, Diagnostic>| Entry {
         mechanism: M::KEY,
         name,
-        source: "the user's own",
+        source: USER_DEFINED,
         example,
         part: None,
         files: &[],
@@ -252,7 +253,8 @@ pub struct Lookup<M: Mechanism> {
 impl<M: Mechanism> Lookup<M> {
     /// Reads a CSV file with one column of results in `unit`.
     ///
-    /// # Errors Faults of the file, its axes or its units, with the fix.
+    /// # Errors
+    /// Faults of the file, its axes or its units, with the fix.
     pub fn read(file: &str, reading: &Reading, unit: &str, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let lookup = Self::read_sum(file, reading, unit, cx)?;
         if lookup.tables.len() > 1 {
@@ -413,7 +415,8 @@ impl<M: Mechanism> Lookup<M> {
     /// The sum of the results at a context, in the unit of the file, and the position of the context along the axis on which it is
     /// farthest outside.
     ///
-    /// # Errors If the table ends.
+    /// # Errors
+    /// If the table ends.
     pub fn value(&self, at: &M::At<'_>) -> Result<(f64, f64), Undefined> {
         let mut inputs = [0.0; 4];
         for ((input, q), axis) in inputs.iter_mut().zip(&self.axes).zip(self.tables[0].axes()) {

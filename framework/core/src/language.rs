@@ -64,7 +64,8 @@ pub struct Language {
 impl Language {
     /// The language of a registry.
     ///
-    /// # Errors Every construct of a schema that cannot be checked, with mechanism, model and field; every fault of a linked
+    /// # Errors
+    /// Every construct of a schema that cannot be checked, with mechanism, model and field; every fault of a linked
     /// catalogue or set.
     pub fn new(registry: Registry) -> Result<Self, Vec<Diagnostic>> {
         let mut found = Vec::new();
@@ -169,7 +170,8 @@ impl Language {
     /// Checks a value against the gearbox schema at a path; returns the value in SI with defaults filled in. Quantities may be
     /// texts with a unit or numbers in the documented unit.
     ///
-    /// # Errors All findings of the check.
+    /// # Errors
+    /// All findings of the check.
     pub fn checked(&self, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
         fine(walk_at(&Node::from_json(value), self.gearbox(), path))
     }
@@ -177,7 +179,8 @@ impl Language {
     /// As [`Language::checked`], for a path of an existing document: inside a model, the keys and ranges of its `type` apply, not
     /// those of other models.
     ///
-    /// # Errors All findings of the check.
+    /// # Errors
+    /// All findings of the check.
     pub fn checked_in(&self, document: &Value, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
         // A new `type` may be any model, not only the present one.
         let shape = self
@@ -240,7 +243,8 @@ impl Language {
 
     /// A piece of YAML checked against the gearbox schema at a path.
     ///
-    /// # Errors All findings of reading and checking.
+    /// # Errors
+    /// All findings of reading and checking.
     pub fn part_of_document(&self, yaml: &str, path: &str) -> Result<Value, Vec<Diagnostic>> {
         let read = read_yaml(0, yaml);
         if !read.findings.is_empty() {
@@ -251,7 +255,8 @@ impl Language {
 
     /// The resolved example of a model and the resolved example part of its mechanism.
     ///
-    /// # Errors All findings of reading and checking either.
+    /// # Errors
+    /// All findings of reading and checking either.
     pub fn example_of(&self, entry: &Entry) -> Result<(Value, Value), Vec<Diagnostic>> {
         let mechanism = self.registry.mechanism(entry.mechanism);
         let part = entry.part.unwrap_or_else(|| mechanism.map_or("{}", |m| m.example));

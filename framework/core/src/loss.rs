@@ -516,14 +516,14 @@ impl<'a> Notes<'a> {
 
     /// The same target for a nested instance. It keeps nothing, because it may be evaluated at several speeds or with several oils.
     #[inline]
-    pub fn of(self, base: NoteBase) -> Self {
-        self.within(base).forgetting()
+    pub fn nested(self, base: NoteBase) -> Self {
+        self.nested_at_same_state(base).forgetting()
     }
 
     /// The same for a nested instance that is only evaluated at the speed, oil and level of this one, so that it may keep values,
     /// too.
     #[inline]
-    pub fn within(self, base: NoteBase) -> Self {
+    pub fn nested_at_same_state(self, base: NoteBase) -> Self {
         Self { base, ..self }
     }
 

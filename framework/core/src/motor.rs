@@ -64,7 +64,7 @@ impl RotorShare {
     ///
     /// # Errors
     /// If the speeds of the list do not increase.
-    pub fn at(&self, speed: f64) -> Result<f64, MeasuredFault> {
+    pub fn share_at(&self, speed: f64) -> Result<f64, MeasuredFault> {
         match self {
             Self::One(share) => Ok(*share),
             Self::Over(list) => {
@@ -147,7 +147,8 @@ impl MotorMap {
     /// [degC]`. If both are given, the loss is used. Rows with an efficiency and without speed or torque carry no information and
     /// are skipped.
     ///
-    /// # Errors The problem, with line and column.
+    /// # Errors
+    /// The problem, with line and column.
     pub fn read(bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
         let none = Ordered::default();
         let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, (&none, &none)).map_err(in_header)?;
@@ -184,12 +185,12 @@ impl MotorMap {
         }
         let [motoring, generating] = quadrants;
         Ok(Self {
-            motoring: Quadrant::of(&motoring, "motoring").map_err(|f| vec![f])?,
+            motoring: Quadrant::from_nodes(&motoring, "motoring").map_err(|f| vec![f])?,
             generating: if generating.is_empty() {
                 notes.push("no negative torques: generating has the losses of motoring at the same torque".to_owned());
                 None
             } else {
-                Some(Quadrant::of(&generating, "generating").map_err(|f| vec![f])?)
+                Some(Quadrant::from_nodes(&generating, "generating").map_err(|f| vec![f])?)
             },
             notes,
         })
@@ -293,7 +294,7 @@ fn place(values: &[f64], x: f64) -> usize {
 }
 
 impl Quadrant {
-    fn of(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
+    fn from_nodes(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
         let speeds = rising(nodes.iter().map(|n| n.speed));
         let torques = rising(nodes.iter().map(|n| n.torque));
         let temperatures = rising(nodes.iter().map(|n| n.temperature));

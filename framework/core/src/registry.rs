@@ -157,6 +157,9 @@ pub const fn default_of(key: &'static str, grade: Evidence, because: &'static st
     Graded { key, grade, because }
 }
 
+/// Source of a model whose law the user states, such as `formula` and `table`.
+pub const USER_DEFINED: &str = "user-defined";
+
 /// A type-erased `Arc<M::Model>`.
 pub type Built = Box<dyn Any + Send + Sync>;
 
@@ -221,6 +224,11 @@ impl Entry {
             .collect()
     }
 
+    /// True if the user states the law of the model: it has no published source.
+    pub fn is_user_defined(&self) -> bool {
+        self.source == USER_DEFINED
+    }
+
     /// Description, as a sentence: the first paragraph of the doc comment of its parameters.
     pub fn meaning(&self) -> String {
         let schema = (self.schema)(&mut SchemaGenerator::default());
@@ -262,7 +270,7 @@ inventory::collect!(MechanismEntry);
 
 impl MechanismEntry {
     /// The entry of a mechanism without its own section.
-    pub const fn of<M: Mechanism>(origin: Origin) -> Self {
+    pub const fn new<M: Mechanism>(origin: Origin) -> Self {
         Self {
             key: M::KEY,
             meaning: M::MEANING,
@@ -282,8 +290,8 @@ impl MechanismEntry {
     /// The entry of a mechanism whose parts have a section.
     pub const fn component<C: Component>(origin: Origin) -> Self {
         Self {
-            section: Some(Section::of::<C>()),
-            ..Self::of::<C>(origin)
+            section: Some(Section::new::<C>()),
+            ..Self::new::<C>(origin)
         }
     }
 }
@@ -372,9 +380,10 @@ pub struct Registry {
 impl Registry {
     /// All linked mechanisms and models.
     ///
-    /// # Errors If nothing is linked, or two entries have the same name; each error names modules and lines.
+    /// # Errors
+    /// If nothing is linked, or two entries have the same name; each error names modules and lines.
     pub fn linked() -> Result<Self, Vec<Diagnostic>> {
-        Self::of(
+        Self::from_entries(
             inventory::iter::<MechanismEntry>().copied(),
             inventory::iter::<Entry>().copied(),
             inventory::iter::<Catalogue>().copied(),
@@ -394,7 +403,8 @@ impl Registry {
 
     /// The same with driving cycles.
     ///
-    /// # Errors If two cycles have the same name; each error names modules and lines.
+    /// # Errors
+    /// If two cycles have the same name; each error names modules and lines.
     pub fn with_cycles(mut self, cycles: impl IntoIterator<Item = ShippedCycle>) -> Result<Self, Vec<Diagnostic>> {
         self.cycles.extend(cycles);
         self.cycles
@@ -412,7 +422,7 @@ impl Registry {
     ///
     /// # Errors
     /// As [`Registry::linked`].
-    pub fn of(
+    pub fn from_entries(
         mechanisms: impl IntoIterator<Item = MechanismEntry>,
         models: impl IntoIterator<Item = Entry>,
         catalogues: impl IntoIterator<Item = Catalogue>,
@@ -463,7 +473,7 @@ impl Registry {
         sets.sort_by_key(|s| (s.name, s.origin.package, s.origin.file, s.origin.line));
         for pair in sets.windows(2) {
             if pair[0].name == pair[1].name {
-                found.push(twice("set of models", pair[0].name, pair[0].origin, pair[1].origin));
+                found.push(twice("model set", pair[0].name, pair[0].origin, pair[1].origin));
             }
         }
         let mut catalogues: Vec<_> = catalogues.into_iter().collect();
@@ -504,7 +514,8 @@ impl Registry {
 
     /// One mechanism by a key from user input.
     ///
-    /// # Errors If there is none; lists the available ones, or a close match.
+    /// # Errors
+    /// If there is none; lists the available ones, or a close match.
     pub fn mechanism_named(&self, key: &str) -> Result<&MechanismEntry, Diagnostic> {
         self.mechanism(key).ok_or_else(|| {
             let names: Vec<&str> = self.mechanisms.iter().map(|m| m.key).collect();
@@ -552,7 +563,8 @@ impl Registry {
 
     /// The recipe that generates thermal networks.
     ///
-    /// # Errors If no crate ships one, or two do.
+    /// # Errors
+    /// If no crate ships one, or two do.
     pub fn network_recipe(&self) -> Result<&NetworkRecipe, Diagnostic> {
         recipe::only(&self.recipes)
     }
@@ -605,7 +617,7 @@ pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json
 #[macro_export]
 macro_rules! register_mechanism {
     ($M:ty) => {
-        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::of::<$M>($crate::origin!()) }
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::new::<$M>($crate::origin!()) }
     };
 }
 

@@ -142,7 +142,7 @@ impl Table {
         }
         let answer = reading.scale(ANSWER, &values);
         if let (Scale::Log, Some(value)) = (answer, values.iter().find(|v| **v <= 0.0)) {
-            return Err(format!("the result is logarithmic but has {value}"));
+            return Err(format!("`answer` is logarithmic but has {value}"));
         }
         Ok(Self {
             places: axes
@@ -293,7 +293,8 @@ impl Table {
 
     /// The value at a point, one coordinate for each axis.
     ///
-    /// # Errors Outside the axes, if that is an error; at a coordinate that is NaN, or has no logarithm.
+    /// # Errors
+    /// Outside the axes, if that is an error; at a coordinate that is NaN, or has no logarithm.
     pub fn value(&self, point: &[f64]) -> Result<f64, Undefined> {
         let mut cell = [(0_usize, 0.0_f64); 4];
         for (k, (x, cell)) in point.iter().zip(&mut cell).enumerate() {

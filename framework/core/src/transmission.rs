@@ -282,7 +282,8 @@ impl Transmission {
     }
     /// Number of a gear state by its name.
     ///
-    /// # Errors If there is none, with the available names.
+    /// # Errors
+    /// If there is none, with the available names.
     pub fn state(&self, name: &str) -> Result<usize, Diagnostic> {
         self.states.iter().position(|s| s.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.states.iter().map(|s| s.name.as_str()).collect();
@@ -291,7 +292,8 @@ impl Transmission {
     }
     /// Number of a port by its name.
     ///
-    /// # Errors If there is none, with the available names.
+    /// # Errors
+    /// If there is none, with the available names.
     pub fn port(&self, name: &str) -> Result<usize, Diagnostic> {
         self.ports.iter().position(|p| p.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();

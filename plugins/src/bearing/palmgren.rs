@@ -76,7 +76,8 @@ pub struct Palmgren {
 impl Palmgren {
     /// A bearing with its factors.
     ///
-    /// # Errors If a rating that the load law needs is missing.
+    /// # Errors
+    /// If a rating that the load law needs is missing.
     pub fn new(part: &BearingPart, f0: F0, law: LoadLaw, f2: f64, coefficients: Constants) -> Result<Self, Lack> {
         let c0 = match part.c0 {
             Some(c0) => c0,

@@ -174,7 +174,8 @@ fn no_series(part: &BearingPart, what: &str, known: &str) -> Lack {
 
 /// f0 of the load-independent moment.
 ///
-/// # Errors If the table has no value for this bearing, or has a range and no series selects from it.
+/// # Errors
+/// If the table has no value for this bearing, or has a range and no series selects from it.
 pub fn f0(part: &BearingPart) -> Result<f64, Lack> {
     f0_under(part, part.lubrication)
 }
@@ -235,7 +236,8 @@ pub fn f0_under(part: &BearingPart, lubrication: Lubrication) -> Result<f64, Lac
 
 /// Law of the load-dependent moment; exponent and axial factor are those of deep groove ball bearings.
 ///
-/// # Errors If a series or a load factor required by the row is missing.
+/// # Errors
+/// If a series or a load factor required by the row is missing.
 pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: bool) -> Result<LoadLaw, Lack> {
     use BearingKind as K;
     let need = |value: Option<f64>, key: &str, hint: &str| {
@@ -306,7 +308,8 @@ pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: b
 
 /// Load law of a spherical roller bearing with a rule for its loads.
 ///
-/// # Errors If the table does not list the series.
+/// # Errors
+/// If the table does not list the series.
 pub fn spherical(part: &BearingPart, rule: Rule) -> Result<LoadLaw, Lack> {
     let name = series(part).unwrap_or("");
     let known = || SPHERICAL.map(|row| row.0).join(", ");

@@ -38,7 +38,8 @@ pub struct SealRow {
 impl SealRow {
     /// The constants for an outside diameter in mm and one or two seals.
     ///
-    /// # Errors If the table has no row for that diameter: the problem and how to fix it.
+    /// # Errors
+    /// If the table has no row for that diameter: the problem and how to fix it.
     pub fn new(code: Code, outside: f64, seals: u32) -> Result<Self, (String, String)> {
         // Minimum and maximum outside diameter, beta, K_S1, K_S2.
         let rows: &[(f64, f64, f64, f64, f64)] = match code {

@@ -41,18 +41,18 @@ coefficients! {
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Dawson {
     /// Factor of the medium: 1 in air, more in oil mist. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub phi: f64,
     /// Factor of the enclosure: 1 free, 0.7 loose, 0.5 to 0.6 tight. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 1.0))]
     pub lambda: f64,
     #[serde(default)]
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

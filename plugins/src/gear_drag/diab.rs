@@ -70,7 +70,7 @@ pub struct Diab {
     #[schemars(inner(range(min = 0.1, max = 10000.0)))]
     pub flanges: Option<[f64; 2]>,
     /// Factor for deflectors on the teeth, for the analytical law; 1 without deflectors. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub xi: f64,
     /// Volume fraction of oil in the air. [-]
@@ -81,7 +81,7 @@ pub struct Diab {
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

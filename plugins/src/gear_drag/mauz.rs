@@ -45,15 +45,15 @@ pub struct Mauz {
     #[schemars(range(min = 1.0, max = 1e5))]
     pub k_0: f64,
     /// Factor for the distance to the wall at the circumference. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_wz: f64,
     /// Factor for the distance to the wall at the faces. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_wa: f64,
     /// Factor for the oil volume. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_v: f64,
     #[serde(default)]
@@ -63,7 +63,7 @@ pub struct Mauz {
 fn k_0() -> f64 {
     1.86e3
 }
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

@@ -57,18 +57,18 @@ pub struct MauzInjection {
     #[serde(default)]
     pub side: Side,
     /// Viscosity over its reference. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub viscosity_ratio: f64,
     /// Tooth height over its reference. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub tooth_height_ratio: f64,
     #[serde(default)]
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

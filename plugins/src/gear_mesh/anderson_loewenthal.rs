@@ -1,7 +1,7 @@
 //! Loss of spur gear meshes evaluated at one point of the path of contact, after Anderson and Loewenthal.
 //!
 //! Source: Anderson, Loewenthal: Spur gear system efficiency at part and full load, NASA TP-1622 (1980) with its errata sheet,
-//! recalled: sliding with the friction of Benedict and Kelley, and rolling with the film of Hamrock and Dowson, both a quarter
+//! quoted from memory: sliding with the friction of Benedict and Kelley, and rolling with the film of Hamrock and Dowson, both a quarter
 //! of the path away from the pitch point. v_S = 0.02618 n_p (1 + m_g)/m_g l, v_T = 0.2094 n_p (D_p/2 sin phi - 0.125 (m_g - 1)/m_g l),
 //! f = 0.0127 lg(0.02966 (W/b)/(eta v_S v_T^2)), P_S = f W v_S, h = 2.051e-7 (v_T eta)^0.67 W^-0.067 R^0.464,
 //! P_R = 9e7 h b v_T eps_alpha. The speed constants are exact; the full load W acts at a mean sliding speed. The original limits f

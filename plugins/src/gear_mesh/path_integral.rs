@@ -189,11 +189,11 @@ impl GearMeshModel for Integral {
         }
         let pair = &at.part.pair;
         let speed = at.speed.abs();
-        let mean = MeanFrictionAt::of(at, at.notes);
+        let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
         let path = self
             .path
-            .at(&mean, at.notes.within(self.friction.notes))
+            .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
             .with(|to| to.bodies = at.bodies());
         let line_load = at.show("F_bn/b", "N/m", path.line_load);
         let short = self.short.as_ref().map_or(f64::NAN, |short| short.sum(&path));
@@ -275,7 +275,7 @@ impl GearMeshModel for Integral {
             #[inline(always)]
             |path, line_loads| {
                 let short = self.short.as_ref()?;
-                let own = notes.of(self.friction.notes);
+                let own = notes.nested(self.friction.notes);
                 if !short.note(path, line_loads, own) {
                     let noted = self.path.with_lanes(|mu| {
                         let wide = self.friction.along_lanes(path, line_loads, mu);
@@ -312,9 +312,12 @@ impl Integral {
             return None;
         }
         let pair = &at.part.pair;
-        let mean = MeanFrictionAt::of(at, Notes::MUTED);
-        let notes = at.notes.within(self.friction.notes);
-        let path = self.path.at(&mean, notes).with(|to| to.bodies = at.bodies());
+        let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
+        let notes = at.notes.nested_at_same_state(self.friction.notes);
+        let path = self
+            .path
+            .at_operating_point(&mean, notes)
+            .with(|to| to.bodies = at.bodies());
         wide(
             #[inline(always)]
             || {
@@ -481,7 +484,7 @@ pub(crate) mod tests {
                 let slot = build.slot_at::<GearMesh>("model", &part, &model).unwrap();
                 for torque in [0.01, 2.0, 300.0] {
                     let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| to.torque = torque);
-                    let fault = GearMesh::side_by_side(&*slot, &at, slot.notes);
+                    let fault = GearMesh::compare_batched(&*slot, &at, slot.notes);
                     assert_eq!(fault, None, "{sharing} {kind:?} {torque}");
                 }
             }

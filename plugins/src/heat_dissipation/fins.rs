@@ -36,8 +36,8 @@ pub struct Params {
     /// Thickness of the fins. [mm]
     #[schemars(range(min = 0.1, max = 1e3))]
     pub fin_thickness: f64,
-    /// Heat transfer coefficient; default: textbook convection over the height and length of the housing, without radiation. [W/(m2
-    /// K)]
+    /// Heat transfer coefficient; default: textbook convection over the height and length of the housing, without radiation.
+    /// [W/(m2 K)]
     #[schemars(range(min = 0.1, max = 1e5))]
     pub alpha: Option<f64>,
 }

@@ -56,7 +56,7 @@ pub struct Params {
     #[schemars(range(min = 1.0, max = 1e5))]
     pub alpha_oil: f64,
     /// Factor on convection to the air. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.01, max = 100.0))]
     pub factor: f64,
     #[serde(default)]
@@ -67,7 +67,7 @@ fn splash() -> f64 {
     200.0
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -137,7 +137,7 @@ impl HeatDissipationModel for Ready {
         let (mut wall, mut k, mut alpha) = (oil, 0.0, 0.0);
         for _ in 0..3 {
             let convection = if self.part.air_speed > 0.0 {
-                let air = Air::at(0.5 * (wall + ambient));
+                let air = Air::at_temperature(0.5 * (wall + ambient));
                 forced(
                     &self.params.coefficients,
                     self.part.air_speed,

@@ -25,12 +25,12 @@ const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coe
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Factor on convection, such as 2 for the moving air of a workshop. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.01, max = 100.0))]
     pub factor: f64,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

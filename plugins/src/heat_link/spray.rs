@@ -54,7 +54,7 @@ pub struct Params {
     #[schemars(range(min = 0.01, max = 1e8))]
     pub area: f64,
     /// Share of the oil flow that reaches the surface. [-]
-    #[serde(default = "all")]
+    #[serde(default = "default_share")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: f64,
     /// Heat transfer coefficient, unless a `jet` is given. [W/(m2 K)]
@@ -64,7 +64,7 @@ pub struct Params {
     pub jet: Option<Jet>,
 }
 
-fn all() -> f64 {
+fn default_share() -> f64 {
     1.0
 }
 

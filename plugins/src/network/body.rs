@@ -82,7 +82,7 @@ impl Size {
 pub struct Splash<'a> {
     /// Gear or carrier.
     pub member: &'a str,
-    /// Outer diameter of the planets; absent for a gear. \[m\]
+    /// Outer diameter of the planets; `None` for a gear. \[m\]
     pub reach: Option<f64>,
 }
 

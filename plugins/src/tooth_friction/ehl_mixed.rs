@@ -197,7 +197,8 @@ impl EhlMixed {
     /// The model with a user-defined factor of film thickness to isothermal film thickness, instead of `inlet_heating`, such as a
     /// correction for high speed.
     ///
-    /// # Errors If neither oil nor parameters state a required value.
+    /// # Errors
+    /// If neither oil nor parameters state a required value.
     pub fn new(params: &Params, factor: Factor, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let part = match cx.part::<GearMesh>() {
             Some(part) => part.clone(),
@@ -208,7 +209,8 @@ impl EhlMixed {
 
     /// The model for a pair, as [`EhlMixed::new`].
     ///
-    /// # Errors If neither oil nor parameters state a required value.
+    /// # Errors
+    /// If neither oil nor parameters state a required value.
     pub fn of_part(params: &Params, factor: Factor, part: MeshPart, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let written = Written {
             tau0: params.tau0,
@@ -262,7 +264,7 @@ impl EhlMixed {
         mu: &mut [f64],
         mut seen: impl FnMut(&Place<'_>, &Settled),
     ) -> (Tally, f64) {
-        let oil = self.fluid.at(Supplied {
+        let oil = self.fluid.for_supply(Supplied {
             temperature: path.temperature,
             nu: path.nu,
             eta: path.eta,
@@ -349,7 +351,7 @@ impl ToothFrictionModel for EhlMixed {
             at.branch("at standstill: boundary friction, the limit without a film");
             return Ok(at.observe(&MU, self.fluid.rheology.mu_b));
         }
-        let oil = self.fluid.at(Supplied {
+        let oil = self.fluid.for_supply(Supplied {
             temperature: at.temperature,
             nu: at.nu,
             eta: at.eta,

@@ -15,7 +15,7 @@ pub enum Support {}
 pub struct SupportPlace {
     /// Member in the bore: a shaft.
     pub shaft: String,
-    /// Member around the bearing, such as an idler gear; absent, the housing.
+    /// Member around the bearing, such as an idler gear; default: the housing.
     pub outer: Option<String>,
     /// Position along the shaft. [mm]
     #[schemars(range(min = -1e5, max = 1e5))]
@@ -38,10 +38,10 @@ pub struct SupportPlace {
     /// The bearing takes the tilting moment of a shaft that it supports alone.
     #[serde(default)]
     pub takes_moment: bool,
-    /// Radial stiffness; absent, rigid. Used if more than two bearings support the shaft. [N/mm]
+    /// Radial stiffness; default: rigid. Used if more than two bearings support the shaft. [N/mm]
     #[schemars(range(min = 1.0, max = 1e9))]
     pub radial_stiffness: Option<f64>,
-    /// Tilting stiffness; absent, none. Used if more than two bearings support the shaft. [Nm/rad]
+    /// Tilting stiffness; default: none. Used if more than two bearings support the shaft. [Nm/rad]
     #[schemars(range(min = 1.0, max = 1e9))]
     pub tilting_stiffness: Option<f64>,
     /// Oil height above the axis, if the bearing has a separate oil pocket. [mm]

@@ -25,7 +25,8 @@ impl Path {
 
     /// The path of a pair with its load sharing, with as many points on each smooth section as the friction law requires.
     ///
-    /// # Errors If the contact ratio is too high, as a sentence.
+    /// # Errors
+    /// If the contact ratio is too high, as a sentence.
     pub fn new(pair: &Pair, sharing: LoadSharing, order: usize) -> Result<Self, String> {
         let points = pair.graded_path(sharing, order);
         if points.len() > Self::MOST {
@@ -59,7 +60,7 @@ impl Path {
             .map(|(p, n)| p.weight / pair.base_pitch * p.share * n.sliding)
             .collect();
         Self {
-            extent: PathExtent::of(&nodes),
+            extent: PathExtent::from_nodes(&nodes),
             nodes,
             points,
             weights,
@@ -100,8 +101,8 @@ impl Path {
     }
 
     /// The path at one operating point.
-    pub fn at<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
-        PathAt::of(&self.nodes, &self.extent, self.length, mean, notes)
+    pub fn at_operating_point<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
+        PathAt::new(&self.nodes, &self.extent, self.length, mean, notes)
     }
 
     /// Runs a function with space for friction at each point; most paths need little, and zeroing more costs time.

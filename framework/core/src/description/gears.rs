@@ -29,44 +29,44 @@ pub struct GearEntry {
     /// External teeth, or a ring gear with internal teeth.
     #[serde(default)]
     pub kind: GearKind,
-    /// Profile shift coefficient; absent, the value that matches the centre distance. For a ring gear see `profile_shift_sign`. [-]
+    /// Profile shift coefficient; default: the value that matches the centre distance. For a ring gear see `profile_shift_sign`. [-]
     #[schemars(range(min = -3.0, max = 3.0))]
     pub profile_shift: Option<f64>,
-    /// Sign of a ring gear's `profile_shift`; absent, `outward`, with a warning. No effect for external teeth.
+    /// Sign of a ring gear's `profile_shift`; default: `outward`, with a warning. No effect for external teeth.
     pub profile_shift_sign: Option<ShiftSign>,
     /// Fixed to the shaft, or an idler gear that a coupling connects.
     #[serde(default)]
     pub mounted: Mounting,
     /// `none` for an idler gear without bearings in this description: it has no bearing loads and no bearing losses.
     pub bearings: Option<Unsupported>,
-    /// Tip diameter; absent, that of the standard basic rack. Required for ring gears, unless no model uses the tooth geometry.
+    /// Tip diameter; default: that of the standard basic rack. Required for ring gears, unless no model uses the tooth geometry.
     /// [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub tip_diameter: Option<f64>,
-    /// Root diameter; absent, that of the standard basic rack. [mm]
+    /// Root diameter; default: that of the standard basic rack. [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub root_diameter: Option<f64>,
-    /// Flanks; absent, those of the gearbox.
+    /// Flanks; default: those of the gearbox.
     pub surface: Option<Surface>,
     /// Oil height above the gear's axis, if it runs in a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
-    /// Oil; absent, that of the housing.
+    /// Oil; default: that of the housing.
     pub lubricant: Option<String>,
-    /// Temperature difference of the oil at the gear to that of the sump. [K]
+    /// Oil temperature at the gear minus that of the sump. [K]
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
     /// Factor on the drag losses of the gear, for effects that the model does not include; drags at a mesh use the mean of both
     /// gears. An identification may fit it. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
     /// Drag models of this gear by name; they replace those in `models`.
     pub drag: Option<NamedSlots<GearDrag>>,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -127,7 +127,7 @@ pub struct Surface {
     /// Arithmetic mean roughness of one flank. [um]
     #[schemars(range(min = 0.001, max = 50.0))]
     pub ra: f64,
-    /// Root mean square roughness of one flank; absent, 1.25 times `ra`. [um]
+    /// Root mean square roughness of one flank; default: 1.25 times `ra`. [um]
     #[schemars(range(min = 0.001, max = 50.0))]
     pub rq: Option<f64>,
 }
@@ -148,7 +148,7 @@ pub struct MeshEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub helix_angle: f64,
-    /// Working centre distance; absent, that of the axes or of the profile shifts. [mm]
+    /// Working centre distance; default: that of the axes or of the profile shifts. [mm]
     #[schemars(range(min = 0.5, max = 1e5))]
     pub centre_distance: Option<f64>,
     /// Double-helical gears: the axial forces of both halves cancel.
@@ -165,18 +165,18 @@ pub struct MeshEntry {
     /// Tip shortening maintains the tip clearance of external gears with profile shift.
     #[serde(default = "yes")]
     pub tip_shortening: bool,
-    /// Oil; absent, that of the housing.
+    /// Oil; default: that of the housing.
     pub lubricant: Option<String>,
-    /// Temperature difference of the oil in the mesh to that of the sump. [K]
+    /// Oil temperature in the mesh minus that of the sump. [K]
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
     /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
     /// may fit it. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
-    /// Loss model of the mesh; absent, that of `models`.
+    /// Loss model of the mesh; default: that of `models`.
     pub model: Option<ModelRef<GearMesh>>,
     /// Drag models of this mesh by name; they replace those in `models`.
     pub drag: Option<NamedSlots<GearDrag>>,
@@ -206,7 +206,7 @@ pub struct PlanetarySetEntry {
     /// Shafts that are the planet bodies; each represents all of its equal copies.
     #[schemars(length(min = 1))]
     pub planets: Vec<String>,
-    /// Reference shaft of the drag model, which takes its moment, such as the input; absent, the carrier. A table over its speed is
+    /// Reference shaft of the drag model, which takes its moment, such as the input; default: the carrier. A table over its speed is
     /// valid for the ratio to the carrier at which it was made.
     pub reference: Option<String>,
     /// Size of the gearbox in its family, for drag tables with that axis. [mm]
@@ -215,17 +215,17 @@ pub struct PlanetarySetEntry {
     /// Ratio of the gearbox in its family, for drag tables with that axis. [-]
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub ratio: Option<f64>,
-    /// Oil; absent, that of the housing.
+    /// Oil; default: that of the housing.
     pub lubricant: Option<String>,
-    /// Temperature difference of the oil at the set to that of the sump. [K]
+    /// Oil temperature at the set minus that of the sump. [K]
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
     /// Factor on the drag loss of the set, for effects that the model does not include. An identification may fit it. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
-    /// Drag model of the carrier with its planets; absent, that of `models`.
+    /// Drag model of the carrier with its planets; default: that of `models`.
     pub model: Option<ModelRef<PlanetaryDrag>>,
 }
 

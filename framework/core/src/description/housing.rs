@@ -16,7 +16,7 @@ pub struct HousingEntry {
     pub section: Option<CaseSection>,
     /// Gap between the gears and the wall.
     pub clearance: Option<WallClearance>,
-    /// The outside of the housing, for heat dissipation models.
+    /// The outside the housing, for heat dissipation models.
     pub outside: Option<OutsideEntry>,
     /// Road grade: rotation of the housing about y, nose up positive. [deg]
     #[serde(default)]
@@ -36,10 +36,10 @@ pub struct OilEntry {
     /// Volume. [l]
     #[schemars(range(min = 0.001, max = 1e4))]
     pub volume: Option<f64>,
-    /// Oil height above the datum at standstill; absent, no part is immersed. [mm]
+    /// Oil height above the datum at standstill; default: no part is immersed. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
-    /// Datum: the axis of this shaft at x = 0; absent, the origin of the housing.
+    /// Datum: the axis of this shaft at x = 0; default: the origin of the housing.
     pub measured_from: Option<String>,
     /// Oil height while rotating: a height, or heights over the speed of a shaft.
     pub running_level: Option<Running>,
@@ -94,7 +94,7 @@ pub struct WallClearance {
     pub axial: f64,
 }
 
-/// The outside of the housing, where it dissipates heat to the air.
+/// The outside the housing, where it dissipates heat to the air.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 pub struct OutsideEntry {
     /// Length, width and height of a box around the housing; used for omitted values. [mm]
@@ -105,16 +105,16 @@ pub struct OutsideEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e7))]
     pub mounting_area: f64,
-    /// Area that dissipates heat to the air, without fins; absent, that of the box without its mounting face. [cm2]
+    /// Area that dissipates heat to the air, without fins; default: that of the box without its mounting face. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub area: Option<f64>,
-    /// Oil-wetted inside area; absent, the outside area. [cm2]
+    /// Oil-wetted inside area; default: the outside area. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub oil_area: Option<f64>,
-    /// Height; absent, that of the box. [mm]
+    /// Height; default: that of the box. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub height: Option<f64>,
-    /// Length along the air flow; absent, that of the box. [mm]
+    /// Length along the air flow; default: that of the box. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub length: Option<f64>,
     /// Thickness of the wall. [mm]

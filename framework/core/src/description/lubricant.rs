@@ -10,27 +10,27 @@ pub struct LubricantEntry {
     pub designation: Option<String>,
     /// Kind; selects typical properties. Default: that of the catalogue, else mineral.
     pub kind: Option<LubricantKind>,
-    /// Viscosity over temperature; absent, that of the catalogue.
+    /// Viscosity over temperature; default: that of the catalogue.
     pub viscosity: Option<ViscosityEntry>,
-    /// Density at a reference temperature; absent, that of the catalogue, else by kind.
+    /// Density at a reference temperature; default: that of the catalogue, else by kind.
     pub density: Option<DensityEntry>,
     /// How viscosity increases with pressure.
     #[serde(default)]
     pub pressure_viscosity: PressureViscosityEntry,
-    /// Thermal conductivity; absent, according to Cragoe for petroleum oils. [W/(m K)]
+    /// Thermal conductivity; default: according to Cragoe for petroleum oils. [W/(m K)]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub conductivity: Option<f64>,
-    /// Specific heat; absent, according to Cragoe for petroleum oils. [J/(kg K)]
+    /// Specific heat; default: according to Cragoe for petroleum oils. [J/(kg K)]
     #[schemars(range(min = 500.0, max = 5000.0))]
     pub heat_capacity: Option<f64>,
-    /// Coefficient of boundary friction in rolling bearings; absent, that of the model. [-]
+    /// Coefficient of boundary friction in rolling bearings; default: that of the model. [-]
     #[schemars(range(min = 0.01, max = 0.3))]
     pub mu_bl: Option<f64>,
-    /// Coefficient of full-film friction in rolling bearings; absent, by kind: 0.05 mineral, 0.04 synthetic, 0.1
+    /// Coefficient of full-film friction in rolling bearings; default: by kind: 0.05 mineral, 0.04 synthetic, 0.1
     /// transmission fluid. [-]
     #[schemars(range(min = 0.001, max = 0.2))]
     pub mu_ehl: Option<f64>,
-    /// Lubricant factor of mean mesh friction; absent, by kind: 1 mineral and transmission fluid, 0.8
+    /// Lubricant factor of mean mesh friction; default: by kind: 1 mineral and transmission fluid, 0.8
     /// polyalphaolefin and ester, 0.75 polyglycol. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
@@ -44,7 +44,7 @@ pub struct RheologyEntry {
     /// Eyring stress, above which the oil is shear-thinning; typically 3 to 8. [MPa]
     #[schemars(range(min = 0.1, max = 50.0))]
     pub tau0: Option<f64>,
-    /// Exponent of Roelands' law over pressure; absent, the one that reproduces the oil's pressure-viscosity coefficient at 40
+    /// Exponent of Roelands' law over pressure; default: the one that reproduces the oil's pressure-viscosity coefficient at 40
     /// degC. [-]
     #[schemars(range(min = 0.1, max = 1.5))]
     pub z: Option<f64>,
@@ -52,7 +52,7 @@ pub struct RheologyEntry {
     /// polyalphaolefins, 0.07 to 0.09 for mineral oils. [-]
     #[schemars(range(min = 0.005, max = 0.2))]
     pub limiting_slope: Option<f64>,
-    /// Effective shear modulus of film and surfaces; absent, that of the model. [GPa]
+    /// Effective shear modulus of film and surfaces; default: that of the model. [GPa]
     #[schemars(range(min = 0.001, max = 10.0))]
     pub shear_modulus: Option<f64>,
     /// Coefficient of boundary friction between flanks. [-]
@@ -101,7 +101,7 @@ pub struct ViscosityEntry {
     #[schemars(range(min = 50.0, max = 300.0))]
     pub vogel_c: f64,
     /// Factor on the viscosity at every temperature, for a sheared, diluted or oxidised oil, or for identification. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub factor: f64,
 }
@@ -115,12 +115,12 @@ impl Default for ViscosityEntry {
             points: Vec::new(),
             law: ViscosityLaw::default(),
             vogel_c: vogel_c(),
-            factor: one(),
+            factor: default_one(),
         }
     }
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -162,13 +162,13 @@ pub struct DensityEntry {
     #[serde(default = "fifteen")]
     #[schemars(range(min = -50.0, max = 150.0))]
     pub at: f64,
-    /// Density; absent, by kind: 900 mineral, 855 polyalphaolefin, 915 ester, 1059 polyglycol, 850 transmission fluid. [kg/m3]
+    /// Density; default: by kind: 900 mineral, 855 polyalphaolefin, 915 ester, 1059 polyglycol, 850 transmission fluid. [kg/m3]
     #[schemars(range(min = 500.0, max = 1300.0))]
     pub value: Option<f64>,
     /// Decrease with temperature.
     #[serde(default)]
     pub law: DensityLaw,
-    /// Relative decrease of the density per degree, for the linear law; absent, by kind. [1/K]
+    /// Relative decrease of the density per degree, for the linear law; default: by kind. [1/K]
     #[schemars(range(min = 0.0, max = 0.002))]
     pub expansion: Option<f64>,
 }

@@ -61,7 +61,7 @@ pub struct NodeEntry {
     /// Temperature of a node with prescribed temperature. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub temperature: Option<f64>,
-    /// Temperature at the start of a cycle; absent, that of the analysis. [degC]
+    /// Temperature at the start of a cycle; default: that of the analysis. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub start: Option<f64>,
     /// Parts whose loss heats the node and whose oil has its temperature, such as `bearings.B1` or `gears.*.drag`. A part named by
@@ -92,11 +92,11 @@ pub struct LinkEntry {
     /// Model of the conductance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelRef<HeatLink>>,
-    /// Shaft or idler gear whose speed the model uses; absent, that of `gear`.
+    /// Shaft or idler gear whose speed the model uses; default: that of `gear`.
     pub shaft: Option<String>,
     /// Gear whose geometry the model uses, and whose speed if no shaft is named.
     pub gear: Option<String>,
-    /// Oil whose properties the model uses; absent, that of the housing.
+    /// Oil whose properties the model uses; default: that of the housing.
     pub lubricant: Option<String>,
 }
 
@@ -110,7 +110,7 @@ pub struct FlowEntry {
     /// Mass flow times specific heat; not with `share`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub capacity: Option<f64>,
-    /// Share of `oil_flow`; absent, all of it. [-]
+    /// Share of `oil_flow`; default: all of it. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: Option<f64>,
 }
@@ -122,7 +122,7 @@ pub struct ExchangerEntry {
     pub from: String,
     /// Node of the oil after the exchanger.
     pub to: String,
-    /// Mass flow times specific heat of the oil; absent, `oil_flow`. [W/K]
+    /// Mass flow times specific heat of the oil; default: `oil_flow`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub capacity: Option<f64>,
     /// Conductance between oil and coolant. [W/K]

@@ -144,11 +144,11 @@ pub struct Pair {
     pub helix_angle: f64,
     /// Transverse pressure angle. \[rad\]
     pub transverse_angle: f64,
-    /// Sine of `working_angle`, which mesh losses use at every point.
+    /// Working transverse pressure angle. \[rad\]
     pub working_angle: f64,
     /// Base helix angle. \[rad\]
     pub base_helix: f64,
-    /// Sine of `working_angle`, which mesh losses ask for at every point.
+    /// Sine of `working_angle`, which mesh losses use at every point.
     pub sin_working_angle: f64,
     /// Cosine of `base_helix`, likewise.
     pub cos_base_helix: f64,
@@ -206,7 +206,8 @@ impl Pair {
 
     /// Computes the geometry.
     ///
-    /// # Errors All faults that make the pair impossible.
+    /// # Errors
+    /// All faults that make the pair impossible.
     pub fn new(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
         Self::solve(spec, true)
     }
@@ -216,7 +217,8 @@ impl Pair {
     /// line of action. A missing tip diameter is that of the standard basic rack. The path of contact is a point, all contact
     /// ratios are zero.
     ///
-    /// # Errors Faults other than those of [`PairFault::is_of_teeth`].
+    /// # Errors
+    /// Faults other than those of [`PairFault::is_of_teeth`].
     pub fn schematic(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
         Self::solve(spec, false)
     }

@@ -129,7 +129,7 @@ fn section(mechanism: &MechanismEntry, schemas: &[Schema]) -> Value {
         );
     }
     let mut slot = model_ref(mechanism.key);
-    slot["description"] = json!("Loss model; absent, that of `models`.");
+    slot["description"] = json!("Loss model; default: that of `models`.");
     fields.insert(
         "model".to_owned(),
         json!({ "allOf": [model_ref(mechanism.key)], "description": slot["description"] }),

@@ -101,7 +101,8 @@ pub(super) struct Axially {
 
 impl ShaftLoads {
     /// Solves the unit cases.
-    /// # Errors All faults of the arrangement.
+    /// # Errors
+    /// All faults of the arrangement.
     /// Every fault of the arrangement.
     pub fn new(layout: &Layout) -> Result<Self, Vec<LoadFault>> {
         let n = layout.members.len();

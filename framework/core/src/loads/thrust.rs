@@ -20,7 +20,8 @@ pub struct Taking {
 impl Taking {
     /// The arrangement of a member with these supports.
     ///
-    /// # Errors If several supports can take one thrust and no shares are stated: the supports, and true for a thrust towards +x.
+    /// # Errors
+    /// If several supports can take one thrust and no shares are stated: the supports, and true for a thrust towards +x.
     pub fn new(supports: &[(usize, SupportLayout)]) -> Result<Self, Vec<(Vec<usize>, bool)>> {
         let mut open = Vec::new();
         let takers = [false, true].map(|right| {

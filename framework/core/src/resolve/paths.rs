@@ -1,4 +1,4 @@
-//! Paths into the resolved document: keys joined by dots; `*` stands for one key.
+//! Paths into the resolved document: keys joined by dots; `*` matches one key.
 
 use serde_json::Value;
 
@@ -18,7 +18,7 @@ fn step<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
     }
 }
 
-/// True where a path, or one above it, is met by a pattern, `*` standing for any key.
+/// True if a pattern matches a path or one above it; `*` matches any key.
 pub fn meets(pattern: &str, path: &str) -> bool {
     let mut keys = path.split('.');
     pattern == path
@@ -27,8 +27,8 @@ pub fn meets(pattern: &str, path: &str) -> bool {
             .all(|own| keys.next().is_some_and(|key| own == "*" || own == key))
 }
 
-/// All paths that a pattern meets, in the order of the document. The last key may be absent where its parent exists: the
-/// schema then says whether it may be written.
+/// All paths that a pattern matches, in the order of the document. The last key may be missing if its parent exists: the schema
+/// then decides whether it may be written.
 pub fn matches(value: &Value, pattern: &str) -> Vec<String> {
     let keys: Vec<&str> = pattern.split('.').collect();
     let mut found = Vec::new();
@@ -70,7 +70,7 @@ fn descend(value: &Value, keys: &[&str], path: &mut String, found: &mut Vec<Stri
     }
 }
 
-/// Writes a value at a path whose parent exists; false where it does not.
+/// Writes a value at a path whose parent exists; otherwise false.
 pub(super) fn write(value: &mut Value, path: &str, new: Value) -> bool {
     let (parent, key) = path
         .rsplit_once('.')
@@ -103,7 +103,7 @@ pub(super) fn write(value: &mut Value, path: &str, new: Value) -> bool {
     }
 }
 
-/// The file that holds a table whose values a path means.
+/// The file of a table, for a path to its values.
 fn file_of<'a>(at: &'a Value, path: &str, key: &str) -> Option<&'a str> {
     if path.rsplit('.').next() == Some("file") {
         return at.as_str();
@@ -112,7 +112,7 @@ fn file_of<'a>(at: &'a Value, path: &str, key: &str) -> Option<&'a str> {
     at.get("file").and_then(Value::as_str).filter(|_| means_values)
 }
 
-/// The error for a pattern that meets nothing: names the first key that fails.
+/// The error for a pattern without a match: names the first key that fails.
 pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
     let mut at = value;
     let mut good = String::new();
@@ -146,13 +146,13 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             let keys: Vec<&str> = at.as_object().into_iter().flatten().map(|(k, _)| k.as_str()).collect();
             if ["models", "model_sets"].contains(&key) {
                 return error.help(
-                    "in the resolved document each component has its own model: write `meshes.*.model.x_l`, say",
+                    "in the resolved document each component has its own model: write `meshes.*.model.x_l`, for example",
                 );
             }
             let error = if keys.is_empty() {
                 error
             } else {
-                error.note(format!("there are: {}", keys.join(", ")))
+                error.note(format!("available: {}", keys.join(", ")))
             };
             return match did_you_mean(key, keys.iter().copied()) {
                 Some(close) => error.help(format!("write `{close}`")),
@@ -165,7 +165,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
         good.push_str(key);
         at = next;
     }
-    missing(pattern, "the path meets nothing")
+    missing(pattern, "the path matches nothing")
 }
 
 /// A path that the resolved description does not have.
@@ -209,12 +209,12 @@ mod tests {
             matches(&value, "seals.D1.model.values.*"),
             ["seals.D1.model.values.0", "seals.D1.model.values.1"]
         );
-        let said = |path: &str| {
+        let message = |path: &str| {
             let error = no_match(&value, path);
             format!("{}; {}", error.message, error.help.unwrap_or_default())
         };
         assert_eq!(
-            said("seals.D1.model.values.2"),
+            message("seals.D1.model.values.2"),
             "`seals.D1.model.values` is a list and has no entry `2`; write a number from 0 to 1, or `*` for all"
         );
         for path in [
@@ -223,7 +223,7 @@ mod tests {
             "seals.D2.model.file.1",
         ] {
             assert!(
-                said(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
+                message(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
             );
         }
     }

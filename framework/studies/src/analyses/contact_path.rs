@@ -261,9 +261,11 @@ impl ContactPathEntry {
         let mut build = Build::new(cx.language.registry(), &built.gearbox.files);
         let friction = Friction::new(&mut build, &format!("meshes.{}.model", self.mesh), &part, model);
         let friction = friction.map_err(|error| cx.found(vec![error]))?;
-        let mean = MeanFrictionAt::of(at, Notes::MUTED);
+        let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
         let fine = Path::even(&part.pair, sharing, self.places as usize);
-        let along = fine.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
+        let along = fine
+            .at_operating_point(&mean, Notes::MUTED)
+            .with(|to| to.bodies = at.bodies());
         let loaded = at.speed != 0.0 && at.torque != 0.0;
         let mu = if loaded {
             friction.coefficients(&along, &mean, fine.len())

@@ -7,7 +7,7 @@ use serde_json::Value;
 use gearloss_framework::loads::LEAST_STATIC_SAFETY;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::registry::{Evidence, Instance};
-use gearloss_framework::resolve::{Came, Resolved, lookup};
+use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 
 /// Name of the note of a bearing's static safety.
@@ -150,7 +150,7 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
             }
             let path = format!("{}.{}", instance.path, graded.key);
             let value = lookup(&resolved.value, &path);
-            let own = written(&path) || *resolved.came(&path) == Came::Override;
+            let own = written(&path) || *resolved.source_of(&path) == ValueSource::Override;
             // A parameter with a default that nobody wrote, or one that the model fills itself.
             if !own || value.is_none_or(Value::is_null) {
                 add(
@@ -162,12 +162,16 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
             }
         }
     }
-    for (path, _) in resolved.came.iter().filter(|(_, came)| **came == Came::Network) {
+    for (path, _) in resolved
+        .sources
+        .iter()
+        .filter(|(_, came)| **came == ValueSource::Network)
+    {
         let because = "capacities and conductances by size";
         add("network: auto".to_owned(), Evidence::Assumed, because, path);
     }
-    for (path, came) in &resolved.came {
-        if let Came::Catalogue {
+    for (path, came) in &resolved.sources {
+        if let ValueSource::Catalogue {
             designation,
             confidence,
         } = came

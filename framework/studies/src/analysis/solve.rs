@@ -1,7 +1,7 @@
 //! Points of a field, solved one by one or, where several have speed and temperature in common, side by side.
 
 use super::{Given, OilTemperature, PointResult, Points, sums};
-use gearloss_framework::evaluate::{Block, Point, PowerFlow, RowScratch, Scratch, Solution};
+use gearloss_framework::evaluate::{BatchScratch, Block, Point, PowerFlow, Scratch, Solution};
 use gearloss_framework::lanes::{LANES, Lane};
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::{Case, Transmission};
@@ -26,7 +26,7 @@ pub(super) struct Solver<'a> {
 /// Space for solving; as many as tasks are solved at once.
 pub(super) struct Space {
     single: Scratch,
-    rows: Option<RowScratch>,
+    rows: Option<BatchScratch>,
     results: Vec<PointResult>,
     /// Room for the parts of points.
     spare: Vec<Vec<f64>>,
@@ -173,9 +173,9 @@ impl<'a> Solver<'a> {
             flow: self.points.flow,
             ..Point::default()
         };
-        let rows = rows.get_or_insert_with(|| self.transmission.row_scratch(self.case));
+        let rows = rows.get_or_insert_with(|| self.transmission.batch_scratch(self.case));
         let temperature = [oil];
-        let mut row = self.transmission.row(self.case, &point, &temperature, rows);
+        let mut row = self.transmission.batch(self.case, &point, &temperature, rows);
         // Where the torque turns so do the drivers, which the points of a block have in common.
         let torque = |number: &usize| self.points.field.at(*number).torque;
         let blocks = run

@@ -56,7 +56,8 @@ pub struct MeshFluid {
 impl MeshFluid {
     /// The oil of a mesh; written values take precedence over those of the oil.
     ///
-    /// # Errors All values that neither states.
+    /// # Errors
+    /// All values that neither states.
     pub fn new(written: Written, oil: Option<&MeshOil>, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let own = oil.map(|oil| *oil.lubricant.rheology()).unwrap_or_default();
         let mut missing = Vec::new();
@@ -92,7 +93,7 @@ impl MeshFluid {
     }
 
     /// The oil at one operating point.
-    pub fn at(&self, supplied: Supplied) -> Oil<'_> {
+    pub fn for_supply(&self, supplied: Supplied) -> Oil<'_> {
         let z = || {
             self.z
                 .unwrap_or_else(|| Roelands::exponent(supplied.alpha, supplied.eta))

@@ -103,7 +103,7 @@ fn heat(t: &Transmission, driven: &Driven) -> Option<HeatOfDuty> {
     let is_held = |i: usize| network.is_some_and(|n| n.is_held(i));
     let takes = |i: usize, heat: Option<&f64>| heat.is_some_and(|heat| is_held(i) || *heat != 0.0);
     Some(HeatOfDuty {
-        came_j: total.came(),
+        came_j: total.heat_input(),
         stored_j: total.stored,
         held: named()
             .filter(|(i, _)| is_held(*i))
@@ -118,7 +118,7 @@ fn heat(t: &Transmission, driven: &Driven) -> Option<HeatOfDuty> {
             })
             .collect(),
         carried_away_j: total.flows,
-        residual_share: total.residual().abs() / total.came().abs().max(1e-300),
+        residual_share: total.residual().abs() / total.heat_input().abs().max(1e-300),
         sources_j: total.sources,
         taken: named()
             .filter(|(i, _)| takes(*i, total.held.get(*i)))

@@ -161,6 +161,6 @@ impl Swept {
 fn own_index(document: &Value, oil: &str) -> Option<f64> {
     let entry: LubricantEntry = serde_json::from_value(lookup(document, oil)?.clone()).ok()?;
     let lubricant = Lubricant::new(&entry).ok()?;
-    let [kv40, kv100] = [40.0, 100.0].map(|t| lubricant.at(t).nu * 1e6);
+    let [kv40, kv100] = [40.0, 100.0].map(|t| lubricant.oil_at(t).nu * 1e6);
     index(kv40, kv100)
 }

@@ -248,7 +248,7 @@ pub fn left(transmission: &Transmission, solved: &GridResult) -> usize {
 /// The models of a mechanism that take part where none are named.
 fn takes_part<'a>(registry: &'a Registry, mechanism: &'a str) -> impl Iterator<Item = &'a Entry> {
     let models = registry.models(mechanism);
-    models.filter(|model| model.source != "the user's own" && model.name != "none")
+    models.filter(|model| !model.is_user_defined() && model.name != "none")
 }
 
 /// A model with its defaults: where it cannot do without models of its own, as an integral over the path of contact without a law

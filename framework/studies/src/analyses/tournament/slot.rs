@@ -2,7 +2,7 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::language::{DRAGS, HELD, Language};
-use gearloss_framework::resolve::{Came, Resolved};
+use gearloss_framework::resolve::{Resolved, ValueSource};
 use gearloss_framework::transmission::PartInfo;
 use serde_json::{Map, Value};
 
@@ -136,7 +136,7 @@ impl Slot {
 
 /// True where a model came from a set or the defaults by mechanism.
 fn taken_over(resolved: &Resolved, path: &str) -> bool {
-    matches!(resolved.came(path), Came::Models | Came::Set(_))
+    matches!(resolved.source_of(path), ValueSource::Models | ValueSource::Set(_))
 }
 
 fn checked(language: &Language, model: &Value, path: &str) -> Result<Value, String> {
