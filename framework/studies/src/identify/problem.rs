@@ -491,34 +491,20 @@ fn is_out(parameter: &Identified) -> bool {
 }
 
 /// What is wrong with an identification as it is stated.
+#[derive(thiserror::Error)]
 pub enum Faults {
     /// Faults of the study, with paths below the analysis.
+    #[error("{}", .0.iter().map(|found| format!("{found}\n")).collect::<String>())]
     Study(Vec<Diagnostic>),
     /// Faults of the gearbox.
-    Gearbox(Findings),
-}
-
-impl std::fmt::Display for Faults {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Gearbox(findings) => f.write_str(&findings.render()),
-            Self::Study(list) => list.iter().try_for_each(|found| writeln!(f, "{found}")),
-        }
-    }
+    #[error(transparent)]
+    Gearbox(#[from] Findings),
 }
 
 /// As shown, because a `main` that returns an error prints it so.
 impl std::fmt::Debug for Faults {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         std::fmt::Display::fmt(self, f)
-    }
-}
-
-impl std::error::Error for Faults {}
-
-impl From<Findings> for Faults {
-    fn from(findings: Findings) -> Self {
-        Self::Gearbox(findings)
     }
 }
 
