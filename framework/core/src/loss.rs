@@ -564,12 +564,6 @@ impl<'a> Notes<'a> {
         self.book.cells.is_empty() && self.book.trace.is_none()
     }
 
-    /// True when the steps are written down.
-    #[inline]
-    pub fn is_traced(&self) -> bool {
-        self.book.trace.is_some()
-    }
-
     /// Notes whether a value, in the limit's unit, is in its stated range. Returns the value.
     #[inline]
     pub fn check(&self, limit: &Limit, x: f64) -> f64 {

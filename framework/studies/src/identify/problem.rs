@@ -494,11 +494,16 @@ fn is_out(parameter: &Identified) -> bool {
 #[derive(thiserror::Error)]
 pub enum Faults {
     /// Faults of the study, with paths below the analysis.
-    #[error("{}", .0.iter().map(|found| format!("{found}\n")).collect::<String>())]
+    #[error("{}", lines(.0))]
     Study(Vec<Diagnostic>),
     /// Faults of the gearbox.
     #[error(transparent)]
     Gearbox(#[from] Findings),
+}
+
+fn lines(list: &[Diagnostic]) -> String {
+    list.iter()
+        .fold(String::new(), |text, found| text + &found.to_string() + "\n")
 }
 
 /// As shown, because a `main` that returns an error prints it so.
