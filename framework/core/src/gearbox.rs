@@ -34,6 +34,8 @@ pub struct Gearbox {
 }
 
 /// Findings with the source texts that they refer to.
+#[derive(thiserror::Error)]
+#[error("{}", self.render())]
 pub struct Findings {
     /// The findings.
     pub list: Vec<Diagnostic>,
@@ -87,12 +89,6 @@ impl Findings {
     }
 }
 
-impl std::fmt::Display for Findings {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.render())
-    }
-}
-
 /// As rendered, because a `main` that returns an error prints its debug form.
 impl std::fmt::Debug for Findings {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -106,8 +102,6 @@ impl Serialize for Findings {
         serializer.collect_seq(self.placed())
     }
 }
-
-impl std::error::Error for Findings {}
 
 /// Findings without a source text.
 impl From<Vec<Diagnostic>> for Findings {

@@ -181,21 +181,14 @@ impl Loss {
 }
 
 /// A formula is undefined. Small and without an owned text, so that it is free in a map.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("undefined: {what} = {value:.6}")]
 pub struct Undefined {
     /// The quantity or condition that is outside the formula's domain.
     pub what: &'static str,
     /// Its value, in the unit stated by `what`.
     pub value: f64,
 }
-
-impl std::fmt::Display for Undefined {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "undefined: {} = {:.6}", self.what, self.value)
-    }
-}
-
-impl std::error::Error for Undefined {}
 
 /// The range in which a source states its formula to be valid. Outside it the model still returns a result, and this is noted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -569,12 +562,6 @@ impl<'a> Notes<'a> {
     #[inline]
     pub fn is_muted(&self) -> bool {
         self.book.cells.is_empty() && self.book.trace.is_none()
-    }
-
-    /// True when the steps are written down.
-    #[inline]
-    pub fn is_traced(&self) -> bool {
-        self.book.trace.is_some()
     }
 
     /// Notes whether a value, in the limit's unit, is in its stated range. Returns the value.

@@ -1,7 +1,5 @@
 //! Findings: message, place and help.
 
-use std::fmt;
-
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde::Serialize;
 
@@ -20,7 +18,8 @@ pub enum Severity {
 }
 
 /// One finding.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}", self.line())]
 pub struct Diagnostic {
     /// Severity.
     pub severity: Severity,
@@ -112,6 +111,15 @@ impl Diagnostic {
             format!("{}: {}", self.path, self.message)
         }
     }
+
+    /// The finding in one line with its help.
+    fn line(&self) -> String {
+        let title = self.title();
+        match &self.help {
+            Some(help) => format!("{title} (help: {help})"),
+            None => title,
+        }
+    }
 }
 
 /// Gives a code to all findings that have none.
@@ -120,18 +128,6 @@ pub fn classify(findings: &mut [Diagnostic], code: Code) {
         finding.code.get_or_insert(code);
     }
 }
-
-impl fmt::Display for Diagnostic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.title())?;
-        if let Some(help) = &self.help {
-            write!(f, " (help: {help})")?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for Diagnostic {}
 
 /// A finding with its places in files, which it keeps without the texts. Serialised it is a finding of `check --format json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

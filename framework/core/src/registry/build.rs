@@ -38,7 +38,7 @@ impl Files {
         Self::from_source(Disk::shared(), folder)
     }
 
-    /// Files of a source beside a document in this folder.
+    /// Files of a source, relative to this folder.
     pub fn from_source(source: SharedSource, folder: impl Into<PathBuf>) -> Self {
         Self {
             folder: folder.into(),

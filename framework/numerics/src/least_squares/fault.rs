@@ -32,6 +32,12 @@ impl Finding {
 }
 
 impl Fault {
+    /// The errors, each on its line.
+    fn lines(&self) -> String {
+        let lines: Vec<String> = self.findings.iter().map(ToString::to_string).collect();
+        lines.join("\n")
+    }
+
     /// One error: place, message and help.
     pub fn single(place: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Finding::new(place, message, help).into()
@@ -45,16 +51,3 @@ impl From<Finding> for Fault {
         }
     }
 }
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, finding) in self.findings.iter().enumerate() {
-            let separator = if i == 0 { "" } else { "\n" };
-            let Finding { place, message, help } = finding;
-            write!(f, "{separator}{place}: {message}; {help}")?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for Fault {}

@@ -497,27 +497,15 @@ pub enum Faults {
     Gearbox(Findings),
 }
 
-impl std::fmt::Display for Faults {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Gearbox(findings) => f.write_str(&findings.render()),
-            Self::Study(list) => list.iter().try_for_each(|found| writeln!(f, "{found}")),
-        }
-    }
+fn lines(list: &[Diagnostic]) -> String {
+    list.iter()
+        .fold(String::new(), |text, found| text + &found.to_string() + "\n")
 }
 
 /// As `Display`, because a `main` that returns an error prints `Debug`.
 impl std::fmt::Debug for Faults {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         std::fmt::Display::fmt(self, f)
-    }
-}
-
-impl std::error::Error for Faults {}
-
-impl From<Findings> for Faults {
-    fn from(findings: Findings) -> Self {
-        Self::Gearbox(findings)
     }
 }
 

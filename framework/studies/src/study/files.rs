@@ -137,7 +137,10 @@ impl Study {
         });
         if !unusable.is_empty() {
             return Err(Findings {
-                list: unusable.into_iter().map(|d| walked.places.place(d)).collect(),
+                list: unusable
+                    .into_iter()
+                    .map(|d| walked.places.place(d).code(codes::STUDY))
+                    .collect(),
                 sources,
             });
         }
