@@ -3,9 +3,6 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use super::kink::Kink;
-use super::subproblem::How;
-
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reason {
@@ -94,6 +91,31 @@ pub enum Side {
     Upper,
 }
 
+/// Method that found a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum How {
+    /// The Gauss-Newton step is inside ball and bounds.
+    Shortcut,
+    /// Cone program.
+    Cone,
+    /// Dogleg after a failed cone program.
+    Fallback,
+    /// Dogleg by option.
+    Dogleg,
+}
+
+impl How {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shortcut => "gauss-newton",
+            Self::Cone => "cone program",
+            Self::Fallback => "dogleg, since the cone program had no answer",
+            Self::Dogleg => "dogleg",
+        }
+    }
+}
+
 /// One trial step.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Iteration {
@@ -155,6 +177,21 @@ pub struct Derivative {
     pub independence: f64,
     /// Whether each parameter is free but never had an effect on a residual.
     pub unseen: Vec<bool>,
+}
+
+/// A kink or jump at a minimum along one parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Kink {
+    /// The parameter that moves; all others follow.
+    pub parameter: usize,
+    /// Rows with discontinuous slope or value, in order.
+    pub rows: Vec<usize>,
+    /// All parameters on the lower and on the upper side, in their own units.
+    pub sides: [Vec<f64>; 2],
+    /// Increase of twice the cost to either side relative to a smooth minimum; absent if there is no value. \[-\]
+    pub steepness: [Option<f64>; 2],
+    /// Whether the value of the strongest row is discontinuous, not only its slope.
+    pub jumps: bool,
 }
 
 /// A fit.
