@@ -70,16 +70,16 @@ impl Varied {
         };
         for path in paths {
             let Some((unit, least, greatest)) = language.number_at(&resolved.value, &path) else {
-                return Err(varied_error(pattern, format!("`{path}` is no number"))
-                    .help("name the path of a quantity; `gearloss check --resolved` prints every path"));
+                return Err(varied_error(pattern, format!("`{path}` is not a number"))
+                    .help("use the path of a quantity; `gearloss check --resolved` prints every path"));
             };
             let base = lookup(&resolved.value, &path)
                 .and_then(Value::as_f64)
                 .map(|si| unit.from_si(si));
             match tie {
                 Tie::Factor if base.is_none() => {
-                    return Err(varied_error(pattern, format!("`{path}` has no value to be multiplied"))
-                        .help("state it in the gearbox, or leave `tie: factor` out"));
+                    return Err(varied_error(pattern, format!("`{path}` has no value to multiply"))
+                        .help("state it in the gearbox, or delete `tie: factor`"));
                 }
                 Tie::Factor => {}
                 Tie::Value => {

@@ -1,10 +1,10 @@
 //! Errors in the statement of a problem.
 
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
 /// One error of a problem.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[error("{place}: {message}; {help}")]
 pub struct Finding {
     /// Place: a parameter, a residual, an option.
     pub place: String,
@@ -15,7 +15,8 @@ pub struct Finding {
 }
 
 /// All errors of a problem.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[error("{}", self.lines())]
 pub struct Fault {
     /// The errors; never empty.
     pub findings: Vec<Finding>,

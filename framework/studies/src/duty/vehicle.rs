@@ -174,8 +174,8 @@ impl VehicleEntry {
             (Some(coast_down), None, None) => {
                 if self.air_density.is_some() {
                     let at = format!("{path}.air_density");
-                    return Err(vehicle_error(at, "a coast-down test holds the air's density already")
-                        .help("leave `air_density` out"));
+                    return Err(vehicle_error(at, "a coast-down test already includes the air density")
+                        .help("delete `air_density`"));
                 }
                 RoadLoad::CoastDown(coast_down)
             }
@@ -186,10 +186,10 @@ impl VehicleEntry {
             },
             (None, None, None) => return Err(vehicle_error(path, "no road load is stated").help(help)),
             (None, Some(_), None) => {
-                return Err(vehicle_error(path, "`rolling_resistance` is missing beside `drag_area`").help(help));
+                return Err(vehicle_error(path, "`drag_area` needs `rolling_resistance`").help(help));
             }
             (None, None, Some(_)) => {
-                return Err(vehicle_error(path, "`drag_area` is missing beside `rolling_resistance`").help(help));
+                return Err(vehicle_error(path, "`rolling_resistance` needs `drag_area`").help(help));
             }
             (Some(_), ..) => return Err(vehicle_error(path, "the road load is stated twice").help(help)),
         };

@@ -59,8 +59,8 @@ impl HoldOut {
                 .help("write one of `column`, `where`, `every` and `random`, such as `hold_out: torque > 1000 Nm`"));
         }
         if rows.seed.is_some() && rows.random.is_none() {
-            return Err(hold_out_error(place("seed"), "nothing is drawn at random here")
-                .help("leave `seed` out, or write `random`"));
+            return Err(hold_out_error(place("seed"), "`seed` applies to random groups only")
+                .help("delete `seed`, or write `random`"));
         }
         let (chosen, words) = choice(&rows, measured, &place)?;
         let of_kind = |held: bool| Measured {
@@ -83,7 +83,7 @@ impl HoldOut {
         if found.held_out.rows.is_empty() {
             return Err(
                 hold_out_error("hold_out", format!("none of {all} rows is held out ({})", found.words))
-                    .help("hold out rows that the data have, or leave `hold_out` out"),
+                    .help("select rows of the data, or delete `hold_out`"),
             );
         }
         if found.fitted.rows.is_empty() {
@@ -105,7 +105,7 @@ impl HoldOut {
         if left + priors >= parameters {
             return Ok(());
         }
-        let message = format!("{left} rows are left to be fitted, for {parameters} parameters");
+        let message = format!("{left} rows remain for the fit of {parameters} parameters");
         Err(hold_out_error("hold_out", message).help("hold out fewer rows, or identify fewer parameters"))
     }
 }
@@ -130,12 +130,9 @@ fn choice(
             if FITTED.contains(&cell.as_str()) {
                 return Ok(Some(false));
             }
-            let message = format!(
-                "line {}: `{cell}` in column `{column}` says neither yes nor no",
-                row.line
-            );
+            let message = format!("line {}: `{cell}` in column `{column}` is neither yes nor no", row.line);
             Err(hold_out_error(place("column"), message)
-                .help("write 1, true or yes in rows that are held out, 0, false, no or nothing in the others"))
+                .help("write 1, true or yes in held-out rows, and 0, false, no or nothing in the others"))
         };
         let held = measured.rows.iter().map(held).collect::<Result<_, _>>()?;
         return Ok((held, format!("column `{column}`")));
@@ -209,7 +206,7 @@ impl Identification<'_> {
         let measured = self.measured();
         let rows: Vec<&Row> = self.observations.iter().map(|o| &measured.rows[o.row]).collect();
         let too_few = |path: &str, message: String| {
-            hold_out_error(path, message).help("group by what differs between rows, or write `folds: 0` for none")
+            hold_out_error(path, message).help("group by a quantity that varies, or write `folds: 0` for none")
         };
         let values = |quantity: &str| {
             rows.iter()
@@ -226,8 +223,8 @@ impl Identification<'_> {
         let most = by.count.map_or(COUNT, |count| count as usize);
         let few = |message: String| too_few("folds.by", message);
         if by.seed.is_some() && by.by != "random" {
-            return Err(hold_out_error("folds.seed", "nothing is drawn at random here")
-                .help("leave `seed` out, or write `by: random`"));
+            return Err(hold_out_error("folds.seed", "`seed` applies to random groups only")
+                .help("delete `seed`, or write `by: random`"));
         }
         let found = match by.by.as_str() {
             "random" => {
@@ -249,7 +246,7 @@ impl Identification<'_> {
             quantity if measured.holds(quantity) => {
                 let Some(values) = values(quantity) else {
                     return Err(hold_out_error("folds.by", format!("some rows have no `{quantity}`"))
-                        .help("group by another quantity, or leave these rows out"));
+                        .help("group by another quantity, or omit these rows"));
                 };
                 return folds(&values, most).map_err(few);
             }
@@ -261,7 +258,7 @@ impl Identification<'_> {
     /// Groups of texts: bands if all are numbers, otherwise a group for each text.
     fn labelled(by: &FoldsBy, texts: Vec<String>, most: usize) -> Result<Vec<Fold>, Diagnostic> {
         let few = |message: String| {
-            hold_out_error("folds.by", message).help("group by what differs between rows, or write `folds: 0` for none")
+            hold_out_error("folds.by", message).help("group by a quantity that varies, or write `folds: 0` for none")
         };
         let numbers: Option<Vec<f64>> = texts
             .iter()
@@ -291,7 +288,7 @@ impl Identification<'_> {
                 found.len()
             );
             return Err(
-                hold_out_error("folds.by", message).help(format!("group by a column with {GROUPS} values at most"))
+                hold_out_error("folds.by", message).help(format!("group by a column with at most {GROUPS} values"))
             );
         }
         Ok(found)
@@ -317,8 +314,8 @@ fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, 
     let at = column_place(measured, name).map_err(|found| {
         let words = "torque, speed, oil_temperature, sign, random";
         if words.split(", ").any(|word| word == name) {
-            return hold_out_error("folds.by", format!("the data hold no `{name}`")).help(format!(
-                "name its column under `columns: {{ {name}: ... }}`, or group by another quantity"
+            return hold_out_error("folds.by", format!("the data do not contain `{name}`")).help(format!(
+                "state its column under `columns: {{ {name}: ... }}`, or group by another quantity"
             ));
         }
         let help = match did_you_mean(name, words.split(", ")) {

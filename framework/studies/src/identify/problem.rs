@@ -95,7 +95,9 @@ impl<'a> Identification<'a> {
         }
         found.extend(Identified::find_duplicate(&parameters));
         if parameters.is_empty() && found.is_empty() {
-            found.push(identification_error("parameters", "there is nothing to identify").help("name a parameter"));
+            found.push(
+                identification_error("parameters", "there are no parameters to identify").help("add a parameter"),
+            );
         }
         for parameter in &parameters {
             if let Target::Over { port, .. } = &parameter.target
@@ -406,7 +408,7 @@ impl<'a> Identification<'a> {
             }
             if *quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {
                 return Err(vec![
-                    identification_error("residuals", "the temperature of the oil is given, not calculated")
+                    identification_error("residuals", "the oil temperature is given, not calculated")
                         .help("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
                 ]);
             }
@@ -459,8 +461,8 @@ impl<'a> Identification<'a> {
         let free = free.count();
         if let Some(parameter) = prior.filter(|_| with == 0) {
             let place = format!("parameters.{}.prior", parameter.base_name());
-            let message = "a prior and the points count together only by their accuracies, and none is stated";
-            let help = "state the instruments under `rig`, or columns such as `loss_accuracy`, or leave the prior out";
+            let message = "a prior needs accuracies of the points, and none is stated";
+            let help = "state the instruments under `rig`, or columns such as `loss_accuracy`, or delete the prior";
             return Err(vec![identification_error(place, message).help(help)]);
         }
         if with == 0 && self.observations.len() <= free {
@@ -490,11 +492,14 @@ fn is_out(parameter: &Identified) -> bool {
 }
 
 /// Errors in the statement of an identification.
+#[derive(thiserror::Error)]
 pub enum Faults {
     /// Errors of the study, with paths below the analysis.
+    #[error("{}", lines(.0))]
     Study(Vec<Diagnostic>),
     /// Errors of the gearbox.
-    Gearbox(Findings),
+    #[error(transparent)]
+    Gearbox(#[from] Findings),
 }
 
 fn lines(list: &[Diagnostic]) -> String {
