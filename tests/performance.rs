@@ -170,7 +170,7 @@ fn figures(date: &str) -> String {
     let rustc = rustc.map(|o| String::from_utf8_lossy(&o.stdout).into_owned()).ok();
     let load: Vec<&str> = load.split(' ').take(3).collect();
     let mut out = format!(
-        "Figures of {date}: gearloss {}, {}, release profile. Processor {}, {cores} cores; load average {}\nover the last 1, 5 and 15 \
+        "Figures of {date}: gearloss {}, {}, bench profile. Processor {}, {cores} cores; load average {}\nover the last 1, 5 and 15 \
          minutes, told right after the benches: what is beyond the number of threads of a bench was other work.\n\n\
          | bench | median | 95 % interval | for one of |\n|---|---|---|---|\n",
         env!("CARGO_PKG_VERSION"),
