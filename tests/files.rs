@@ -115,7 +115,7 @@ fn long_documents_are_refused_before_they_are_read() {
     let folder = folder("long");
     let file = fs::File::create(folder.join("long.yaml")).unwrap();
     file.set_len(5 << 20).unwrap();
-    let long = "it has 5 MB, and no more than 4 MB are read";
+    let long = "it has 5 MB; at most 4 MB are read";
     refused(&folder, &["check", "long.yaml"], &["long.yaml", long]);
     refused(&folder, &["run", "long.yaml"], &["long.yaml", long]);
 }
@@ -174,7 +174,7 @@ fn one_run_at_a_time_writes_into_a_folder() {
     let output = gearloss(&folder, &["run", "study.yaml"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(
-        text(&output.stdout).contains("was broken off"),
+        text(&output.stdout).contains("was interrupted"),
         "{}",
         text(&output.stdout)
     );

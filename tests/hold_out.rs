@@ -203,8 +203,8 @@ fn rows_held_out_are_not_fitted_and_are_predicted() {
     );
     for words in [
         "found: 6 of 36 rows are held out (torque > 55 Nm)",
-        "found: predicts the loss of the 6 points held out (torque > 55 Nm) to",
-        "0 of 6 lie inside their 95 % bands (0.0 %, 95 % interval 0.0 to 39.0 %); the bands are too narrow",
+        "found: predicts the loss of the 6 held-out points (torque > 55 Nm) with",
+        "0 of 6 are inside their 95 % bands (0.0 %, 95 % interval 0.0 to 39.0 %); the bands are too narrow",
     ] {
         assert!(text.contains(words), "{words}\n{text}");
     }
@@ -269,7 +269,7 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
         (
             "hold_out: { where: torqe > 5 Nm }",
             "found.hold_out.where",
-            "`torqe` is no measured quantity",
+            "`torqe` is neither a measured quantity",
             "`torque`",
         ),
         (
@@ -299,7 +299,7 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
         (
             "hold_out: torque > 10 Nm or speed > 1000 rpm",
             "found.hold_out",
-            "2 rows are left to be fitted, for 3 parameters",
+            "2 rows remain for the fit of 3 parameters",
             "fewer",
         ),
         ("hold_out: {}", "found.hold_out", "nothing says which rows", "`column`"),
@@ -326,14 +326,14 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
         (
             "folds: { by: oil_temperature }",
             "found.folds.by",
-            "the data hold no `oil_temperature`",
+            "the data do not contain `oil_temperature`",
             "columns: { oil_temperature: ... }",
         ),
         (
             "folds: { by: bench, count: 2 }",
             "found.folds.count",
             "given by its values",
-            "leave `count` out",
+            "delete `count`",
         ),
         (
             "folds: { by: torque, seed: 2 }",

@@ -145,7 +145,7 @@ fn options_of_gearboxes_are_refused_for_studies() {
     ] {
         let output = gearloss(&[&["check", "examples/two-speed-ev/study.yaml"], option].concat());
         let error = String::from_utf8(output.stderr).unwrap();
-        assert!(error.contains(&format!("{} has no meaning for", option[0])), "{error}");
+        assert!(error.contains(&format!("{} does not apply to", option[0])), "{error}");
         assert_eq!(output.status.code(), Some(2));
     }
 }

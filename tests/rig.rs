@@ -152,7 +152,7 @@ fn what_a_comparison_lacks_is_told() {
         ),
         (
             "against: [ours/own], data: { file: rig.csv, columns: { torque: T_in, speed: n_in } }".to_owned(),
-            "nothing gives a measured efficiency",
+            "there is no measured efficiency",
         ),
         (format!("against: [nobody/own], {DATA}"), "nobody"),
         (

@@ -710,7 +710,7 @@ mod tests {
         backwards[7].0 = 0.0;
         let fault = stretches(&entry(None), &QUANTITIES, backwards).unwrap_err();
         assert!(
-            fault.message.contains("line 9: the time does not rise"),
+            fault.message.contains("line 9: the time does not increase"),
             "{}",
             fault.message
         );
