@@ -222,7 +222,7 @@ fn a_run_that_was_killed_is_gone_on_with() {
     );
     // Files of somebody else are not taken for those of a run.
     fs::remove_file(results.join("report.html")).unwrap();
-    refused(&folder, &["run", "study.yaml"], &["no results of a study", "--force"]);
+    refused(&folder, &["run", "study.yaml"], &["not results of a study", "--force"]);
 }
 
 #[cfg(unix)]
@@ -305,7 +305,12 @@ fn names_of_devices_are_refused_where_they_become_files() {
     refused(
         &folder,
         &["run", "study.yaml"],
-        &["analyses.CON", "study.yaml:4", "device on Windows", "call it `CON_`"],
+        &[
+            "analyses.CON",
+            "study.yaml:4",
+            "device on Windows",
+            "rename it, for example to `CON_`",
+        ],
     );
     refused(&folder, &["check", "study.yaml"], &["analyses.CON"]);
     fs::write(folder.join("study.yaml"), STUDY.replace("ours:", "lpt1:")).unwrap();

@@ -333,7 +333,7 @@ fn faulty_files_are_refused_with_line_and_help() {
         (
             "both.csv",
             "pressure [GPa],temperature [degC],shear_rate [1/s],stress [MPa],mu\n1,60,1e5,12,0.012\n".to_owned(),
-            "line 1: `stress [MPa]` beside `mu`",
+            "line 1: both `stress [MPa]` and `mu`",
         ),
         (
             "unit.csv",
@@ -358,7 +358,7 @@ fn faulty_files_are_refused_with_line_and_help() {
         (
             "zero.csv",
             format!("{head}{row}0,60,2e6,30\n"),
-            "line 4: column 1 `pressure`: 0 is not above zero",
+            "line 4: column 1 `pressure`: 0 is not positive",
         ),
         (
             "hot.csv",
@@ -419,14 +419,14 @@ fn faulty_files_are_refused_with_line_and_help() {
             "rough.csv",
             "film [nm],mu,mu_film\n80,0.1,0.03\n",
             &["--rq", "0 um"],
-            "is not above zero",
+            "is not positive",
         ),
         ("without.csv", "lambda,mu\n1,0.1\n", &[], "line 1: no column `mu_film`"),
         (
             "minus.csv",
             "lambda,mu,mu_film\n1,-0.1,0.03\n",
             &[],
-            "line 2: column 2 `mu`: -0.1 is not above zero",
+            "line 2: column 2 `mu`: -0.1 is not positive",
         ),
         (
             "power.csv",

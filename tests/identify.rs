@@ -405,7 +405,7 @@ fn what_the_points_do_not_see_is_told_and_the_rest_is_found() {
         "{text}"
     );
     assert!(
-        text.contains("`idle` is not seen") && text.contains("`held` is fixed"),
+        text.contains("`idle` has no effect") && text.contains("`held` is fixed"),
         "{text}"
     );
 }
@@ -519,7 +519,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "residuals: [loss, loss_torque],",
             bare,
             "data",
-            "count together only by their accuracies",
+            "needs their accuracies",
         ),
         (
             mesh,
@@ -584,7 +584,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             bare,
             "parameters.x.prior",
-            "count together only by their accuracies",
+            "needs accuracies",
         ),
         (mesh, "residuals: [loss, loss],", &csv, "residuals", "is listed twice"),
         (
@@ -592,7 +592,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "residuals: [efficiency, loss],",
             &csv,
             "residuals",
-            "has no column of its own",
+            "has no column and is computed",
         ),
         (
             "x: { path: \"bearings.*.radial_factor\", from: 0.5, to: 2, over: { port: outptu, torques: [1, 2] } }",

@@ -94,7 +94,7 @@ analyses:
     );
     let text = run(&folder);
     assert!(
-        text.contains("no column holds `torque`: `torque_out` gives it at the other port"),
+        text.contains("there is no column for `torque`: `torque_out` gives it at the other port"),
         "{text}"
     );
     for name in ["rig", "half", "other"] {
@@ -253,11 +253,11 @@ analyses:
     for told in [
         "measurements.rig.columns.efficency: `efficency` is not a measured quantity",
         "measurements.rig.units.torque: rig.csv: line 1: column `torque` has no unit",
-        "measurements.rig.columns.loss: rig.csv: line 1: no column is called `P_loss`",
+        "measurements.rig.columns.loss: rig.csv: line 1: there is no column `P_loss`",
         "write `P_los`",
         "measurements.rig: rig.csv: line 3, column 2 `speed`: `x` is not a number",
         "measurements.unused.file: nowhere.csv: cannot read",
-        "analyses.two.bind.p: rig.csv: line 1: no column is called `p`, which is bound",
+        "analyses.two.bind.p: rig.csv: line 1: there is no column `p`, which is bound",
     ] {
         assert_eq!(text.matches(told).count(), 1, "{told}\n{text}");
     }

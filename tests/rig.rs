@@ -157,7 +157,7 @@ fn what_a_comparison_lacks_is_told() {
         (format!("against: [nobody/own], {DATA}"), "nobody"),
         (
             "against: [ours/own], data: { file: rig.csv, columns: { torque: T_in, speed: drehzahl } }".to_owned(),
-            "no column is called `drehzahl`",
+            "there is no column `drehzahl`",
         ),
     ] {
         let study = format!(

@@ -159,7 +159,7 @@ fn losses_without_load_in_every_gear_state_and_towed() {
             .sum()
     };
     assert!(loss(&states[2]) < loss(&states[0]), "in neutral the loaded stage rests");
-    assert!(text.contains("output at rest"), "{text}");
+    assert!(text.contains("output stationary"), "{text}");
     let towed = json(&folder, "towed")["breakdowns"][0].clone();
     assert!(loss(&towed) > 0.0);
     assert!(text.contains("write `output`"), "{text}");
@@ -691,7 +691,7 @@ fn sets_of_an_identification_are_compared() {
         "{sentence}"
     );
     assert!(
-        text.contains("both: the sets side by side") && text.contains(sentence),
+        text.contains("both: comparison of the model sets") && text.contains(sentence),
         "{text}"
     );
     let csv = std::fs::read_to_string(folder.join("both-sets.csv")).unwrap();
@@ -854,7 +854,7 @@ analyses:
         "{text}"
     );
     assert!(
-        text.contains("the set `fitted` has no values: the analysis `found` found none"),
+        text.contains("the model set `fitted` has no values, because the analysis `found` produced none"),
         "{text}"
     );
     let shard = Command::new(env!("CARGO_BIN_EXE_gearloss"))

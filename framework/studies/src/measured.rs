@@ -32,7 +32,7 @@ pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportL
 pub use seen::{Seen, counted};
 pub use steady::{SteadyEntry, SteadyLimitsEntry, Stretch};
 
-/// Files of measured points, and how to read them.
+/// Files of measured points and their settings.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeasuredEntry {
     /// CSV file relative to the study, or a list of files with the same quantities.
@@ -302,9 +302,9 @@ pub(crate) mod tests {
         assert!(refused(&plain, "torque,speed [rpm]\n1,2\n").contains("column `torque` has no unit"));
         assert!(refused(&plain, "torque [Nm],speed [rpm],efficiency\n1,2,0.9\n").contains("percent"));
         assert!(refused(&plain, "torque [rpm],speed [rpm]\n1,2\n").contains("`rpm` is not a unit of torque"));
-        assert!(refused(&plain, "torque [Nm],n [rpm]\n1,2\n").contains("no column holds the speed"));
+        assert!(refused(&plain, "torque [Nm],n [rpm]\n1,2\n").contains("there is no column for the speed"));
         assert!(
-            refused(&entry(&[("speed", "n")], &[]), "torque [Nm],m [rpm]\n1,2\n").contains("no column is called `n`")
+            refused(&entry(&[("speed", "n")], &[]), "torque [Nm],m [rpm]\n1,2\n").contains("there is no column `n`")
         );
         assert!(
             refused(&entry(&[("spede", "n")], &[]), "torque [Nm],n [rpm]\n1,2\n")

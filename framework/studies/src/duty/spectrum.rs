@@ -230,7 +230,7 @@ mod tests {
         let faults = file().read(b"T [Nm],speed [rpm],share\n10,3000,0.4\n").unwrap_err();
         assert_eq!(
             faults[0].message,
-            "line 1: no column holds the torque; there are: T, speed, share"
+            "line 1: there is no column for the torque; there are: T, speed, share"
         );
         let faults = file()
             .read(b"torque [Nm],speed [rpm],share\n10,3000,0.4\n1,x,0.6\n2,2,-1\n")

@@ -163,7 +163,7 @@ fn limited(entry: &SteadyEntry, quantities: &[&'static str]) -> Result<Vec<Limit
             let Some(place) = quantities.iter().position(|q| *q == quantity) else {
                 return Err(MeasuredFault::new(
                     format!("steady.{key}.{quantity}"),
-                    format!("no column holds `{quantity}`, whose {key} is limited"),
+                    format!("there is no column of `{quantity}`, whose {key} is limited"),
                     format!("the file has {}: limit one of these", quantities.join(", ")),
                 ));
             };

@@ -187,21 +187,21 @@ fn cells_without_a_number_are_told_together() {
 fn missing_columns_tell_those_there_are() {
     assert_eq!(
         faults(&entry(), "time [s],v [m/s]\n0,0\n1,0\n"),
-        ["line 1: no column is called `t`; there are: time, v | choose one of them"]
+        ["line 1: there is no column `t`; there are: time, v | choose one of them"]
     );
     let bare = FileCycleEntry::named("drive.csv");
     assert_eq!(
         faults(&bare, "t [s],v [m/s]\n0,0\n1,0\n"),
         [
-            "line 1: no column holds the time; there are: t, v | state one under `columns: { time: ... }`",
-            "line 1: no column holds the vehicle speed, or torque and speed; there are: t, v | state one under `columns: { \
+            "line 1: there is no column for the time; there are: t, v | state one under `columns: { time: ... }`",
+            "line 1: there is no column for the vehicle speed, or torque and speed; there are: t, v | state one under `columns: { \
              vehicle_speed: ... }`",
         ]
     );
     assert_eq!(
         faults(&bare, "time [s],torque [Nm]\n0,0\n1,0\n"),
         [
-            "line 1: no column holds the speed in addition to the torque; there are: time, torque | state one under `columns: { speed: \
+            "line 1: there is no column for the speed in addition to the torque; there are: time, torque | state one under `columns: { speed: \
           ... }`"
         ]
     );
