@@ -308,7 +308,7 @@ fn names_of_devices_are_refused_where_they_become_files() {
         &[
             "analyses.CON",
             "study.yaml:4",
-            "device on Windows",
+            "device name on Windows",
             "rename it, for example to `CON_`",
         ],
     );
@@ -317,9 +317,9 @@ fn names_of_devices_are_refused_where_they_become_files() {
     refused(
         &folder,
         &["run", "study.yaml"],
-        &["gearboxes.lpt1", "device on Windows"],
+        &["gearboxes.lpt1", "device name on Windows"],
     );
-    refused(&folder, &["new", "plugin", "com1"], &["device on Windows"]);
+    refused(&folder, &["new", "plugin", "com1"], &["device name on Windows"]);
 }
 
 #[test]
@@ -367,7 +367,7 @@ fn analyses_that_hold_their_points_refuse_too_many_of_them() {
         refused(
             &folder,
             &["run", "study.yaml"],
-            &["more points", "than the 2000000", "analyses"],
+            &["more points", "than the maximum of 2000000", "analyses"],
         );
     }
 }
