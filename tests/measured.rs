@@ -133,7 +133,7 @@ analyses: { which: { type: tournament, data: rig, mechanisms: [{ mechanism: bear
     let rig = "torque_out [Nm],speed_out [rpm],loss [W]\n19,1500,50\n";
     let text = check(&folder("refused", study, &[("rig.csv", rig)]));
     assert!(
-        text.contains("analyses.which.data: rig.csv: `torque_out` alone does not give the torque"),
+        text.contains("analyses.which.data: rig.csv: `torque_out` alone does not determine the torque"),
         "{text}"
     );
     assert!(text.contains("columns: { torque: ... }"), "{text}");

@@ -105,7 +105,7 @@ impl Locking {
                 .collect();
             let pushes = if torques.len() == 1 { "pushes" } else { "push" };
             format!(
-                "self-locking: torque at {from} alone does not turn it; the speeds are only maintained because {} {pushes} as well, and \
+                "self-locking: torque at {from} alone does not turn it; the speeds are maintained only because {} {pushes} as well, and \
                  no power comes out",
                 torques.join(" and ")
             )
