@@ -1,4 +1,4 @@
-//! Studies of gearloss: their documents, measured data, duties, identification and analyses.
+//! Studies of gearloss: documents, measured data, cycles, identification and analyses.
 //!
 //! [`Study`](study::Study) is a study as read and checked, with its gearboxes. [`StudyRun`](run::StudyRun) computes the outcomes of
 //! its analyses, each of a type of its own with tables of columns. An analysis of your own is a file of your crate: it implements

@@ -1,4 +1,4 @@
-//! Samples of uncertain inputs over a grid, and the bands that they leave.
+//! Samples of uncertain inputs over a grid, and the resulting bands.
 
 use gearloss_numerics::sampling::Sobol;
 use rayon::prelude::*;
@@ -10,21 +10,21 @@ use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Built, Context, Stopped};
 use crate::analysis::{PointResult, Points, correlation, quantile};
 
-/// Shares of the samples below the ends and the middle of a band.
+/// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Values of the inputs, the solved points, and which stated ranges were left: path and quantity.
+/// Values of the inputs, the solved points, and quantities outside their stated ranges.
 type Sample = (Vec<f64>, Vec<PointResult>, Vec<(String, &'static str)>);
 
 /// All samples of one set.
 pub struct Samples {
-    /// Values of the inputs and the solved points of each sample that could be built.
+    /// Values of the inputs and the solved points of each valid sample.
     pub solved: Vec<(Vec<f64>, Vec<PointResult>)>,
-    /// Why each of the others has no value.
+    /// Why each of the other samples has no value.
     pub failed: Vec<String>,
 }
 
-/// Solves all samples; the same whatever the number of threads. Adds the stated ranges that they left.
+/// Solves all samples, independent of the number of threads. Adds quantities outside their stated ranges.
 pub fn solve(
     cx: &Context<'_>,
     count: u32,
@@ -67,7 +67,7 @@ pub fn solve(
     }
     if solved.len() < 2 {
         let message = format!(
-            "hardly a sample could be built: {}",
+            "hardly any sample could be built: {}",
             failed.first().map_or("", String::as_str)
         );
         return Err(cx.wrong("analyses", message, "narrow the ranges of the inputs"));
@@ -87,7 +87,7 @@ impl Samples {
             PointOfBand {
                 torque_nm: p.torque,
                 speed_rpm: tidy(p.speed * RPM),
-                // Results hold efficiencies as shares.
+                // Results contain efficiencies as fractions.
                 efficiency: efficiency_percent.scaled(0.01),
                 loss_w: quantity(|p| p.loss),
                 loss_torque_nm: quantity(|p| p.loss_torque),
@@ -98,7 +98,7 @@ impl Samples {
         nominal.iter().enumerate().map(point).collect()
     }
 
-    /// Ends and middle of the band of a quantity at a point; absent where fewer than half of the samples have a value.
+    /// Ends and middle of the band of a quantity at a point; absent if fewer than half the samples have a value.
     fn band(&self, point: usize, read: fn(&PointResult) -> Option<f64>) -> Option<[f64; 3]> {
         let all = self.solved.iter();
         let mut values: Vec<f64> = all.filter_map(|(_, points)| read(&points[point])).collect();
