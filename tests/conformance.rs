@@ -71,7 +71,7 @@ fn two_sets_of_one_name_and_two_rows_of_one_designation_are_told() {
         .err()
         .unwrap();
     assert!(
-        found[0].message.contains("two registrations of the set of models"),
+        found[0].message.contains("two registrations of the model set"),
         "{found:?}"
     );
     let bearings = *inventory::iter::<Catalogue>()

@@ -312,14 +312,14 @@ fn sources_of_heat_come_into_oil_and_casing() {
 fn a_program_without_one_recipe_says_so() {
     let recipe = NetworkRecipe {
         meaning: "Another.",
-        lay_out: |_, _| Ok(json!({})),
+        generate: |_, _| Ok(json!({})),
         origin: gearloss_framework::origin!(),
     };
     let language = Language::new(Registry::linked().unwrap().with_recipes([recipe])).unwrap();
     let gearbox = Gearbox::read(&language, &common::file("examples/two-speed-ev/gearbox.yaml")).unwrap();
     let said = gearbox.resolve(&language, &two_speed().choice()).unwrap_err().render();
     assert!(
-        said.contains("thermal.network: two crates lay out networks") && said.contains("help:"),
+        said.contains("thermal.network: two crates generate networks") && said.contains("help:"),
         "{said}"
     );
 }
@@ -376,5 +376,9 @@ fn a_circuit_of_oil_that_does_not_close_is_told_and_no_exchanger_cools_the_air()
     }
     let air = with("thermal.network.exchangers.cooler.to", json!("ambient"));
     let refused = gearbox.transmission(&language, &air).err().unwrap();
-    assert!(refused.first().contains("`ambient` is held"), "{}", refused.first());
+    assert!(
+        refused.first().contains("`ambient` has a prescribed temperature"),
+        "{}",
+        refused.first()
+    );
 }

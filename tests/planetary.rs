@@ -359,7 +359,7 @@ fn a_table_may_refer_to_the_input_and_belong_to_a_family() {
     let (watts, _) = drag(&t, 4000.0).unwrap();
     assert!((watts / (5.0 * 4000.0 * RPM) - 1.0).abs() < 1e-12);
     let missing = tabled(&language, csv, "", "").err().unwrap();
-    assert!(missing.contains("`size` is not known here") && missing.contains("state `size` of the planetary set"));
+    assert!(missing.contains("`size` is unknown here") && missing.contains("state `size` of the planetary set"));
     let held = tabled(&language, TABLE, ", outside: clamp", "reference: ring_shaft, ").unwrap();
     assert!(drag(&held, 800.0).is_none(), "a shaft that rests feels no moment");
 }
@@ -371,7 +371,7 @@ fn a_faulty_table_is_refused_with_line_and_column() {
     for (csv, said) in [
         (
             TABLE.replace("400,20,130,0.050\n", ""),
-            "line 6: behind it the point speed = 400 rpm, nu = 20 mm2/s, volume = 130 ml is missing",
+            "line 6: the next point, speed = 400 rpm, nu = 20 mm2/s, volume = 130 ml, is missing",
         ),
         (
             TABLE.replace("400,", "50,"),
@@ -403,7 +403,7 @@ fn a_faulty_table_is_refused_with_line_and_column() {
         ),
         (
             TABLE.replace("0.050", "-0.050"),
-            "at speed = 400, nu = 20, volume = 130 the answer is -0.05, which is negative",
+            "at speed = 400, nu = 20, volume = 130 the result is -0.05, which is negative",
         ),
         (
             TABLE.replace("moment [Nm]", "moment"),
@@ -436,7 +436,7 @@ fn drag_is_not_counted_twice() {
         .unwrap()
         .render();
     assert!(
-        error.contains("churning is counted here and by `planetary_sets.set.model`"),
+        error.contains("churning is computed here and by `planetary_sets.set.model`"),
         "{error}"
     );
 }

@@ -1,7 +1,7 @@
 //! Textbook laws of free and forced convection at plates and cylinders, and of radiation.
 //!
 //! Sources: free convection at a vertical plate and about a horizontal cylinder: Churchill and Chu, Int. J. Heat Mass Transfer 18
-//! (1975) 1323-1329 and 1049-1053; forced convection along a plate: laminar after Pohlhausen, turbulent with a laminar leading part
+//! (1975) 1323-1329 and 1049-1053; forced convection along a plate: laminar according to Pohlhausen, turbulent with a laminar leading part
 //! above Re = 5e5, Incropera and DeWitt, Fundamentals of heat and mass transfer; radiation between a small grey body and its
 //! surroundings.
 

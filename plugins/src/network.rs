@@ -47,7 +47,7 @@ const ONE_LITRE: f64 = 1e-3;
 inventory::submit! {
     NetworkRecipe {
         meaning: "Nodes for oil, casing, shafts with their gears, idler gears and bearings; conductances by size.",
-        lay_out,
+        generate,
         origin: origin!(),
     }
 }
@@ -66,7 +66,7 @@ struct Seated {
     loses: bool,
 }
 
-fn lay_out(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
+fn generate(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
     let housing = HousingPart::from(entry.housing.outside.unwrap_or_default());
     let area = outside(&housing)?;
     let bodies = Bodies::new(entry);

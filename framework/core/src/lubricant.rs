@@ -60,7 +60,7 @@ pub struct Lubricant {
 
 /// Typical properties of a kind of oil.
 struct Usual {
-    /// Gold's constants s and t, after Gold et al. 2001.
+    /// Gold's constants s and t, according to Gold et al. 2001.
     gold: (f64, f64),
     /// Thermal expansion, middle of the typical range. \[1/K\]
     expansion: f64,

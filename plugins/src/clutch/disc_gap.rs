@@ -37,7 +37,7 @@ pub enum Film {
 }
 
 coefficients! {
-    /// Constants of the centrifugal pumping C after Hashimoto and others.
+    /// Constants of the centrifugal pumping C according to Hashimoto and others.
     struct Constants {
         /// Factor of the square of either speed in C.
         own_pumping = 0.3, in 0.15..=0.6;
@@ -195,7 +195,7 @@ impl ClutchModel for Discs {
 }
 
 register!(Clutch, "disc_gap", Params,
-    source: "derived: laminar flow between discs with centrifugal pumping (0.3 w^2 after Hashimoto et al. 1984)",
+    source: "derived: laminar flow between discs with centrifugal pumping (0.3 w^2 according to Hashimoto et al. 1984)",
     example: "{ type: disc_gap, flow: 3 l/min }",
     evidence: [
         formula(Evidence::Derived, "full film is textbook; coverage follows from continuity"),

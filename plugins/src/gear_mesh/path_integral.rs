@@ -9,12 +9,12 @@
 //! `contact_lines` it is that over the inclined lines of contact.
 //! Rolling friction is optional. One law is Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, times the factor for film
 //! thinning by inlet heating (Gupta et al. in the form of Arana et al. 2019; at least a twentieth, where the fit ends), because the
-//! isothermal law grows too fast with viscosity and speed. The other is 9e7 N/m2 times film thickness and face width after Crook
+//! isothermal law grows too fast with viscosity and speed. The other is 9e7 N/m2 times film thickness and face width according to Crook
 //! 1963 as used by Anderson and Loewenthal, with the minimum film thickness of Dowson and Higginson, times the sum velocity (some
 //! authors use half of it, which is an option). Without torque the loss is zero; rolling friction hardly depends on load, so with
 //! it the loss jumps at zero torque by about a watt.
 //! The integral is within 1e-4 of its limit for any law of friction: each smooth section of the path between A, B, C, D and E, and
-//! between the kinks of the load sharing, has as many nodes as the law requires, denser at its ends. Rolling friction after Crook,
+//! between the kinks of the load sharing, has as many nodes as the law requires, denser at its ends. Rolling friction according to Crook,
 //! whose film grows without bound where the load ramp starts, is within 2e-3.
 
 use gearloss_framework::document::Diagnostic;

@@ -1,6 +1,6 @@
 //! Textbook free and forced convection with radiation.
 //!
-//! Source: free convection at a vertical wall after Churchill and Chu 1975, Nu = (0.825 + 0.387 Ra^(1/6)/(1 + (0.492/Pr)^(9/16))^(8/27))^2; forced
+//! Source: free convection at a vertical wall according to Churchill and Chu 1975, Nu = (0.825 + 0.387 Ra^(1/6)/(1 + (0.492/Pr)^(9/16))^(8/27))^2; forced
 //! convection along a plate, laminar Nu = 0.664 Re^0.5 Pr^(1/3), above Re = 5e5 with a laminar leading part Nu = (0.037 Re^0.8 -
 //! 871) Pr^(1/3), which joins the laminar law continuously; combined (alpha_f^3 + alpha_n^3)^(1/3); radiation eps sigma (T_w^2 +
 //! T_a^2)(T_w + T_a). Air at the mean temperature of wall and surroundings.

@@ -38,7 +38,7 @@ pub(super) fn expand(
     let written = language
         .registry()
         .network_recipe()
-        .and_then(|recipe| (recipe.lay_out)(&entry, value))
+        .and_then(|recipe| (recipe.generate)(&entry, value))
         .map_err(|error| vec![error])
         .and_then(|written| language.checked(&written, NETWORK));
     match written {
