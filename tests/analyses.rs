@@ -126,7 +126,7 @@ fn wrong_names_and_files_say_what_to_write() {
         "B9",
         "write `skf`",
         "none.csv",
-        "no model is named",
+        "no model is given",
         "5 of 5 analyses failed",
     ] {
         assert!(text.contains(words), "{words} is missing:\n{text}");

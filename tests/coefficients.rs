@@ -303,7 +303,7 @@ fn sets_and_their_components_take_coefficients() {
     assert_eq!(varied.changed_from_source(0.2), None);
     assert_eq!(
         varied.changed_from_source(0.3).unwrap(),
-        "0.3 instead of 0.2, changed from the source"
+        "0.3 instead of the published 0.2"
     );
 }
 
@@ -364,7 +364,7 @@ fn an_identification_finds_the_load_exponent_of_schlenk() {
     // Bounds are those of the coefficient.
     assert_eq!((&found["least"], &found["greatest"]), (&json!(0.1), &json!(0.4)));
     assert_eq!(found["published"], 0.2);
-    assert!(text.contains("instead of 0.2, changed from the source"), "{text}");
+    assert!(text.contains("instead of the published 0.2"), "{text}");
 }
 
 #[test]
@@ -380,7 +380,7 @@ fn analyses_move_coefficients_and_say_what_is_published() {
     );
     let (folder, text) = run("analyses", &analyses, "");
     let said =
-        format!("`{EXPONENT}`: a coefficient of a formula, published 0.2; other values are changed from the source");
+        format!("`{EXPONENT}`: a coefficient of a formula, published value 0.2; other values differ from the source");
     assert_eq!(text.matches(&said).count(), 3, "{text}");
     let note = "ours, models mine: ";
     assert!(
@@ -392,7 +392,7 @@ fn analyses_move_coefficients_and_say_what_is_published() {
     assert_eq!(changed["model_set"], "mine");
     assert_eq!(changed["coefficients"][0]["value"], 0.05);
     let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
-    assert!(page.contains("Coefficients changed from the source"));
+    assert!(page.contains("Coefficients that differ from their source"));
 }
 
 /// A table that the document states, with values that have paths.

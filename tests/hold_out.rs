@@ -203,8 +203,8 @@ fn rows_held_out_are_not_fitted_and_are_predicted() {
     );
     for words in [
         "found: 6 of 36 rows are held out (torque > 55 Nm)",
-        "found: predicts the loss of the 6 points held out (torque > 55 Nm) to",
-        "0 of 6 lie inside their 95 % bands (0.0 %, 95 % interval 0.0 to 39.0 %); the bands are too narrow",
+        "found: predicts the loss of the 6 held-out points (torque > 55 Nm) with",
+        "0 of 6 are inside their 95 % bands (0.0 %, 95 % interval 0.0 to 39.0 %); the bands are too narrow",
     ] {
         assert!(text.contains(words), "{words}\n{text}");
     }
@@ -269,7 +269,7 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
         (
             "hold_out: { where: torqe > 5 Nm }",
             "found.hold_out.where",
-            "`torqe` is no measured quantity",
+            "`torqe` is neither a measured quantity",
             "`torque`",
         ),
         (
@@ -281,38 +281,43 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
         (
             "hold_out: { column: bench }",
             "found.hold_out.column",
-            "line 2: `a` in column `bench` says neither",
+            "line 2: `a` in column `bench` is neither",
             "write 1",
         ),
         (
             "hold_out: torque > 99 Nm",
             "found.hold_out",
             "none of 36 rows is held out",
-            "leave `hold_out` out",
+            "delete `hold_out`",
         ),
         (
             "hold_out: torque > 0 Nm",
             "found.hold_out",
-            "nothing is left to be fitted",
+            "no rows to fit",
             "fewer rows",
         ),
         (
             "hold_out: torque > 10 Nm or speed > 1000 rpm",
             "found.hold_out",
-            "2 rows are left to be fitted, for 3 parameters",
+            "2 rows remain for the fit of 3 parameters",
             "fewer",
         ),
-        ("hold_out: {}", "found.hold_out", "nothing says which rows", "`column`"),
+        (
+            "hold_out: {}",
+            "found.hold_out",
+            "selection of held-out rows is missing",
+            "`column`",
+        ),
         (
             "hold_out: { every: 3, random: 0.2 }",
             "found.hold_out",
-            "several ways",
+            "several selections",
             "one of",
         ),
         (
             "hold_out: { every: 3, seed: 2 }",
             "found.hold_out.seed",
-            "nothing is drawn at random",
+            "applies to random groups only",
             "`random`",
         ),
         ("hold_out: { every: 1 }", "hold_out.every", "", ""),
@@ -321,27 +326,27 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
             "folds: { by: sign }",
             "found.folds.by",
             "one group, `power in`",
-            "differs",
+            "varies",
         ),
         (
             "folds: { by: oil_temperature }",
             "found.folds.by",
-            "the data hold no `oil_temperature`",
+            "the data do not contain `oil_temperature`",
             "columns: { oil_temperature: ... }",
         ),
         (
             "folds: { by: bench, count: 2 }",
             "found.folds.count",
             "given by its values",
-            "leave `count` out",
+            "delete `count`",
         ),
         (
             "folds: { by: torque, seed: 2 }",
             "found.folds.seed",
-            "nothing is drawn",
+            "applies to random groups",
             "random",
         ),
-        ("folds: 1", "found.folds", "one group", "2 or more"),
+        ("folds: 1", "found.folds", "at least two groups", "at least 2"),
     ]
     .into_iter()
     .enumerate()
@@ -359,30 +364,30 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
 fn folds_group_by_what_is_asked() {
     let csv: &str = &SPOILT;
     for (i, (keys, by, words, groups, first)) in [
-        ("4", "torque", "its own band of torque a residual", 4, "10.0 Nm"),
+        ("4", "torque", "(band of torque): predicted residual", 4, "10.0 Nm"),
         (
             "{ by: torque, count: 3 }",
             "torque",
-            "its own band of torque",
+            "(band of torque)",
             3,
             "10.0 to 20.0 Nm",
         ),
         (
             "{ by: speed, count: 3 }",
             "speed",
-            "its own band of speed",
+            "(band of speed)",
             3,
             "500 to 1000 rpm",
         ),
         (
             "{ by: random, count: 4, seed: 3 }",
             "random",
-            "its own random group",
+            "(random group)",
             4,
             "random group 1",
         ),
-        ("{ by: bench }", "bench", "its own group of `bench`", 3, "bench A"),
-        ("{ by: loss, count: 2 }", "loss", "its own group of `loss`", 2, ""),
+        ("{ by: bench }", "bench", "(group of `bench`)", 3, "bench A"),
+        ("{ by: loss, count: 2 }", "loss", "(group of `loss`)", 2, ""),
     ]
     .into_iter()
     .enumerate()
@@ -393,7 +398,10 @@ fn folds_group_by_what_is_asked() {
             csv,
         );
         let folds = &found(&folder)["folds"];
-        assert!(text.contains(&format!("predicted without {words}")), "{keys}\n{text}");
+        assert!(
+            text.contains("cross-validation over ") && text.contains(words),
+            "{keys}\n{text}"
+        );
         let bands = folds["bands"].as_array().unwrap();
         assert_eq!((folds["by"].as_str().unwrap(), bands.len()), (by, groups), "{keys}");
         assert!(

@@ -405,7 +405,7 @@ fn what_the_points_do_not_see_is_told_and_the_rest_is_found() {
         "{text}"
     );
     assert!(
-        text.contains("`idle` is not seen") && text.contains("`held` is fixed"),
+        text.contains("`idle` has no effect") && text.contains("`held` is fixed"),
         "{text}"
     );
 }
@@ -435,7 +435,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.path",
-            "is no number",
+            "is not a number",
         ),
         (
             "x: { path: meshes.M1.loss_factor, from: 2, to: 1 }",
@@ -449,7 +449,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.from",
-            "leaves what the path allows",
+            "is outside the range of the path",
         ),
         (
             "x: { path: meshes.M1.loss_factor, from: 0, to: 1, scale: log }",
@@ -512,14 +512,14 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "residuals: [temperature],",
             &csv,
             "data",
-            "nothing gives a measured oil temperature",
+            "there is no measured oil temperature",
         ),
         (
             mesh,
             "residuals: [loss, loss_torque],",
             bare,
             "data",
-            "count together only by their accuracies",
+            "needs their accuracies",
         ),
         (
             mesh,
@@ -540,7 +540,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n5,4000,90,2\n",
             "data",
-            "1 measured numbers and 0 priors for 2 parameters",
+            "1 measured values and 0 priors for 2 parameters",
         ),
         (mesh, "next: { grid: nowhere },", &csv, "next.grid", "nowhere"),
         (
@@ -548,7 +548,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "accuracy_factors: true, robust: { loss: cauchy },",
             &csv,
             "accuracy_factors",
-            "leave one of them out",
+            "delete one of them",
         ),
         (
             mesh,
@@ -562,7 +562,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             "torque [Nm],speed [rpm],loss [W],weight\n5,4000,90,0\n10,4000,130,0\n",
             "data",
-            "all points have no weight",
+            "all points have zero weight",
         ),
         (
             mesh,
@@ -577,22 +577,22 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.start",
-            "is outside of",
+            "is outside",
         ),
         (
             "x: { path: meshes.M1.loss_factor, from: 0.5, to: 2, prior: { deviation: 1 } }",
             "",
             bare,
             "parameters.x.prior",
-            "count together only by their accuracies",
+            "needs accuracies",
         ),
-        (mesh, "residuals: [loss, loss],", &csv, "residuals", "stands here twice"),
+        (mesh, "residuals: [loss, loss],", &csv, "residuals", "is listed twice"),
         (
             mesh,
             "residuals: [efficiency, loss],",
             &csv,
             "residuals",
-            "has no column of its own",
+            "has no column and is computed",
         ),
         (
             "x: { path: \"bearings.*.radial_factor\", from: 0.5, to: 2, over: { port: outptu, torques: [1, 2] } }",
@@ -606,7 +606,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.prior",
-            "is outside of",
+            "is outside",
         ),
         (
             mesh,

@@ -222,7 +222,7 @@ fn wrong_arguments_say_how_to_mend_them() {
             vec![
                 "explain", GEARBOX, "B77", "--gear", "first", "--speed", "1 rpm", "--torque", "1 Nm",
             ],
-            "no part is called",
+            "there is no component",
         ),
         (
             vec![
@@ -341,7 +341,7 @@ fn eval_reads_its_input() {
 fn run_writes_csv_and_json_and_prints_tables() {
     let common::StudyRun { folder, text, .. } = common::study_run("examples/two-speed-ev/study.yaml");
     assert!(
-        text.contains("efficiency of joint minus iso in efficiency points"),
+        text.contains("efficiency of joint minus iso in percentage points"),
         "{text}"
     );
     let maps: serde_json::Value =
@@ -434,7 +434,7 @@ fn moments_of_openfoam_become_a_table_and_a_power_law() {
         ),
         (
             [&import[..5], &["--from", "9 s", "-o", "nowhere.csv"]].concat(),
-            "0 samples in the asked time",
+            "0 samples in the averaging time",
         ),
     ] {
         let failed = gearloss(&args);
@@ -481,7 +481,7 @@ fn results_are_replaced_openly_and_other_files_are_left_alone() {
     assert!(
         String::from_utf8(denied.stdout)
             .unwrap()
-            .contains("stated ranges were left")
+            .contains("outside their stated ranges")
     );
     assert_eq!(run(&["--deny", "recalled"]).status.code(), Some(2));
 }
@@ -499,9 +499,9 @@ fn a_set_that_locks_itself_has_no_torques_and_says_which_way() {
     let (code, text) = at("-1 Nm", &[]);
     assert_eq!(code, Some(1));
     assert!(
-        text.contains("self-locking: no power passes from `output` to `input`, whatever the torque at `output`")
+        text.contains("self-locking: no power flows from `output` to `input` at any torque at `output`")
             && text.contains("locked by meshes.p_r1, meshes.p_out")
-            && text.contains("driven from `input` its efficiency is 46.82 %"),
+            && text.contains("efficiency from `input`: 46.82 %"),
         "{text}"
     );
     // Nothing that cannot be is printed: no watts but those of no equilibrium are left.
@@ -532,7 +532,7 @@ fn a_set_that_locks_itself_has_no_torques_and_says_which_way() {
     assert_eq!(code, Some(0));
     assert!(
         text.contains("status dragged")
-            && text.contains("self-locking: driven from `output` it does not turn by itself")
+            && text.contains("self-locking: torque at `output` alone does not turn it")
             && text.contains("only because `input` (0.0548"),
         "{text}"
     );

@@ -152,7 +152,7 @@ fn u7d_duties_of_an_electric_sedan() {
 fn an_unknown_cycle_finds_its_neighbour() {
     assert_eq!(
         cycle("wltc_class_3b").unwrap_err(),
-        "no cycle is called `wltc_class_3b` | write `wltc_class3b`"
+        "there is no cycle `wltc_class_3b` | write `wltc_class3b`"
     );
 }
 

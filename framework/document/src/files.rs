@@ -202,7 +202,7 @@ mod tests {
         std::fs::write(&file, "sixteen letters.").unwrap();
         assert_eq!(read_text(&file, 16).unwrap(), "sixteen letters.");
         std::fs::write(&file, "seventeen letters").unwrap();
-        assert_eq!(refused(&file), "it has 1 MB, and no more than 1 MB are read");
+        assert_eq!(refused(&file), "it has 1 MB; at most 1 MB are read");
         std::fs::write(&file, [0xff]).unwrap();
         assert_eq!(refused(&file), "it is not UTF-8 text");
         assert_eq!(refused(&folder), "it is a folder, not a file");

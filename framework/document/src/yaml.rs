@@ -300,7 +300,7 @@ mod tests {
         for (text, word) in [
             ("a: &x 1", "anchor"),
             ("a: !!str 1", "tag"),
-            ("a: 1\na: 2", "stands twice"),
+            ("a: 1\na: 2", "occurs twice"),
             ("a: 1\n---\nb: 2", "second document"),
             ("", "empty"),
             ("a: [1, 2", "not YAML"),

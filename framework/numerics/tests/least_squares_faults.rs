@@ -15,10 +15,10 @@ fn check_2_9_what_makes_no_sense_is_told_at_once() {
     three[1] = three[1].clone().log().prior(-1.0, 0.0);
     let text = fault(&Problem::new(|_: &[f64]| Ok(vec![0.0; 9]), three));
     for part in [
-        "parameter `x1`: its lower bound 2 lies above its upper bound 0; exchange them",
+        "parameter `x1`: its lower bound 2 is above its upper bound 0; exchange them",
         "parameter `x2`: its lower bound 0 has no logarithm",
         "parameter `x2`: its start -1 has no logarithm",
-        "parameter `x2`: the deviation 0 of its prior is not above zero",
+        "parameter `x2`: the deviation 0 of its prior is not positive",
         "parameter `x2`: the mean -1 of its prior has no value",
         "parameter `x3`: its start is NaN; give a number",
     ] {
@@ -32,7 +32,7 @@ fn check_2_9_what_makes_no_sense_is_told_at_once() {
         ..Options::fit()
     };
     let text = solve(&problem(rosenbrock, &[1.0, 2.0], &[-INF; 2], &[INF; 2]), &options).unwrap_err();
-    assert!(text.to_string().contains("option loss_scale: 0 is not above zero"));
+    assert!(text.to_string().contains("option loss_scale: 0 is not positive"));
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn check_2_9_residuals_without_value() {
     let calls = AtomicUsize::new(0);
     let fickle = |x: &[f64]| Ok(vec![x[0]; 2 + calls.fetch_add(1, Ordering::Relaxed)]);
     let fit = solve(&Problem::new(fickle, vec![Parameter::new("a", 1.0)]), &Options::fit()).unwrap();
-    assert!(!fit.converged() && fit.notes.iter().any(|n| n.contains("residuals where there were 2")));
+    assert!(!fit.converged() && fit.notes.iter().any(|n| n.contains("residuals, but 2")));
 }
 
 #[test]

@@ -32,7 +32,7 @@ pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportL
 pub use seen::{Seen, counted};
 pub use steady::{SteadyEntry, SteadyLimitsEntry, Stretch};
 
-/// Files of measured points, and how to read them.
+/// Files of measured points and their settings.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeasuredEntry {
     /// CSV file relative to the study, or a list of files with the same quantities.
@@ -301,14 +301,14 @@ pub(crate) mod tests {
         let plain = entry(&[], &[]);
         assert!(refused(&plain, "torque,speed [rpm]\n1,2\n").contains("column `torque` has no unit"));
         assert!(refused(&plain, "torque [Nm],speed [rpm],efficiency\n1,2,0.9\n").contains("percent"));
-        assert!(refused(&plain, "torque [rpm],speed [rpm]\n1,2\n").contains("`rpm` is no unit of torque"));
-        assert!(refused(&plain, "torque [Nm],n [rpm]\n1,2\n").contains("no column holds the speed"));
+        assert!(refused(&plain, "torque [rpm],speed [rpm]\n1,2\n").contains("`rpm` is not a unit of torque"));
+        assert!(refused(&plain, "torque [Nm],n [rpm]\n1,2\n").contains("there is no column for the speed"));
         assert!(
-            refused(&entry(&[("speed", "n")], &[]), "torque [Nm],m [rpm]\n1,2\n").contains("no column is called `n`")
+            refused(&entry(&[("speed", "n")], &[]), "torque [Nm],m [rpm]\n1,2\n").contains("there is no column `n`")
         );
         assert!(
             refused(&entry(&[("spede", "n")], &[]), "torque [Nm],n [rpm]\n1,2\n")
-                .contains("`spede` is no measured quantity")
+                .contains("`spede` is not a measured quantity")
         );
         assert!(refused(&plain, "torque [Nm],speed [rpm]\n").contains("no point"));
         assert!(refused(&plain, "").contains("empty"));
@@ -333,7 +333,7 @@ pub(crate) mod tests {
         assert!(
             read.notes
                 .iter()
-                .any(|n| n.contains("2 rows left out") && n.contains("line 4, column 2 `speed`: `x`"))
+                .any(|n| n.contains("2 rows omitted") && n.contains("line 4, column 2 `speed`: `x`"))
         );
     }
 
@@ -365,7 +365,7 @@ pub(crate) mod tests {
         assert!(close(read.value(&read.rows[0], "torque").unwrap(), 100.0));
         assert!(
             read.notes
-                .contains(&"column `T_wheel` counts times 0.5, with the other sign as torque".to_owned()),
+                .contains(&"column `T_wheel` is read multiplied by 0.5, with the opposite sign as torque".to_owned()),
             "{:?}",
             read.notes
         );
@@ -447,13 +447,13 @@ pub(crate) mod tests {
         // The column of the torque has another header here.
         assert_eq!(read.rows[2].cells, ["", "30", "7"].map(str::to_owned));
         assert!(
-            read.notes[0].starts_with("second: 1 rows left out: line 3"),
+            read.notes[0].starts_with("second: 1 rows omitted: line 3"),
             "{:?}",
             read.notes
         );
         let other: [&[u8]; 2] = [contents[0], b"speed [rpm],T,loss [W]\n30,3,7\n"];
         let fault = rig.read_files(&other, &[], &[]).unwrap_err().remove(0);
-        assert_eq!(fault.message, "second: unlike a.csv it holds `loss` beside");
+        assert_eq!(fault.message, "second: unlike a.csv it also has `loss`");
         let twice = changed(json!({ "file": ["a.csv", "a.csv"] }));
         let fault = twice
             .read_files(&[contents[0], contents[0]], &[], &[])
@@ -487,14 +487,14 @@ pub(crate) mod tests {
         let read = rig.read(text, &[]).unwrap();
         assert_eq!(read.rows.iter().map(|row| row.line).collect::<Vec<_>>(), [3]);
         assert!(
-            read.notes.iter().any(|note| note.contains("2 of 3 rows are left out")),
+            read.notes.iter().any(|note| note.contains("2 of 3 rows are omitted")),
             "{:?}",
             read.notes
         );
         for (rows, told) in [
             ("torque > 10", "no unit"),
             ("torqe > 1 Nm", "torqe"),
-            ("torque > 100 Nm", "no row meets"),
+            ("torque > 100 Nm", "no row satisfies"),
         ] {
             let rig = changed(json!({ "file": "rig.csv", "rows": rows }));
             let fault = rig.read(text, &[]).unwrap_err().remove(0);

@@ -84,7 +84,7 @@ fn faults_of_a_map_tell_line_and_column() {
         [
             "line 2, column 3 `efficiency`: an efficiency of 80; it must be between 0 and 1, or 0 and 100 %",
             "line 3, column 3 `efficiency`: an efficiency of 0; it must be between 0 and 1, or 0 and 100 %",
-            "line 4, column 1 `speed`: `-1` is below zero",
+            "line 4, column 1 `speed`: `-1` is negative",
             "line 5, column 2 `torque`: `x` is not a number",
         ]
     );

@@ -57,10 +57,7 @@ fn check_7_5_active_bound() {
     }
     assert!(fit.deviation(5).is_none() && fit.correlation(5, 0).is_none() && fit.freedom() == 433.0);
     assert_eq!(fit.determination(5).verdict, Verdict::OnBound(Side::Upper));
-    assert_eq!(
-        fit.sentence(5),
-        "stands at its upper bound 0.7000 and would go on; the data prefer more, the bound decides"
-    );
+    assert_eq!(fit.sentence(5), "is at its upper bound 0.7000; the data prefer more");
     // One-sided 95 %: the objective may rise by 2.705543.
     let profile = fit.to_profile(5, 0.95).unwrap();
     assert!((profile.limit * profile.limit - 2.705543).abs() < 1e-6);

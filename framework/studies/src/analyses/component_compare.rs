@@ -360,7 +360,7 @@ fn loss_of_component((torque, speed): (f64, f64), loss: &PartLoss, terms: &[Term
     }
 }
 
-/// Computed and measured losses at the measured points where the model has a value.
+/// Computed and measured losses at the measured points at which the model has a value.
 fn pairs<'a>(model: &'a ModelOfComponent, measured: &'a [MeasuredLoss]) -> impl Iterator<Item = (f64, f64)> + 'a {
     let pairs = model.at_measured.iter().zip(measured);
     pairs.filter_map(|(point, m)| Some((point.loss_w?, m.loss_w)))

@@ -232,8 +232,8 @@ impl Points {
     }
 }
 
-/// Solves all points and stores them. `progress` hears how many more are solved; where it answers false the work is broken off, and there
-/// is no result.
+/// Solves all points and stores them. `progress` is called with the number of newly solved points; if it returns false, the work stops
+/// without a result.
 ///
 /// # Errors
 /// If the case is invalid.

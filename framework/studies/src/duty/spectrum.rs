@@ -211,7 +211,7 @@ mod tests {
     fn a_spectrum_that_does_not_add_up_is_refused() {
         let message = |loads: &[SpectrumPoint]| intervals(loads, 3600.0).unwrap_err()[0].message.clone();
         let shares = [load(10.0, Some(0.25), None), load(20.0, Some(0.7), None)];
-        assert_eq!(message(&shares), "the shares sum up to 0.95, not to one");
+        assert_eq!(message(&shares), "the sum of the shares is 0.95, not one");
         let mixed = [load(10.0, Some(0.25), None), load(20.0, None, Some(7.0))];
         assert_eq!(
             message(&mixed),
@@ -230,12 +230,12 @@ mod tests {
         let faults = file().read(b"T [Nm],speed [rpm],share\n10,3000,0.4\n").unwrap_err();
         assert_eq!(
             faults[0].message,
-            "line 1: no column holds the torque; there are: T, speed, share"
+            "line 1: there is no column for the torque; there are: T, speed, share"
         );
         let faults = file()
             .read(b"torque [Nm],speed [rpm],share\n10,3000,0.4\n1,x,0.6\n2,2,-1\n")
             .unwrap_err();
         assert_eq!(faults[0].message, "line 3, column 2 `speed`: `x` is not a number");
-        assert_eq!(faults[1].message, "line 4, column 3 `share`: `-1` is below zero");
+        assert_eq!(faults[1].message, "line 4, column 3 `share`: `-1` is negative");
     }
 }

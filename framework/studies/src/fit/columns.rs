@@ -174,7 +174,7 @@ impl Columns {
             if any || number > 0.0 {
                 Ok(number * factor + zero)
             } else {
-                let message = format!("{place}: {cell} is not above zero");
+                let message = format!("{place}: {cell} is not positive");
                 Err(self.wrong(Some(row), &message, "write magnitudes, and delete points at standstill"))
             }
         };

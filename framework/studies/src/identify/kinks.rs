@@ -45,10 +45,10 @@ impl ModelKink {
         match &self.regimes {
             Some([a, b]) => format!("minimum at a kink of {place} between the regimes \"{a}\" and \"{b}\" ({lines})"),
             None if self.jumps => format!(
-                "minimum at a kink of {place}, where its {what} by {:.2} % ({lines})",
+                "minimum at a kink of {place}: the {what} by {:.2} % ({lines})",
                 100.0 * self.change
             ),
-            None => format!("minimum at a kink of {place}, where the {what} ({lines})"),
+            None => format!("minimum at a kink of {place}: the {what} ({lines})"),
         }
     }
 }
@@ -199,7 +199,7 @@ mod tests {
         (kink.regimes, kink.lines) = (None, vec![2, 4, 6, 8, 9]);
         assert_eq!(
             kink.sentence(),
-            format!("{words}, where its loss jumps by 0.20 % (5 lines, 2 to 9)")
+            format!("{words}, the loss changes abruptly by 0.20 % (5 lines, 2 to 9)")
         );
     }
 }

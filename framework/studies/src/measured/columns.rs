@@ -92,7 +92,7 @@ pub(super) const KNOWN: [Known; 17] = [
     known("name", ""),
 ];
 
-/// A column that holds a quantity.
+/// A column of a quantity.
 pub(super) struct Column {
     pub name: &'static str,
     pub place: usize,
@@ -223,7 +223,7 @@ impl<'a> Finder<'a> {
             (Some(place), _) => Some((place, header.to_owned())),
             (None, None) => None,
             (None, Some(_)) => {
-                let message = format!("no column is called `{header}`; there are: {}", self.headers());
+                let message = format!("there is no column `{header}`; there are: {}", self.headers());
                 let help = match did_you_mean(header, self.free_headers()) {
                     Some(close) => format!("write `{close}`"),
                     None => "state one of them under `columns`".to_owned(),
@@ -243,7 +243,7 @@ impl<'a> Finder<'a> {
         if stated(due) || stated(&out) || held(due) || held(&out) {
             return;
         }
-        let message = format!("no column holds the {due}; there are: {}", self.headers());
+        let message = format!("there is no column for the {due}; there are: {}", self.headers());
         let place = FaultPlace::Entry("columns".to_owned());
         self.fault(place, &message, format!("state one under `columns: {{ {due}: ... }}`"));
     }
@@ -298,7 +298,7 @@ impl<'a> Finder<'a> {
             // A missing assigned column is already reported.
             if self.written(name).is_none() {
                 let headers = self.headers();
-                let message = format!("no column is called `{name}`, which is bound; there are: {headers}");
+                let message = format!("there is no column `{name}`, which is bound; there are: {headers}");
                 let help = match did_you_mean(name, self.table.names.iter().map(String::as_str)) {
                     Some(close) => format!("bind `{close}`, or state it under `columns: {{ {name}: {close} }}`"),
                     None => "use a column of the file, or delete it from `bind`".to_owned(),
@@ -349,7 +349,7 @@ impl<'a> Finder<'a> {
     fn time(&mut self, header: &str) -> Option<Column> {
         let place = self.table.names.iter().position(|name| name == header);
         let Some(place) = place else {
-            let message = format!("no column is called `{header}`; there are: {}", self.headers());
+            let message = format!("there is no column `{header}`; there are: {}", self.headers());
             let help = match did_you_mean(header, self.table.names.iter().map(String::as_str)) {
                 Some(close) => format!("write `time: {close}`"),
                 None => "state the column of the time, `time: ...`".to_owned(),

@@ -675,21 +675,21 @@ mod tests {
         for (text, column, message, help) in [
             ("torque > 1000", 10, "has no unit", "`1000 Nm`"),
             ("torque > 1000 rpm", 10, "`rpm` is not a unit of torque", "kNm"),
-            ("torque > 1000 Mm", 15, "`Mm` is no unit", "Nm"),
+            ("torque > 1000 Mm", 15, "`Mm` is not a unit", "Nm"),
             ("torque > 1000 Nm speed < 2 rpm", 18, "`speed` follows", "`and`"),
             ("torque > 1,5 Nm", 10, "a comma", "point"),
             ("torque = 5 Nm", 8, "no comparison", "`==`"),
             ("torque > first", 10, "not a number", "`1 Nm`"),
             ("torque >", 9, "a value is missing", "1000 Nm"),
-            ("torque > 1e999 Nm", 10, "too great", "another"),
-            ("5 Nm < torque", 1, "begins with a number", "speed > 500 rpm and"),
+            ("torque > 1e999 Nm", 10, "too large", "another"),
+            ("5 Nm < torque", 1, "cannot start with a number", "speed > 500 rpm and"),
             ("efficiency > 95", 14, "percent", "`95 %`"),
-            ("gear > first", 1, "neither greater", "`==`"),
+            ("gear > first", 1, "has no order", "`==`"),
             ("(torque > 1 Nm", 15, "not closed", "`)`"),
-            ("torque > 1 Nm)", 14, "`)` follows", "parenthesis"),
-            ("torque > 1 Nm and", 18, "ends where", "comparison"),
-            ("", 1, "ends where", "torque > 1000 Nm"),
-            ("'T > 5", 1, "quotes", "behind"),
+            ("torque > 1 Nm)", 14, "unexpected `)`", "parenthesis"),
+            ("torque > 1 Nm and", 18, "ends before", "comparison"),
+            ("", 1, "ends before", "torque > 1000 Nm"),
+            ("'T > 5", 1, "quotes", "after"),
         ] {
             let found = Condition::parse(text).unwrap_err();
             assert!(
@@ -706,13 +706,23 @@ mod tests {
     #[test]
     fn names_that_no_file_holds_find_their_neighbour() {
         for (text, column, message, help) in [
-            ("torqe > 1 Nm", 1, "`torqe` is no measured quantity", "`torque`"),
-            ("gear == first and use_for_tset == 1", 19, "no column", "`use_for_test`"),
-            ("loss > 5 W", 1, "the data hold no `loss`", "columns: { loss: ... }"),
+            ("torqe > 1 Nm", 1, "`torqe` is neither a measured quantity", "`torque`"),
+            (
+                "gear == first and use_for_tset == 1",
+                19,
+                "nor a column",
+                "`use_for_test`",
+            ),
+            (
+                "loss > 5 W",
+                1,
+                "the data do not contain `loss`",
+                "columns: { loss: ... }",
+            ),
             ("V_oil > 5", 9, "has no unit", "`5 ml`"),
             ("V_oil > 5 Nm", 9, "`Nm` is not a unit of V_oil", "ml"),
-            ("use_for_test > 5 Nm", 16, "`Nm` is not a unit", "alone"),
-            ("xyzxyz == 1", 1, "no column", "the columns are torque"),
+            ("use_for_test > 5 Nm", 16, "`Nm` is not a unit", "without unit"),
+            ("xyzxyz == 1", 1, "nor a column", "the columns are torque"),
         ] {
             let found = Condition::parse(text).unwrap().check(&measured()).unwrap_err();
             assert!(

@@ -407,7 +407,7 @@ impl Measured {
                 }
             }
             self.notes.push(format!(
-                "no column holds `{quantity}`: `{out}` gives it at the other port"
+                "there is no column for `{quantity}`: `{out}` gives it at the other port"
             ));
             match quantity {
                 "torque" => self.torque_at_other_port = true,

@@ -163,7 +163,7 @@ fn limited(entry: &SteadyEntry, quantities: &[&'static str]) -> Result<Vec<Limit
             let Some(place) = quantities.iter().position(|q| *q == quantity) else {
                 return Err(MeasuredFault::new(
                     format!("steady.{key}.{quantity}"),
-                    format!("no column holds `{quantity}`, whose {key} is limited"),
+                    format!("there is no column of `{quantity}`, whose {key} is limited"),
                     format!("the file has {}: limit one of these", quantities.join(", ")),
                 ));
             };
@@ -710,7 +710,7 @@ mod tests {
         backwards[7].0 = 0.0;
         let fault = stretches(&entry(None), &QUANTITIES, backwards).unwrap_err();
         assert!(
-            fault.message.contains("line 9: the time does not rise"),
+            fault.message.contains("line 9: the time does not increase"),
             "{}",
             fault.message
         );

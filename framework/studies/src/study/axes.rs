@@ -383,6 +383,6 @@ mod tests {
             of_rating: Shares::List(vec![0.5, 1.0]),
         });
         assert_eq!(axis.values(Some(20.0)).unwrap(), [10.0, 20.0]);
-        assert!(axis.values(None).unwrap_err().contains("states none"));
+        assert!(axis.values(None).unwrap_err().contains("has none"));
     }
 }

@@ -181,7 +181,7 @@ mod tests {
             "{words:?}"
         );
         assert!(words[1].contains("no parameter `z`"), "{words:?}");
-        assert!(words[2].contains("one value for each"), "{words:?}");
+        assert!(words[2].contains("several values over torque"), "{words:?}");
         let mut identify = study(stated, json!({ "type": "identify", "parameters": ["x", "x"] }));
         assert!(replace_names(&mut identify).unwrap_err()[0].message.contains("twice"));
     }

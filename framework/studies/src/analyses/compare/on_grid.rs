@@ -82,7 +82,7 @@ pub struct GridDifference {
     pub difference: Option<f64>,
 }
 
-/// What every set is compared with, and where.
+/// The base of the comparison and its grid.
 struct Base<'a> {
     name: &'a str,
     gear: &'a str,
@@ -152,7 +152,7 @@ fn check_grid(cx: &Context<'_>, name: &str, grid: &Grid) -> Result<(), Stopped> 
     Ok(())
 }
 
-/// One set beside the base.
+/// Comparison of one set with the base.
 fn comparison(entry: &CompareEntry, base: &Base<'_>, built: &Built<'_>, other: &GridResult) -> GridComparison {
     let point = |(base, other): (&PointResult, &PointResult)| {
         let (base_model, model) = (entry.quantity.value(base), entry.quantity.value(other));

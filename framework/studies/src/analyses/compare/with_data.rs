@@ -64,7 +64,7 @@ pub struct Band {
     pub difference: Option<Statistics>,
 }
 
-/// One measured point beside the model.
+/// One measured point and the model.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ComparedPoint {
     /// Line in the file. [-]

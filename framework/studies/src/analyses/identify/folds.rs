@@ -62,7 +62,7 @@ impl FoldsOfSet {
     }
 }
 
-/// Unit of the bands by which rows are grouped; empty where they are groups, not bands, or of a column.
+/// Unit of the bands of rows; empty for groups that are not bands, and for groups of a column.
 fn fold_unit(entry: &FoldsEntry) -> &'static str {
     match entry {
         FoldsEntry::Torques(_) => "Nm",

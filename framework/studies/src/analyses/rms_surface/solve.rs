@@ -70,7 +70,7 @@ pub fn pairs(
     let running = cx.running(count, &built.name);
     let trial = Trial::new(cx, built);
     let speeds = trial.speeds(rows);
-    let speeds = &speeds.map_err(|reason| cx.wrong("analyses", reason, "leave it out of `rig`"))?[..];
+    let speeds = &speeds.map_err(|reason| cx.wrong("analyses", reason, "delete it from `rig`"))?[..];
     let solve = |i: usize| {
         let at = [x.values[i % x.values.len()], y.values[i / x.values.len()]];
         let overrides: Vec<_> = x.varied.overrides(at[0]).chain(y.varied.overrides(at[1])).collect();

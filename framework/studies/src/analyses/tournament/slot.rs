@@ -150,7 +150,7 @@ fn checked(language: &Language, model: &Value, path: &str) -> Result<Value, Stri
     language.checked(model, path).map_err(first)
 }
 
-/// Section that holds the models of a mechanism.
+/// Section of the models of a mechanism.
 fn section<'l>(language: &'l Language, mechanism: &str) -> Option<&'l str> {
     let held = HELD
         .iter()
