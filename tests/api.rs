@@ -120,8 +120,20 @@ fn an_analysis_that_there_is_not_is_named() {
     let language = language();
     let study = read_study(&language, &Disk::shared(), file("examples/two-speed-ev/town.yaml")).unwrap();
     let run = StudyRun::new(&language, &study);
-    let error = run.analysis("towm").err().unwrap().to_string();
-    assert!(error.contains("towm") && error.contains("town"), "{error}");
+    let error = run.analysis("towm").err().unwrap();
+    let text = error.to_string();
+    assert!(text.contains("towm") && text.contains("town"), "{text}");
+    // A program compares the code, and reads place and help without the text.
+    let [findings] = error.findings() else {
+        panic!("one list of findings: {text}");
+    };
+    assert_eq!(findings.list[0].code, Some(gearloss::framework::codes::UNKNOWN_NAME));
+    let json = serde_json::to_value(findings).unwrap();
+    assert_eq!(
+        (&json[0]["code"], &json[0]["path"]),
+        (&"E0203".into(), &"analyses".into())
+    );
+    assert!(json[0]["line"].is_u64() && json[0]["help"].is_string(), "{json:#}");
     let names: Vec<&str> = run
         .outcomes()
         .map(|(name, outcome)| outcome.map(|_| name).unwrap())

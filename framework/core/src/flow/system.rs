@@ -93,7 +93,7 @@ pub struct Flow {
 
 impl Flow {
     /// The flow of a train. `unknown` and `given` are the columns of ports without and with a given torque; `loops` are
-    /// those of [`crate::kinematics::Motion`].
+    /// those of `Motion`.
     ///
     /// # Errors
     /// If the number of given torques or of splits does not match, or the system is singular.

@@ -44,6 +44,17 @@ pub enum Stopped {
     Unwritten(String),
 }
 
+impl Stopped {
+    /// What was found: none where the input is right.
+    pub fn findings(&self) -> &[Findings] {
+        match self {
+            Self::Found(findings) => std::slice::from_ref(findings),
+            Self::Several(list) => list,
+            Self::Interrupted | Self::Checked | Self::Elsewhere | Self::Unwritten(_) => &[],
+        }
+    }
+}
+
 /// One gearbox under one model set.
 pub struct Built<'a> {
     /// Name of the set in the study.

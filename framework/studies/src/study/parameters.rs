@@ -85,7 +85,7 @@ pub(super) fn replace_names(study: &mut Value) -> Result<TakenOver, Vec<Diagnost
             match stated.get(&parameter) {
                 None => found.push(unknown(&place, &parameter, &stated)),
                 Some(_) if identifies && named.contains_key(&parameter) => {
-                    found.push(Diagnostic::error(place, format!("`{parameter}` is listed twice")).help("list it once"))
+                    found.push(Diagnostic::error(place, format!("`{parameter}` is listed twice")).help("list it once"));
                 }
                 Some(whole) if identifies => {
                     named.insert(parameter, whole.clone());
