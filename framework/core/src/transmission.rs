@@ -9,6 +9,7 @@ mod nodes;
 mod oils;
 mod planets;
 mod plausible;
+mod seats;
 mod stage;
 mod states;
 mod statics;
@@ -17,9 +18,9 @@ use std::sync::Arc;
 
 pub use case::Case;
 pub use drags::DragSeat;
-pub use gearing::{GearSeat, MeshSeat};
 pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{Oils, Surface};
+pub use seats::{GearSeat, MeshSeat};
 pub use stage::Stage;
 pub use states::GearState;
 

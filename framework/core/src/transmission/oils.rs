@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use super::gearing::MeshSeat;
 use super::members::Members;
 use super::nodes::NodeNames;
-use super::planets::orbit;
+use super::seats::{MeshSeat, orbit};
 use crate::attach::{Level, Oil, Places, dangling};
 use crate::description::{GearboxEntry, Running};
 use crate::document::Diagnostic;
