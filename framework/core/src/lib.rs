@@ -22,6 +22,7 @@ pub mod lubricant;
 pub mod mechanism;
 pub mod motor;
 pub mod prelude;
+mod registration;
 pub mod registry;
 pub mod resolve;
 pub mod table;

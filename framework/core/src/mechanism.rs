@@ -13,11 +13,15 @@ pub mod heat_link;
 mod law;
 pub mod mean_friction;
 pub mod planetary_drag;
+pub mod scalar;
 pub mod seal;
+mod slot;
 pub mod synchronizer;
 pub mod tooth_friction;
 
 pub use law::{Follows, Law, ROUNDED, settle};
+pub use scalar::{Lookup, Scalar};
+pub use slot::{ModelRef, NamedSlots, Slot};
 
 use std::sync::Arc;
 
@@ -26,7 +30,6 @@ use serde::de::DeserializeOwned;
 
 use crate::attach::Attach;
 use crate::document::Unit;
-use crate::generic::Scalar;
 use crate::lanes::{LaneNotes, LossLanes};
 use crate::loads::{LoadLanes, StaticRating};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
@@ -301,7 +304,7 @@ macro_rules! context {
 
             /// The same for the model of a nested slot, which has its own notes.
             #[inline]
-            pub fn nested(&self, slot: &$crate::registry::Slot<$M>) -> Self {
+            pub fn nested(&self, slot: &$crate::mechanism::Slot<$M>) -> Self {
                 self.with(|to| to.notes = self.notes.of(slot.notes))
             }
 

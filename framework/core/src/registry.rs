@@ -4,9 +4,9 @@
 //! build function, which is downcast once per resolve.
 
 mod build;
+mod evaluated;
 mod placed;
 mod recipe;
-mod slot;
 
 use std::any::Any;
 
@@ -15,18 +15,16 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
+pub use evaluated::Evaluated;
 pub(crate) use placed::sealed::Sealed;
-pub use placed::{Common, Placed, Section};
+pub use placed::{Placed, Section};
 pub use recipe::NetworkRecipe;
-pub use slot::{ModelRef, NamedSlots, Slot};
 
-use crate::conformance;
 use crate::document::{Diagnostic, did_you_mean};
-use crate::eval::{self, Evaluated};
-use crate::generic;
 use crate::loss::{Limit, Observed, Term};
+use crate::mechanism::QuantityDoc;
 use crate::mechanism::gear_drag::Scope;
-use crate::mechanism::{Component, Mechanism, QuantityDoc};
+pub use crate::mechanism::{ModelRef, NamedSlots, Slot};
 
 pub use inventory;
 
@@ -258,48 +256,6 @@ pub struct MechanismEntry {
 }
 
 inventory::collect!(MechanismEntry);
-
-impl MechanismEntry {
-    /// The entry of a mechanism without its own section.
-    pub const fn of<M: Mechanism>(origin: Origin) -> Self {
-        Self {
-            key: M::KEY,
-            meaning: M::MEANING,
-            answer: M::ANSWER,
-            example: M::EXAMPLE,
-            origin,
-            section: None,
-            quantities: quantities::<M>,
-            laws: || M::LAWS.iter().map(|law| law.text).collect(),
-            generics: generic::entries::<M>,
-            part: |generator| <M::Part as schemars::JsonSchema>::json_schema(generator),
-            eval: eval::eval::<M>,
-            conform: conformance::conform::<M>,
-        }
-    }
-
-    /// The entry of a mechanism whose parts have a section.
-    pub const fn component<C: Component>(origin: Origin) -> Self {
-        Self {
-            section: Some(Section::of::<C>()),
-            ..Self::of::<C>(origin)
-        }
-    }
-}
-
-fn quantities<M: Mechanism>() -> Vec<QuantityDoc> {
-    M::QUANTITIES
-        .iter()
-        .map(|q| QuantityDoc {
-            name: q.name,
-            doc: q.doc,
-            usual: q.usual,
-            least: q.least,
-            greatest: q.greatest,
-            from: q.from,
-        })
-        .collect()
-}
 
 /// A catalogue: values that fill the omitted keys of a component by its designation.
 #[derive(Debug, Clone, Copy)]

@@ -33,9 +33,10 @@ use crate::description::{RatingEntry, ThermalMode};
 use crate::document::Diagnostic;
 use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
+use crate::mechanism::Slot;
 use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
-use crate::registry::{Instance, Placed, Slot};
+use crate::registry::{Instance, Placed};
 use crate::thermal::Housing;
 use crate::thermal::network::Network;
 

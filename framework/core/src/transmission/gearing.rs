@@ -12,9 +12,10 @@ use crate::description::{
 use crate::document::Diagnostic;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::mechanism::Mechanism;
+use crate::mechanism::NamedSlots;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
-use crate::registry::{NamedSlots, Registry};
+use crate::registry::Registry;
 
 /// Default roughness, that of ground flanks: Ra 0.4 um. \[m\]
 const USUAL_RA: f64 = 0.4e-6;

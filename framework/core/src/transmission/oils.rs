@@ -5,13 +5,12 @@ use std::sync::Arc;
 use super::members::Members;
 use super::nodes::NodeNames;
 use super::seats::{MeshSeat, orbit};
-use crate::attach::{Level, Oil, Places, dangling};
+use crate::attach::{Common, Level, Oil, Places, dangling};
 use crate::description::{GearboxEntry, Running};
 use crate::document::Diagnostic;
 use crate::immersion::upward;
 use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
-use crate::registry::Common;
 use crate::table::clamped;
 
 /// Oil height of the sump above its datum while rotating.

@@ -6,14 +6,15 @@ use super::drags::{Covered, body, part};
 use super::members::Members;
 use super::oils::OilNumbers;
 use super::seats::{GearSeat, MeshSeat, orbit};
-use crate::attach::{Places, Spot, State, dangling};
+use crate::attach::{Common, Places, Spot, State, dangling};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
-use crate::registry::{Build, Common, ModelRef, Placed, Sealed, Slot};
+use crate::mechanism::{ModelRef, Slot};
+use crate::registry::{Build, Placed, Sealed};
 
 /// Unequal load sharing among the planets of a set.
 #[derive(Debug, Clone, Copy, PartialEq)]
