@@ -4,6 +4,7 @@
 //! (the keys that it adds to the component's entry), a *seat* (indices), and a *site* (the state at one point).
 
 mod clearance;
+mod common;
 mod member;
 mod support;
 
@@ -13,6 +14,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 pub use clearance::{Clearance, ClearancePlace, ClearanceSeat, ClearanceSite};
+pub use common::Common;
 pub use member::{MemberPlace, MemberSite, OnMember};
 pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
 
@@ -20,7 +22,6 @@ use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::immersion::Height;
 use crate::loads::SupportLoad;
-use crate::registry::Common;
 
 mod sealed {
     pub trait Sealed {}

@@ -7,91 +7,10 @@ use serde_json::Value;
 use crate::description::Ordered;
 use crate::document::{Diagnostic, Unit, did_you_mean};
 use crate::formula::Formula;
-use crate::loss::{Limit, Loss, Undefined};
 use crate::mechanism::gear_drag::Scope;
 use crate::mechanism::{Mechanism, Noted, Quantity};
 use crate::registry::{Build, Built, Entry, Evidence, Graded, USER_DEFINED, formula};
 use crate::table::{self, Interpolation, Outside, Reading, Scale, Table};
-
-/// Maximum number of quantities of a context, for the inputs of a formula.
-const MOST_QUANTITIES: usize = 24;
-
-/// A law with a single result: a coefficient, a moment or a power.
-pub struct Scalar<M: Mechanism> {
-    law: Law<M>,
-    unit: &'static Unit,
-}
-
-enum Law<M: Mechanism> {
-    None,
-    /// In SI.
-    Constant(f64),
-    Formula(Formula),
-    Table(Lookup<M>),
-}
-
-impl<M: Mechanism> Scalar<M> {
-    /// The value at a context, SI.
-    ///
-    /// # Errors
-    /// If the formula is undefined, the table ends, or the value is negative.
-    pub fn value(&self, at: &M::At<'_>) -> Result<f64, Undefined> {
-        let value = match &self.law {
-            Law::None => return Ok(0.0),
-            Law::Constant(value) => return Ok(*value),
-            Law::Formula(formula) => {
-                let mut inputs = [0.0; MOST_QUANTITIES];
-                for (input, q) in inputs.iter_mut().zip(M::QUANTITIES) {
-                    *input = q.unit().from_si((q.get)(at));
-                }
-                formula.value(&inputs[..M::QUANTITIES.len()])?
-            }
-            Law::Table(lookup) => {
-                let (value, place) = lookup.value(at)?;
-                at.notes().check(&PLACE, place);
-                value
-            }
-        };
-        if value < 0.0 {
-            return Err(Undefined {
-                what: "value of the formula or table is negative",
-                value,
-            });
-        }
-        Ok(self.unit.to_si(value))
-    }
-
-    /// True if the law has the same value at every context.
-    pub fn is_constant(&self) -> bool {
-        matches!(self.law, Law::None | Law::Constant(_))
-    }
-
-    /// The value as a moment.
-    ///
-    /// # Errors
-    /// As [`Scalar::value`].
-    pub fn moment(&self, at: &M::At<'_>) -> Result<Loss, Undefined> {
-        Ok(Loss::MOMENTS.with(&M::TOTAL, self.value(at)?))
-    }
-
-    /// The value as a power.
-    ///
-    /// # Errors
-    /// As [`Scalar::value`].
-    pub fn power(&self, at: &M::At<'_>) -> Result<Loss, Undefined> {
-        Ok(Loss::POWERS.with(&M::TOTAL, self.value(at)?))
-    }
-}
-
-/// Position of a point in a table: the first limit of every model that reads one.
-pub const PLACE: Limit = Limit::new(
-    0,
-    "position along the axis that is exceeded most, 0 and 1 are its ends",
-    "-",
-    0.0,
-    1.0,
-    "the ends of the table",
-);
 
 /// The entries that every mechanism has automatically.
 pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
@@ -120,7 +39,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
             "none",
             "{ type: none }",
             <NoParams as JsonSchema>::json_schema,
-            |_, cx| built::<M>(Law::None, cx),
+            |_, cx| built::<M>(ScalarLaw::None, cx),
         ),
         entry(
             "constant",
@@ -128,7 +47,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
             constant_schema::<M>,
             |value, cx| {
                 let value = value["value"].as_f64().ok_or_else(|| cx.error("`value` is missing"))?;
-                built::<M>(Law::Constant(value), cx)
+                built::<M>(ScalarLaw::Constant(value), cx)
             },
         ),
         entry(
@@ -217,7 +136,7 @@ fn constant_schema<M: Mechanism>(_: &mut SchemaGenerator) -> Schema {
     })
 }
 
-fn built<M: Mechanism>(law: Law<M>, cx: &Build<'_>) -> Result<Built, Diagnostic> {
+fn built<M: Mechanism>(law: ScalarLaw<M>, cx: &Build<'_>) -> Result<Built, Diagnostic> {
     let unit = Unit::of_doc(M::ANSWER).ok_or_else(|| cx.error("bug: the mechanism's answer has no [unit]"))?;
     Ok(Box::new(M::scalar(Scalar { law, unit })) as Built)
 }
@@ -240,14 +159,7 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
                 .help(format!("state {needed}")));
         }
     }
-    built::<M>(Law::Formula(formula), cx)
-}
-
-/// A table over quantities of a mechanism's context, for models that read one.
-pub struct Lookup<M: Mechanism> {
-    /// One for each column of results.
-    tables: Vec<Table>,
-    axes: Vec<&'static Quantity<M>>,
+    built::<M>(ScalarLaw::Formula(formula), cx)
 }
 
 impl<M: Mechanism> Lookup<M> {
@@ -411,28 +323,6 @@ impl<M: Mechanism> Lookup<M> {
         }
         Ok(Self { tables, axes })
     }
-
-    /// The sum of the results at a context, in the unit of the file, and the position of the context along the axis on which it is
-    /// farthest outside.
-    ///
-    /// # Errors
-    /// If the table ends.
-    pub fn value(&self, at: &M::At<'_>) -> Result<(f64, f64), Undefined> {
-        let mut inputs = [0.0; 4];
-        for ((input, q), axis) in inputs.iter_mut().zip(&self.axes).zip(self.tables[0].axes()) {
-            *input = q.unit().from_si((q.get)(at));
-            // A table over non-negative speeds applies to both directions of rotation.
-            if q.least < 0.0 && q.unit().symbol == "rpm" && axis.values[0] >= 0.0 {
-                *input = input.abs();
-            }
-        }
-        let inputs = &inputs[..self.axes.len()];
-        let mut sum = 0.0;
-        for table in &self.tables {
-            sum += table.value(inputs)?;
-        }
-        Ok((sum, self.tables[0].place(inputs)))
-    }
 }
 
 fn build_table<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built, Diagnostic> {
@@ -453,5 +343,5 @@ fn build_table<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built,
             ));
         }
     };
-    built::<M>(Law::Table(lookup), cx)
+    built::<M>(ScalarLaw::Table(lookup), cx)
 }

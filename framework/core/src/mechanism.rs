@@ -13,11 +13,15 @@ pub mod heat_link;
 mod law;
 pub mod mean_friction;
 pub mod planetary_drag;
+pub mod scalar;
 pub mod seal;
+mod slot;
 pub mod synchronizer;
 pub mod tooth_friction;
 
 pub use law::{Follows, Law, ROUNDED, settle};
+pub use scalar::{Lookup, Scalar};
+pub use slot::{ModelRef, NamedSlots, Slot};
 
 use std::sync::Arc;
 
@@ -26,7 +30,6 @@ use serde::de::DeserializeOwned;
 
 use crate::attach::Attach;
 use crate::document::Unit;
-use crate::generic::Scalar;
 use crate::lanes::{LaneNotes, LossLanes};
 use crate::loads::{LoadLanes, StaticRating};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};

@@ -4,9 +4,9 @@
 //! build function, which is downcast once per resolve.
 
 mod build;
+mod evaluated;
 mod placed;
 mod recipe;
-mod slot;
 
 use std::any::Any;
 
@@ -15,19 +15,18 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
+pub use evaluated::Evaluated;
 pub(crate) use placed::sealed::Sealed;
-pub use placed::{Common, Placed, Section};
+pub use placed::{Placed, Section};
 pub use recipe::NetworkRecipe;
-pub use slot::{ModelRef, NamedSlots, Slot};
 
 use crate::codes;
 use crate::conformance;
 use crate::document::{Diagnostic, did_you_mean};
-use crate::eval::{self, Evaluated};
-use crate::generic;
 use crate::loss::{Limit, Observed, Term};
+use crate::mechanism::QuantityDoc;
 use crate::mechanism::gear_drag::Scope;
-use crate::mechanism::{Component, Mechanism, QuantityDoc};
+pub use crate::mechanism::{ModelRef, NamedSlots, Slot};
 
 pub use inventory;
 

@@ -9,6 +9,7 @@ mod nodes;
 mod oils;
 mod planets;
 mod plausible;
+mod seats;
 mod stage;
 mod states;
 mod statics;
@@ -17,9 +18,9 @@ use std::sync::Arc;
 
 pub use case::Case;
 pub use drags::DragSeat;
-pub use gearing::{GearSeat, MeshSeat};
 pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{Oils, Surface};
+pub use seats::{GearSeat, MeshSeat};
 pub use stage::Stage;
 pub use states::GearState;
 
@@ -32,9 +33,10 @@ use crate::description::{RatingEntry, ThermalMode};
 use crate::document::Diagnostic;
 use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
+use crate::mechanism::Slot;
 use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
-use crate::registry::{Instance, Placed, Slot};
+use crate::registry::{Instance, Placed};
 use crate::thermal::Housing;
 use crate::thermal::network::Network;
 

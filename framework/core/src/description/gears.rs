@@ -7,7 +7,7 @@ use super::shafts::Unsupported;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::registry::{ModelRef, NamedSlots};
+use crate::mechanism::{ModelRef, NamedSlots};
 
 /// A gear.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

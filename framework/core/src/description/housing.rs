@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{NetworkChoice, Ordered};
+use crate::mechanism::NamedSlots;
 use crate::mechanism::heat_dissipation::HeatDissipation;
-use crate::registry::NamedSlots;
 
 /// The housing.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]

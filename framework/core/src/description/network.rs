@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Ordered;
+use crate::mechanism::ModelRef;
 use crate::mechanism::heat_link::HeatLink;
 use crate::motor::MotorEntry;
-use crate::registry::ModelRef;
 
 /// A thermal network: `auto`, or as written.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

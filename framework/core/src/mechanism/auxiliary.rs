@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::attach::{MemberSite, OnMember};
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Component, Law, Mechanism, NoPart, Quantity};
 
 /// Marker of the mechanism; never constructed.

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::attach::{Support, SupportSite};
 use crate::context;
-use crate::generic::Scalar;
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loads::{LoadLanes, StaticFactors, StaticRating};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Component, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::attach::{Clearance, ClearanceSite};
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Component, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.

@@ -7,9 +7,9 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::immersion;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Law, Mechanism, Quantity, ROUNDED};
 
 /// Marker of the mechanism; never constructed.

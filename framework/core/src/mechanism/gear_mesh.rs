@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::context;
 use crate::description::gears::ShiftSign;
-use crate::generic::Scalar;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::lubricant::Lubricant;
+use crate::mechanism::Scalar;
 use crate::mechanism::{Law, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.

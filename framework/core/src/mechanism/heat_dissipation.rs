@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
 use crate::mechanism::{Law, Mechanism, Quantity};
 

@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::gear_drag::{Covers, DragPart};
 use crate::mechanism::{Law, Mechanism, Quantity, ShopUnits};
 

@@ -5,12 +5,12 @@ mod suite;
 use std::sync::Arc;
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::lanes::{Lane, LaneNotes, Powers};
 use crate::loss::{NoteBase, Notes, Undefined};
+use crate::mechanism::Scalar;
+use crate::mechanism::Slot;
 use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
 use crate::mechanism::{Law, Mechanism, NoPart, Quantity};
-use crate::registry::Slot;
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]

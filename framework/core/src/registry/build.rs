@@ -8,14 +8,13 @@ use std::sync::{Arc, Mutex};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::slot::{ModelRef, Slot};
 use super::{Entry, Registry, from_resolved};
 use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::NoteBase;
-use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
+use crate::mechanism::{Mechanism, ModelRef, Slot};
 
 /// Files named by a description, read once; paths are relative to the document that names them.
 #[derive(Debug)]

@@ -3,12 +3,11 @@
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Deserialize;
 use serde_json::Value;
 
 use super::build::Build;
-use super::{Slot, from_resolved};
-use crate::attach::{Attach, Names, Spot, State};
+use super::from_resolved;
+use crate::attach::{Attach, Common, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::lanes::{LaneNotes, LossLanes};

@@ -7,8 +7,9 @@ use super::balance::{Balance, Step, single};
 use crate::description::{GearboxEntry, HeatInto, OutsideEntry, Thermal, ThermalMode};
 use crate::document::Diagnostic;
 use crate::loss::{Extent, Notes, Trace, Undefined};
+use crate::mechanism::Slot;
 use crate::mechanism::heat_dissipation::{HeatDissipation, HeatDissipationAt, HousingPart, WarmSide};
-use crate::registry::{Build, Slot};
+use crate::registry::Build;
 
 /// One heat dissipation path.
 pub struct Way {

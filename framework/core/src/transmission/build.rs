@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use super::drags::{Covered, DragSeat, body, mates, named, part, twice};
-use super::gearing::{GearSeat, MeshSeat, gearing};
+use super::gearing::gearing;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oils::OilNumbers;
 use super::planets;
 use super::plausible;
+use super::seats::{GearSeat, MeshSeat};
 use super::states::states;
 use super::statics::{imported, load_factors, shaft_loads};
 use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};

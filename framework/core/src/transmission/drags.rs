@@ -1,6 +1,6 @@
 //! Drag models on gears and meshes: seats, parts, and the check that no cause is counted twice.
 
-use super::gearing::{GearSeat, MeshSeat};
+use super::seats::{GearSeat, MeshSeat};
 use crate::attach::Level;
 use crate::description::GearboxEntry;
 use crate::mechanism::gear_drag::{Covers, DragPart, GearBody};

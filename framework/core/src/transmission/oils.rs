@@ -2,17 +2,15 @@
 
 use std::sync::Arc;
 
-use super::gearing::MeshSeat;
 use super::members::Members;
 use super::nodes::NodeNames;
-use super::planets::orbit;
-use crate::attach::{Level, Oil, Places, dangling};
+use super::seats::{MeshSeat, orbit};
+use crate::attach::{Common, Level, Oil, Places, dangling};
 use crate::description::{GearboxEntry, Running};
 use crate::document::Diagnostic;
 use crate::immersion::upward;
 use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
-use crate::registry::Common;
 use crate::table::clamped;
 
 /// Oil height of the sump above its datum while rotating.

@@ -3,17 +3,18 @@
 use std::sync::Arc;
 
 use super::drags::{Covered, body, part};
-use super::gearing::{GearSeat, MeshSeat};
 use super::members::Members;
 use super::oils::OilNumbers;
-use crate::attach::{Places, Spot, State, dangling};
+use super::seats::{GearSeat, MeshSeat, orbit};
+use crate::attach::{Common, Places, Spot, State, dangling};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
-use crate::registry::{Build, Common, ModelRef, Placed, Sealed, Slot};
+use crate::mechanism::{ModelRef, Slot};
+use crate::registry::{Build, Placed, Sealed};
 
 /// Unequal load sharing among the planets of a set.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,14 +40,6 @@ impl Sharing {
             weight: 1.0 / count,
         }
     }
-}
-
-/// Orbit radius of a planet body; `None` if it meshes with no gear on the central axis. \[m\]
-pub fn orbit(body: usize, members: &Members, meshes: &[MeshSeat]) -> Option<f64> {
-    meshes
-        .iter()
-        .find(|m| m.members.contains(&body) && !m.members.iter().all(|b| members.planets[*b].is_some()))
-        .map(|m| m.pair.centre_distance)
 }
 
 /// Load sharing of the set of each planet member; `None` if all planets carry the same load.

@@ -1,8 +1,8 @@
 //! Checks for likely mistakes in valid descriptions: little face overlap, profile shifts that only match a centre distance, oil
 //! that reaches no gear.
 
-use super::gearing::GearSeat;
 use super::oils::OilNumbers;
+use super::seats::GearSeat;
 use crate::attach::Level;
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;

@@ -1,7 +1,7 @@
 //! Gear states: constraint rows, degrees of freedom, and the ports that may prescribe speeds.
 
-use super::gearing::MeshSeat;
 use super::members::Members;
+use super::seats::MeshSeat;
 use crate::attach::{SeatedClearance, dangling};
 use crate::codes;
 use crate::description::GearboxEntry;

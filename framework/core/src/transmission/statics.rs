@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::gearing::MeshSeat;
 use super::members::Members;
-use super::planets::orbit;
+use super::seats::{MeshSeat, orbit};
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};

@@ -117,7 +117,7 @@ pub struct Slot<M: Mechanism> {
 }
 
 impl<M: Mechanism> Slot<M> {
-    pub(super) fn new(model: Arc<M::Model>, notes: NoteBase, off: bool) -> Self {
+    pub(crate) fn new(model: Arc<M::Model>, notes: NoteBase, off: bool) -> Self {
         Self { model, notes, off }
     }
 }
