@@ -106,7 +106,7 @@ fn wrong_names_and_files_say_what_to_write() {
         "B9",
         "write `skf`",
         "none.csv",
-        "no model is named",
+        "no model is given",
     ] {
         assert!(text.contains(words), "{words} is missing:\n{text}");
     }

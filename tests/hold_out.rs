@@ -332,7 +332,7 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
             "applies to random groups",
             "random",
         ),
-        ("folds: 1", "found.folds", "one group", "2 or more"),
+        ("folds: 1", "found.folds", "at least two groups", "at least 2"),
     ] {
         let (results, text) = run(&format!("    {keys}\n"), csv);
         assert!(
@@ -347,7 +347,7 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
 fn folds_group_by_what_is_asked() {
     let csv: &str = &SPOILT;
     for (keys, by, words, groups, first) in [
-        ("4", "torque", "its own band of torque a residual", 4, "10.0 Nm"),
+        ("4", "torque", "(band of torque): predicted residual", 4, "10.0 Nm"),
         (
             "{ by: torque, count: 3 }",
             "torque",
@@ -369,12 +369,15 @@ fn folds_group_by_what_is_asked() {
             4,
             "random group 1",
         ),
-        ("{ by: bench }", "bench", "its own group of `bench`", 3, "bench A"),
-        ("{ by: loss, count: 2 }", "loss", "its own group of `loss`", 2, ""),
+        ("{ by: bench }", "bench", "(group of `bench`)", 3, "bench A"),
+        ("{ by: loss, count: 2 }", "loss", "(group of `loss`)", 2, ""),
     ] {
         let (results, text) = run(&format!("    folds: {keys}\n    write: [json]\n"), csv);
         let folds = &found(&results)["folds"];
-        assert!(text.contains(&format!("predicted without {words}")), "{keys}\n{text}");
+        assert!(
+            text.contains("cross-validation over ") && text.contains(words),
+            "{keys}\n{text}"
+        );
         let bands = folds["bands"].as_array().unwrap();
         assert_eq!((folds["by"].as_str().unwrap(), bands.len()), (by, groups), "{keys}");
         assert!(

@@ -8,7 +8,10 @@ use crate::description::Ordered;
 use crate::document::{Diagnostic, Unit, did_you_mean};
 use crate::formula::Formula;
 use crate::mechanism::gear_drag::Scope;
-use crate::mechanism::{Mechanism, Noted, Quantity};
+pub use crate::mechanism::scalar::PLACE;
+use crate::mechanism::scalar::ScalarLaw;
+pub use crate::mechanism::{Lookup, Scalar};
+use crate::mechanism::{Mechanism, Quantity};
 use crate::registry::{Build, Built, Entry, Evidence, Graded, USER_DEFINED, formula};
 use crate::table::{self, Interpolation, Outside, Reading, Scale, Table};
 

@@ -66,6 +66,7 @@ pub mod attach;
 pub mod conformance;
 pub mod loss;
 pub mod mechanism;
+mod registration;
 
 // What models and the solver calculate with: teeth, contacts, oils, motors.
 pub mod contact;

@@ -308,7 +308,7 @@ macro_rules! context {
 
             /// The same for the model of a nested slot, which has its own notes.
             #[inline]
-            pub fn nested(&self, slot: &$crate::registry::Slot<$M>) -> Self {
+            pub fn nested(&self, slot: &$crate::mechanism::Slot<$M>) -> Self {
                 self.with(|to| to.notes = self.notes.nested(slot.notes))
             }
 

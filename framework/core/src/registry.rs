@@ -21,7 +21,6 @@ pub use placed::{Placed, Section};
 pub use recipe::NetworkRecipe;
 
 use crate::codes;
-use crate::conformance;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::loss::{Limit, Observed, Term};
 use crate::mechanism::QuantityDoc;
@@ -266,48 +265,6 @@ pub struct MechanismEntry {
 }
 
 inventory::collect!(MechanismEntry);
-
-impl MechanismEntry {
-    /// The entry of a mechanism without its own section.
-    pub const fn new<M: Mechanism>(origin: Origin) -> Self {
-        Self {
-            key: M::KEY,
-            meaning: M::MEANING,
-            answer: M::ANSWER,
-            example: M::EXAMPLE,
-            origin,
-            section: None,
-            quantities: quantities::<M>,
-            laws: || M::LAWS.iter().map(|law| law.text).collect(),
-            generics: generic::entries::<M>,
-            part: |generator| <M::Part as schemars::JsonSchema>::json_schema(generator),
-            eval: eval::eval::<M>,
-            conform: conformance::conform::<M>,
-        }
-    }
-
-    /// The entry of a mechanism whose parts have a section.
-    pub const fn component<C: Component>(origin: Origin) -> Self {
-        Self {
-            section: Some(Section::new::<C>()),
-            ..Self::new::<C>(origin)
-        }
-    }
-}
-
-fn quantities<M: Mechanism>() -> Vec<QuantityDoc> {
-    M::QUANTITIES
-        .iter()
-        .map(|q| QuantityDoc {
-            name: q.name,
-            doc: q.doc,
-            usual: q.usual,
-            least: q.least,
-            greatest: q.greatest,
-            from: q.from,
-        })
-        .collect()
-}
 
 /// A catalogue: values that fill the omitted keys of a component by its designation.
 #[derive(Debug, Clone, Copy)]
