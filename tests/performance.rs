@@ -171,7 +171,7 @@ fn figures(date: &str) -> String {
     let load: Vec<&str> = load.split(' ').take(3).collect();
     let mut out = format!(
         "Figures of {date}: gearloss {}, {}, bench profile. Processor {}, {cores} cores; load average {}\nover the last 1, 5 and 15 \
-         minutes, told right after the benches: what is beyond the number of threads of a bench was other work.\n\n\
+         minutes, read right after the benches; load above the number of threads of a bench was other work.\n\n\
          | bench | median | 95 % interval | for one of |\n|---|---|---|---|\n",
         env!("CARGO_PKG_VERSION"),
         told(rustc.as_deref()),
