@@ -54,7 +54,7 @@
 use std::path::Path;
 
 pub use gearloss_document::files::{Disk, FileSource, InMemory, SharedSource};
-pub use gearloss_document::{Code, Diagnostic, Severity, Sources};
+pub use gearloss_document::{Code, Diagnostic, FilePlace, PlacedDiagnostic, RelatedPlace, Severity, Sources};
 pub use gearloss_framework::evaluate::{Point, PowerFlow, Scratch, Solution};
 pub use gearloss_framework::gearbox::{Findings, Gearbox};
 pub use gearloss_framework::language::Language;
@@ -85,6 +85,17 @@ pub mod outcomes {
     pub use gearloss_studies::analyses::thermal_limit::ThermalLimitOutcome;
     pub use gearloss_studies::analyses::tournament::TournamentOutcome;
     pub use gearloss_studies::analyses::uncertainty::UncertaintyOutcome;
+}
+
+/// Every code of a finding, in the order of their numbers; docs/errors.md lists them with cause and help.
+pub fn codes() -> Vec<Code> {
+    let own: [&[Code]; 4] = [
+        gearloss_document::codes::ALL,
+        gearloss_framework::codes::ALL,
+        gearloss_studies::codes::ALL,
+        gearloss_report::codes::ALL,
+    ];
+    own.concat()
 }
 
 /// Reads a study of a source with its gearboxes, and checks every name that its analyses use.

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use gearloss_framework::coefficients::{COEFFICIENTS, changed_from_source};
-use gearloss_framework::eval::ask;
+use gearloss_framework::eval::evaluate_input;
 use gearloss_framework::registry::Files;
 use gearloss_framework::resolve::{Choice, lookup};
 use gearloss_framework::testing::language;
@@ -99,7 +99,7 @@ fn no_value_of_a_range_makes_a_formula_undefined() {
 fn with(model: &str, key: &str, value: f64, more: &str) -> f64 {
     let name = model.split_once('/').unwrap().1;
     let input = format!("model: {{ type: {name}{more}, coefficients: {{ {key}: {value} }} }}");
-    match ask(language(), model, "input", &input, Path::new("")) {
+    match evaluate_input(language(), model, "input", &input, Path::new("")) {
         Ok(evaluated) => evaluated.total,
         Err(found) => panic!("{model}: {found}"),
     }
@@ -151,7 +151,7 @@ fn schlenk_with_other_exponents_is_the_product_of_its_powers() {
         )
     };
     let mu = |coefficients: &str| {
-        ask(
+        evaluate_input(
             language(),
             "mean_friction/schlenk",
             "input",
@@ -471,7 +471,7 @@ fn values_of_tables_and_lists_are_parameters() {
         .unwrap();
     let refused = gearbox.build(&language, &half).err().unwrap().render();
     assert!(
-        refused.contains("table needs `file`, or `axes` and `values`"),
+        refused.contains("table requires `file`, or `axes` and `values`"),
         "{refused}"
     );
     let misspelt = json!({ "type": "table", "axes": { "sped": [0, 1] }, "values": [1, 2] });

@@ -84,12 +84,12 @@ fn energy_closes_over_both_cycles_and_in_every_second() {
             let flow = total.input - total.output - loss(&driven);
             assert!(flow.abs() < 1e-9 * total.input, "{name}: {flow}");
             assert!(
-                total.residual().abs() < 1e-9 * total.came(),
+                total.residual().abs() < 1e-9 * total.heat_input(),
                 "{name}: {}",
                 total.residual()
             );
             for s in &driven.stretches {
-                let scale = s.heats.came().max(1.0);
+                let scale = s.heats.heat_input().max(1.0);
                 assert!(
                     s.heats.residual().abs() < 1e-6 * scale,
                     "{name} {}: {}",

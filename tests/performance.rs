@@ -92,7 +92,7 @@ const ALONE: [f64; 3] = [156.0, 81.0, 15.0];
 fn passes() -> f64 {
     let t = two_speed_with(&language(), Some("joint"), &[]);
     let case = t.case("first", &[], &["input"]).unwrap();
-    let mut scratch = t.row_scratch(&case);
+    let mut scratch = t.batch_scratch(&case);
     let torques: Vec<f64> = (1..=LANES).map(|i| 20.0 * i as f64 / LANES as f64).collect();
     let mut passes = 0;
     for speed in 0..32 {
@@ -101,7 +101,7 @@ fn passes() -> f64 {
             torques: &[0.0],
             ..Point::default()
         };
-        let mut row = t.row(&case, &point, &[100.0], &mut scratch);
+        let mut row = t.batch(&case, &point, &[100.0], &mut scratch);
         let block = row.follow(&torques);
         passes += block.passes().iter().sum::<usize>();
     }

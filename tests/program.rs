@@ -252,7 +252,7 @@ fn wrong_arguments_say_how_to_mend_them() {
                 "--set",
                 "meshes.*.model.load_sharing=uniform",
             ],
-            "nothing here has a key `load_sharing`",
+            "the key `load_sharing` does not exist here",
         ),
         (vec!["models", "bearings"], "write bearing"),
         (vec!["eval", "bearing/sfk"], "write skf"),

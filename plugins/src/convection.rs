@@ -1,7 +1,7 @@
 //! Textbook laws of free and forced convection at plates and cylinders, and of radiation.
 //!
 //! Sources: free convection at a vertical plate and about a horizontal cylinder: Churchill and Chu, Int. J. Heat Mass Transfer 18
-//! (1975) 1323-1329 and 1049-1053; forced convection along a plate: laminar after Pohlhausen, turbulent with a laminar leading part
+//! (1975) 1323-1329 and 1049-1053; forced convection along a plate: laminar according to Pohlhausen, turbulent with a laminar leading part
 //! above Re = 5e5, Incropera and DeWitt, Fundamentals of heat and mass transfer; radiation between a small grey body and its
 //! surroundings.
 
@@ -59,14 +59,14 @@ pub fn along_plate(reynolds: f64, prandtl: f64) -> f64 {
 /// K.
 pub fn free(shape: Shape, size: f64, wall: f64, ambient: f64) -> (f64, f64) {
     let mean = 0.5 * (wall + ambient);
-    let air = Air::at(mean);
+    let air = Air::at_temperature(mean);
     let ra = rayleigh(1.0 / mean, wall - ambient, size, air.nu, air.nu / air.prandtl);
     (ra, shape.free(ra, air.prandtl) * air.conductivity / size)
 }
 
 /// Heat transfer coefficient of forced convection in air; speed in m/s, length in m, mean temperature in K. \[W/(m2 K)\]
 pub fn forced(v: f64, length: f64, mean: f64) -> f64 {
-    let air = Air::at(mean);
+    let air = Air::at_temperature(mean);
     along_plate(v * length / air.nu, air.prandtl) * air.conductivity / length
 }
 

@@ -1,7 +1,7 @@
 //! Heat transfer between a rotating body and the surrounding oil, air or mist.
 //!
 //! Sources: Olver, IMechE G 205 (1991) 35-43 (sides and track of a gear); rotating disc in free fluid, laminar and turbulent;
-//! rotating cylinder after Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062: Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter
+//! rotating cylinder according to Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062: Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter
 //! and the surface speed. Mist properties are weighted by volume, its specific heat by mass.
 
 use std::f64::consts::PI;

@@ -4,7 +4,7 @@
 //! Nothing else names this crate: linking it (`use in_house_plugin as _;`) puts its models, its section and its analysis into
 //! schema, `models`, `check`, `solve`, `explain`, `run`, the report and the conformance suite.
 
-// The built-in models: slots may hold them, and tests compare with them.
+// The built-in models, for other slots and for comparisons in tests.
 use gearloss as _;
 
 pub mod baffled;

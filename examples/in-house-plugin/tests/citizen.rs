@@ -136,7 +136,7 @@ fn a_fault_in_the_section_is_found_like_any_other() {
 fn a_law_of_a_mesh_is_no_law_of_a_gear() {
     let nested = "gears.wheel.drag.churning.free={ type: mauz_injection, flow: 1 l/min }";
     let told = program(&["check", "gearbox.yaml", "--set", nested]).refused();
-    assert!(told.contains("asked for meshes"), "{told}");
+    assert!(told.contains("is a law for meshes"), "{told}");
 }
 
 /// A parameter of this crate is found from measured points, by its path; 4.2e-4 was hidden in them.

@@ -18,6 +18,7 @@ pub use common::Common;
 pub use member::{MemberPlace, MemberSite, OnMember};
 pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::immersion::Height;
 use crate::loads::SupportLoad;
@@ -118,7 +119,7 @@ pub struct State<'a> {
     /// Loads of the supports.
     pub loads: &'a [SupportLoad],
     /// Number of loss model evaluations.
-    pub asked: &'a Cell<usize>,
+    pub calls: &'a Cell<usize>,
 }
 
 impl<'a> State<'a> {
@@ -309,7 +310,7 @@ impl<'a> Names<'a> {
 
 /// The error for an unknown id.
 pub fn dangling(path: &str, what: &str, id: &str, ids: &[&str]) -> Diagnostic {
-    let error = Diagnostic::error(path, format!("no {what} is called `{id}`"));
+    let error = Diagnostic::error(path, format!("no {what} is called `{id}`")).code(codes::UNKNOWN_NAME);
     let error = if ids.is_empty() {
         error
     } else {

@@ -107,10 +107,10 @@ pub fn conform<M: Mechanism>(
         }
         let answer = M::answer(&slot, &at);
         let speed = M::speed(&at);
-        if !same(&answer, &M::answer(&slot, &with_notes), speed) {
+        if !same_result(&answer, &M::answer(&slot, &with_notes), speed) {
             faults.push(format!("returns a different result with notes, at {what}"));
         }
-        if let (true, Some(fault)) = (changes.len() < 2, M::side_by_side(&slot, &at, slot.notes)) {
+        if let (true, Some(fault)) = (changes.len() < 2, M::compare_batched(&slot, &at, slot.notes)) {
             faults.push(format!("{fault} at {what}"));
         }
         match answer {
@@ -201,7 +201,7 @@ fn keeping<M: Mechanism>(
 ) -> Vec<String> {
     let kept = vec![Cell::new([f64::NAN; MOST_KEPT]); instances];
     let _ = M::answer(model, &M::usual(part, Notes::muted(base).keeping(&kept)));
-    let ask = |notes, q: &Quantity<M>, value| {
+    let evaluate = |notes, q: &Quantity<M>, value| {
         let mut at = M::usual(part, notes);
         (q.set)(&mut at, q.unit().to_si(value));
         let noted = |cells: &[Cell<Extent>]| cells.iter().map(Cell::get).collect::<Vec<_>>();
@@ -210,9 +210,9 @@ fn keeping<M: Mechanism>(
     let mut faults = Vec::new();
     for q in M::QUANTITIES.iter().filter(|q| matches!(q.unit().symbol, "N" | "Nm")) {
         for value in [q.least, q.greatest] {
-            let (anew, speed, notes) = ask(Notes::fresh(cells, base), q, value);
-            let (again, _, notes_again) = ask(Notes::fresh(cells, base).keeping(&kept), q, value);
-            if !same(&anew, &again, speed) {
+            let (anew, speed, notes) = evaluate(Notes::fresh(cells, base), q, value);
+            let (again, _, notes_again) = evaluate(Notes::fresh(cells, base).keeping(&kept), q, value);
+            if !same_result(&anew, &again, speed) {
                 faults.push(format!(
                     "keeps a value that depends on `{}` over the iterations of a point",
                     q.name
@@ -226,7 +226,7 @@ fn keeping<M: Mechanism>(
     faults
 }
 
-fn same<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f64) -> bool {
+fn same_result<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f64) -> bool {
     match (a, b) {
         (Ok(a), Ok(b)) => a.total(speed).to_bits() == b.total(speed).to_bits(),
         (Err(a), Err(b)) => a.what == b.what,

@@ -1,7 +1,7 @@
 //! Films and mixing in line contacts, and the path of contact of a mesh, for models and analyses that need them.
 //!
 //! Sources: Dowson and Higginson 1961 (minimum film of a line contact); Hamrock and Dowson 1977 (central film, here for a long
-//! ellipse); thermal reduction after Gupta et al. in the form of Arana et al. 2019; weights of mixed friction after Doleschel,
+//! ellipse); thermal reduction according to Gupta et al. in the form of Arana et al. 2019; weights of mixed friction according to Doleschel,
 //! Matsumoto, Diab, and Olver and Spikes as collected by Arana et al. 2019.
 
 use crate::mechanism::tooth_friction::ContactAt;

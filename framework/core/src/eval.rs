@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use crate::document::{Diagnostic, Sources, did_you_mean, read_yaml};
+use crate::codes;
+use crate::document::{Diagnostic, Sources, classify, did_you_mean, read_yaml};
 use crate::gearbox::Findings;
 use crate::language::Language;
 use crate::loss::{Extent, Notes, Trace};
@@ -32,12 +33,21 @@ pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEnt
 ///
 /// # Errors
 /// If there is no such model, or the input is invalid, or [`eval`] fails.
-pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &Path) -> Result<Evaluated, Findings> {
+pub fn evaluate_input(
+    language: &Language,
+    name: &str,
+    source: &str,
+    input: &str,
+    folder: &Path,
+) -> Result<Evaluated, Findings> {
     let mut sources = Sources::default();
     let source = sources.add(source.to_owned(), input);
-    let found = |list: Vec<Diagnostic>| Findings {
-        list,
-        sources: sources.clone(),
+    let found = |mut list: Vec<Diagnostic>| {
+        classify(&mut list, codes::EVAL);
+        Findings {
+            list,
+            sources: sources.clone(),
+        }
     };
     let (mechanism, entry) = named(language, name).map_err(|d| found(vec![d]))?;
     let (example, mut part) = language.example_of(entry).map_err(found)?;

@@ -1,14 +1,14 @@
 //! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
 
+mod batch;
 mod grip;
 mod readings;
-mod row;
 mod scratch;
 mod solution;
 
+pub use batch::{Batch, BatchScratch, Block};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
-pub use row::{Block, Row, RowScratch};
 pub use scratch::Scratch;
 pub use solution::{PartLoss, Solution};
 
@@ -149,7 +149,7 @@ impl Transmission {
         );
         s.temperatures.clear();
         s.temperatures.extend_from_slice(temperatures);
-        self.oils.at(temperatures, &mut s.oils);
+        self.oils.write_states(temperatures, &mut s.oils);
         s.surface = self.oils.surface(&s.speeds);
         s.cells.fill(Extent::EMPTY);
         s.idle_drags.fill(0.0);
@@ -157,7 +157,7 @@ impl Transmission {
             kept[0] = f64::NAN;
         }
         s.passes = 0;
-        s.called += s.asked.replace(0);
+        s.called += s.calls.replace(0);
         s.loads.fill(SupportLoad::default());
         let standing = s.speeds.iter().all(|w| *w == 0.0);
 
@@ -170,7 +170,7 @@ impl Transmission {
                 temperatures: &s.temperatures,
                 surface: s.surface,
                 loads: &s.loads,
-                asked: &s.asked,
+                calls: &s.calls,
             };
             let book = Notebook {
                 cells: if quiet { &[] } else { cells },
@@ -229,11 +229,11 @@ impl Transmission {
             idle_drags,
             relative,
             braking,
-            asked,
+            calls,
             work,
             ..
         } = s;
-        let asked = &*asked;
+        let calls = &*calls;
         let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
         let temperatures = &temperatures[..];
         let (idle_drags, relative) = (&*idle_drags, &*relative);
@@ -265,7 +265,7 @@ impl Transmission {
                 temperatures,
                 surface,
                 loads,
-                asked,
+                calls,
             };
             if self.uneven {
                 for (which, loads) in uneven_loads.iter_mut().enumerate() {
@@ -343,7 +343,7 @@ impl Transmission {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         for &i in &s.braking {
             let _ = loaded_loss(&self.components[i], &state, &s.uneven_loads, &book);
@@ -377,7 +377,7 @@ impl Transmission {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         let book = Notebook {
             cells: if quiet { &[] } else { cells },
@@ -392,7 +392,7 @@ impl Transmission {
 
     /// Loss of one drag model.
     fn drag(&self, index: usize, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
-        state.asked.set(state.asked.get() + 1);
+        state.calls.set(state.calls.get() + 1);
         sound(self.drags[index].model.loss(&self.drag_at(index, state, book)))
     }
 
@@ -436,7 +436,7 @@ impl Transmission {
         let mesh = &self.meshes[index];
         book.clear(mesh.model.notes);
         let one = |factor: f64| {
-            state.asked.set(state.asked.get() + 1);
+            state.calls.set(state.calls.get() + 1);
             let at = self.mesh_at(index, factor * tangential, drives, state, book);
             sound(mesh.model.loss(&at))
         };
@@ -527,8 +527,8 @@ impl Transmission {
             }
         }
         for (load, factors) in loads.iter_mut().zip(&self.load_factors) {
-            load.radial *= factors.radial.at(torque);
-            load.axial *= factors.axial.at(torque);
+            load.radial *= factors.radial.value_at(torque);
+            load.axial *= factors.axial.value_at(torque);
         }
     }
 
@@ -551,7 +551,7 @@ impl Transmission {
         // Without a power flow no load is defined, and no loss has its own reason.
         s.undefined = undefined.filter(|_| matches!(outcome, Outcome::Converged { .. }));
         let powers = self.ports.iter().map(|p| s.work.ports[p.member] * s.speeds[p.member]);
-        s.balance = Balance::of(powers.clone());
+        s.balance = Balance::from_powers(powers.clone());
         s.status = match outcome {
             Outcome::SelfLocking => Status::SelfLocking,
             Outcome::NoConvergence => Status::NoConvergence,
@@ -564,7 +564,7 @@ impl Transmission {
                 } else if flow == PowerFlow::Ideal && s.balance.input > 0.0 && sum > s.balance.input {
                     Status::LossAboveInput
                 } else {
-                    Status::of(powers, self.reference_port())
+                    Status::from_powers(powers, self.reference_port())
                 }
             }
         };
@@ -575,7 +575,7 @@ impl Transmission {
 /// their loss, unless it was switched off.
 #[inline]
 pub(crate) fn component_loss(component: &Component, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
-    state.asked.set(state.asked.get() + 1);
+    state.calls.set(state.calls.get() + 1);
     let answer = component.placed.loss(state, book);
     let untaken = component.support.map_or(0.0, |n| state.loads[n as usize].untaken);
     match &answer {
@@ -612,13 +612,13 @@ fn over_planets(
     sharing: Sharing,
     book: &Notebook<'_>,
     base: NoteBase,
-    ask: impl Fn(usize) -> Result<Loss, Undefined>,
+    evaluate: impl Fn(usize) -> Result<Loss, Undefined>,
 ) -> Result<Loss, Undefined> {
     let notes = book.notes(base);
     notes.branch("the most loaded planet");
-    let most = ask(0)?;
+    let most = evaluate(0)?;
     notes.branch("each other planet");
-    Ok(most.mean(sharing.weight, ask(1)?))
+    Ok(most.mean(sharing.weight, evaluate(1)?))
 }
 
 /// A model's result is accepted only if it is finite and not negative.

@@ -4,17 +4,17 @@
 //! driven gear in the carrier's frame, and the carrier takes the reaction. The power balance therefore holds to rounding for any
 //! multipliers that solve the linear system.
 
-mod abreast;
+mod batched;
 mod equilibrium;
+mod history;
 mod linear;
 mod solve;
 mod system;
-mod trail;
 mod work;
 
-pub use abreast::{FlowLanes, TaskLanes, WorkLanes};
+pub use batched::{FlowLanes, TaskLanes, WorkLanes};
+pub use history::TorqueHistory;
 pub use system::{Flow, FlowFault, MeshRow, Share};
-pub use trail::Trail;
 pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
 
 /// Powers and status of one solved point.
@@ -28,7 +28,7 @@ pub struct Balance {
 
 impl Balance {
     /// Power in and out over ports; powers below 1e-12 of the input count as zero.
-    pub fn of(powers: impl Iterator<Item = f64> + Clone) -> Self {
+    pub fn from_powers(powers: impl Iterator<Item = f64> + Clone) -> Self {
         let most = powers.clone().fold(0.0_f64, f64::max);
         let (mut input, mut output) = (0.0, 0.0);
         for power in powers {
@@ -79,8 +79,8 @@ pub enum Status {
 
 impl Status {
     /// The regime of a rotating transmission from the powers of its ports; `reference` is the number of the reference port.
-    pub fn of(powers: impl Iterator<Item = f64> + Clone, reference: usize) -> Self {
-        let Balance { input, output } = Balance::of(powers.clone());
+    pub fn from_powers(powers: impl Iterator<Item = f64> + Clone, reference: usize) -> Self {
+        let Balance { input, output } = Balance::from_powers(powers.clone());
         let mut pushing = powers
             .enumerate()
             .filter(|(_, power)| *power > 1e-12 * input)

@@ -4,13 +4,15 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
-use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, Span, read_yaml};
+use crate::codes;
+use crate::document::{Diagnostic, Node, PlacedDiagnostic, Places, Severity, Sources, Span, read_yaml};
 use crate::files::{Disk, LONGEST_TEXT, SharedSource};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
-use crate::resolve::{Came, Choice, Resolved, called_own, expand_set, meets, resolve, sets_of};
+use crate::resolve::{Choice, Resolved, ValueSource, called_own, expand_set, meets, resolve, sets_of};
 use crate::transmission::Transmission;
 
 /// Maximum number of files that may extend each other.
@@ -32,6 +34,8 @@ pub struct Gearbox {
 }
 
 /// Findings with the source texts that they refer to.
+#[derive(thiserror::Error)]
+#[error("{}", self.render())]
 pub struct Findings {
     /// The findings.
     pub list: Vec<Diagnostic>,
@@ -40,6 +44,11 @@ pub struct Findings {
 }
 
 impl Findings {
+    /// The findings with file, line and column.
+    pub fn placed(&self) -> impl Iterator<Item = PlacedDiagnostic> + '_ {
+        self.list.iter().map(|finding| self.sources.placed(finding))
+    }
+
     /// The message of the first finding, for places that take only one sentence.
     pub fn first(&self) -> String {
         self.list.first().map_or_else(String::new, |d| d.message.clone())
@@ -80,12 +89,6 @@ impl Findings {
     }
 }
 
-impl std::fmt::Display for Findings {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.render())
-    }
-}
-
 /// As rendered, because a `main` that returns an error prints its debug form.
 impl std::fmt::Debug for Findings {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -93,7 +96,12 @@ impl std::fmt::Debug for Findings {
     }
 }
 
-impl std::error::Error for Findings {}
+/// As a list of [`PlacedDiagnostic`].
+impl Serialize for Findings {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.placed())
+    }
+}
 
 /// Findings without a source text.
 impl From<Vec<Diagnostic>> for Findings {
@@ -138,7 +146,7 @@ impl Gearbox {
         let text = source.read_text(file, LONGEST_TEXT).map_err(|e| {
             Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
                 .help("check the file name")
-                .code(Code::Unreadable)
+                .code(crate::document::codes::UNREADABLE)
         })?;
         let folder = file.parent().unwrap_or(Path::new(""));
         Self::from_text(language, source, &text, &file.display().to_string(), folder)
@@ -198,7 +206,7 @@ impl Gearbox {
         resolve(language, &self.files, &self.value, choice).map_err(|list| {
             self.findings(
                 list.into_iter()
-                    .map(|d| self.in_own_set(language, choice, d).code(Code::Choice))
+                    .map(|d| self.in_own_set(language, choice, d).code(codes::CHOICE))
                     .collect(),
             )
         })
@@ -216,7 +224,7 @@ impl Gearbox {
         found.extend(called_own(names.clone()));
         for error in names.filter_map(|name| expand_set(&sets, name).err()) {
             if found.iter().all(|other| other.path != error.path) {
-                found.push(error.code(Code::Choice));
+                found.push(error.code(codes::CHOICE));
             }
         }
         if found.is_empty() {
@@ -260,21 +268,21 @@ impl Gearbox {
         let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
             self.findings(
                 list.into_iter()
-                    .map(|d| self.inherited(language, resolved, d).code(Code::Gearbox))
+                    .map(|d| self.inherited(language, resolved, d).code(codes::GEARBOX))
                     .collect(),
             )
         })?;
         built.warnings = built
             .warnings
             .into_iter()
-            .map(|d| self.places.place(d).code(Code::Gearbox))
+            .map(|d| self.places.place(d).code(codes::PLAUSIBILITY))
             .collect();
         Ok(built)
     }
 
     /// For a model that a component takes from `models`, a finding also shows where it is written.
     fn inherited(&self, language: &Language, resolved: &Resolved, finding: Diagnostic) -> Diagnostic {
-        if *resolved.came(&finding.path) != Came::Models {
+        if *resolved.source_of(&finding.path) != ValueSource::Models {
             return finding;
         }
         let mut keys = finding.path.split('.');
@@ -346,7 +354,12 @@ pub fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagn
         ),
         _ => return None,
     };
-    Some(Diagnostic::error("gearloss", message).at(key.span).help(help))
+    Some(
+        Diagnostic::error("gearloss", message)
+            .at(key.span)
+            .help(help)
+            .code(codes::OTHER_DOCUMENT),
+    )
 }
 
 /// Documents that extend each other.
@@ -371,6 +384,7 @@ impl Chain<'_> {
                     Diagnostic::error("extends", format!("{name} is a study; only a gearbox can be extended"))
                         .at(span)
                         .help("name a gearbox file, such as one under `gearboxes` of that study")
+                        .code(codes::EXTENDS)
                 }
                 None => error,
             });
@@ -386,15 +400,15 @@ impl Chain<'_> {
         };
         let file = folder.join(base);
         if self.seen.contains(&file) || self.seen.len() >= LONGEST_CHAIN {
-            self.found
-                .push(error("circular `extends`, or too many files".to_owned()));
+            let circular = error("circular `extends`, or too many files".to_owned());
+            self.found.push(circular.code(codes::EXTENDS));
             return None;
         }
         self.seen.push(file.clone());
         match self.source.read_text(&file, LONGEST_TEXT) {
             Err(e) => {
                 let message = format!("cannot read {}: {e}", file.display());
-                self.found.push(error(message).code(Code::Unreadable));
+                self.found.push(error(message).code(crate::document::codes::UNREADABLE));
                 None
             }
             Ok(text) => {

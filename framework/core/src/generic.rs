@@ -12,7 +12,7 @@ pub use crate::mechanism::scalar::PLACE;
 use crate::mechanism::scalar::ScalarLaw;
 pub use crate::mechanism::{Lookup, Scalar};
 use crate::mechanism::{Mechanism, Quantity};
-use crate::registry::{Build, Built, Entry, Evidence, Graded, formula};
+use crate::registry::{Build, Built, Entry, Evidence, Graded, USER_DEFINED, formula};
 use crate::table::{self, Interpolation, Outside, Reading, Scale, Table};
 
 /// The entries that every mechanism has automatically.
@@ -23,7 +23,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
                  build: fn(&Value, &mut Build<'_>) -> Result<Built, Diagnostic>| Entry {
         mechanism: M::KEY,
         name,
-        source: "user-defined",
+        source: USER_DEFINED,
         example,
         part: None,
         files: &[],

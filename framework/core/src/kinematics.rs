@@ -66,8 +66,6 @@ pub struct Motion {
     ports: usize,
     /// Column by column of the map, `columns` numbers for each prescribed port.
     map: Vec<f64>,
-    /// Number of independent rows.
-    pub rank: usize,
     /// Rows of each redundant loop.
     pub loops: Vec<Vec<usize>>,
 }
@@ -94,7 +92,6 @@ impl Motion {
             columns: train.columns,
             ports: prescribed.len(),
             map,
-            rank: reduced.rank(),
             loops: reduced.loops(),
         })
     }

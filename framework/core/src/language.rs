@@ -7,8 +7,9 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
+use crate::codes;
 use crate::coefficients::COEFFICIENTS;
-use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, read_yaml, walk, walk_at, walk_shape};
+use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, classify, read_yaml, walk, walk_at, walk_shape};
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
@@ -98,6 +99,7 @@ impl Language {
                 }
             }
         }
+        classify(&mut found, codes::REGISTRATION);
         if documents.len() < published.len() {
             return Err(found);
         }

@@ -3,7 +3,7 @@
 //! Radial reactions are linear in the tangential force of each mesh and in its magnitude, so unit cases are solved once; a point
 //! costs a few multiplications. The bearings that take thrust depend on its direction, so thrust is distributed at every point.
 
-mod abreast;
+mod batched;
 mod beam;
 mod layout;
 mod shaft_loads;
@@ -11,7 +11,7 @@ mod static_rating;
 mod statics;
 mod thrust;
 
-pub use abreast::LoadLanes;
+pub use batched::LoadLanes;
 pub use beam::{Beam, BeamFault, BeamLoad, BeamSupport};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
 pub use shaft_loads::ShaftLoads;

@@ -181,21 +181,14 @@ impl Loss {
 }
 
 /// A formula is undefined. Small and without an owned text, so that it is free in a map.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("undefined: {what} = {value:.6}")]
 pub struct Undefined {
     /// The quantity or condition that is outside the formula's domain.
     pub what: &'static str,
     /// Its value, in the unit stated by `what`.
     pub value: f64,
 }
-
-impl std::fmt::Display for Undefined {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "undefined: {} = {:.6}", self.what, self.value)
-    }
-}
-
-impl std::error::Error for Undefined {}
 
 /// The range in which a source states its formula to be valid. Outside it the model still returns a result, and this is noted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -516,14 +509,14 @@ impl<'a> Notes<'a> {
 
     /// The same target for a nested instance. It keeps nothing, because it may be evaluated at several speeds or with several oils.
     #[inline]
-    pub fn of(self, base: NoteBase) -> Self {
-        self.within(base).forgetting()
+    pub fn nested(self, base: NoteBase) -> Self {
+        self.nested_at_same_state(base).forgetting()
     }
 
     /// The same for a nested instance that is only evaluated at the speed, oil and level of this one, so that it may keep values,
     /// too.
     #[inline]
-    pub fn within(self, base: NoteBase) -> Self {
+    pub fn nested_at_same_state(self, base: NoteBase) -> Self {
         Self { base, ..self }
     }
 
@@ -569,12 +562,6 @@ impl<'a> Notes<'a> {
     #[inline]
     pub fn is_muted(&self) -> bool {
         self.book.cells.is_empty() && self.book.trace.is_none()
-    }
-
-    /// True when the steps are written down.
-    #[inline]
-    pub fn is_traced(&self) -> bool {
-        self.book.trace.is_some()
     }
 
     /// Notes whether a value, in the limit's unit, is in its stated range. Returns the value.

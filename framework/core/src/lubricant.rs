@@ -60,7 +60,7 @@ pub struct Lubricant {
 
 /// Typical properties of a kind of oil.
 struct Usual {
-    /// Gold's constants s and t, after Gold et al. 2001.
+    /// Gold's constants s and t, according to Gold et al. 2001.
     gold: (f64, f64),
     /// Thermal expansion, middle of the typical range. \[1/K\]
     expansion: f64,
@@ -171,7 +171,10 @@ fn law(entry: &ViscosityEntry, density: &Density) -> Result<Law, Fault> {
         ViscosityLaw::Din51563 => Form::Din51563,
         ViscosityLaw::AstmD341Low => Form::AstmD341Low,
         ViscosityLaw::Vogel => {
-            let etas: Vec<(f64, f64)> = points.iter().map(|(t, nu)| (*t, nu * density.at(*t) * 1e-3)).collect();
+            let etas: Vec<(f64, f64)> = points
+                .iter()
+                .map(|(t, nu)| (*t, nu * density.rho_at(*t) * 1e-3))
+                .collect();
             return match etas[..] {
                 [first, second] if first.0 + entry.vogel_c > 1.0 => {
                     Ok(Law::Vogel(Vogel::through(first, second, entry.vogel_c)))
@@ -254,7 +257,7 @@ impl Lubricant {
                 },
                 PressureViscosityLaw::Wooster => PressureViscosity::Wooster,
                 PressureViscosityLaw::SoKlaus => {
-                    let nu = |t: f64| (t, viscosity.nu_eta(t, density.at(t)).0);
+                    let nu = |t: f64| (t, viscosity.nu_eta(t, density.rho_at(t)).0);
                     PressureViscosity::SoKlaus {
                         slope: Walther::through(nu(40.0), nu(100.0), Form::AstmD341).b,
                     }
@@ -262,7 +265,7 @@ impl Lubricant {
             },
         };
         Ok(Self {
-            nu40: viscosity.nu_eta(40.0, density.at(40.0)).0 * 1e-6,
+            nu40: viscosity.nu_eta(40.0, density.rho_at(40.0)).0 * 1e-6,
             viscosity,
             density,
             pressure,
@@ -277,7 +280,7 @@ impl Lubricant {
 
     /// Density at a temperature in degC. \[kg/m3\]
     pub fn density(&self, temperature: f64) -> f64 {
-        self.density.at(temperature)
+        self.density.rho_at(temperature)
     }
 
     /// Specific heat at a temperature in degC. \[J/(kg K)\]
@@ -294,7 +297,7 @@ impl Lubricant {
     /// Roelands' law through the oil's viscosity at 40 and 100 degC, with an exponent over pressure; default: the stated one, else
     /// the one that reproduces the oil's pressure-viscosity coefficient at 40 degC.
     pub fn roelands(&self, z: Option<f64>) -> Roelands {
-        let [cold, hot] = [40.0, 100.0].map(|t| self.at(t));
+        let [cold, hot] = [40.0, 100.0].map(|t| self.oil_at(t));
         let z = z.or(self.rheology.z);
         Roelands::through(
             (cold.temperature, cold.eta),
@@ -309,7 +312,7 @@ impl Lubricant {
     }
 
     /// The oil at a temperature in degC.
-    pub fn at(&self, temperature: f64) -> Oil {
+    pub fn oil_at(&self, temperature: f64) -> Oil {
         let rho = self.density(temperature);
         let (nu, eta, beta) = match &self.viscosity.law {
             Law::Walther(law) => {
@@ -391,14 +394,14 @@ mod tests {
         ] {
             let oil = oil(kind);
             assert!(
-                (oil.at(100.0).alpha / at10 - 1.0).abs() < 1e-5,
+                (oil.oil_at(100.0).alpha / at10 - 1.0).abs() < 1e-5,
                 "{kind:?} {}",
-                oil.at(100.0).alpha
+                oil.oil_at(100.0).alpha
             );
             assert!(
-                (oil.at(40.0).alpha / at100 - 1.0).abs() < 1e-5,
+                (oil.oil_at(40.0).alpha / at100 - 1.0).abs() < 1e-5,
                 "{kind:?} {}",
-                oil.at(40.0).alpha
+                oil.oil_at(40.0).alpha
             );
         }
     }
@@ -410,11 +413,11 @@ mod tests {
         entry.viscosity.as_mut().unwrap().factor = 0.8;
         let thinned = Lubricant::new(&entry).unwrap();
         for t in [-20.0, 40.0, 70.0, 130.0] {
-            assert!((thinned.at(t).nu / stated.at(t).nu - 0.8).abs() < 1e-12);
+            assert!((thinned.oil_at(t).nu / stated.oil_at(t).nu - 0.8).abs() < 1e-12);
             assert!((thinned.eta(t) / stated.eta(t) - 0.8).abs() < 1e-12);
             assert_eq!(
-                (thinned.at(t).beta, thinned.at(t).rho),
-                (stated.at(t).beta, stated.at(t).rho)
+                (thinned.oil_at(t).beta, thinned.oil_at(t).rho),
+                (stated.oil_at(t).beta, stated.oil_at(t).rho)
             );
         }
     }
@@ -457,7 +460,7 @@ mod tests {
         };
         let two = [(100.0, 5.9), (40.0, 27.3)];
         let three = [(40.0, 27.3), (80.0, 8.85), (100.0, 5.9)];
-        let nu = |oil: &Lubricant, t: f64| oil.at(t).nu * 1e6;
+        let nu = |oil: &Lubricant, t: f64| oil.oil_at(t).nu * 1e6;
         for law in [
             ViscosityLaw::AstmD341,
             ViscosityLaw::Din51563,
@@ -484,7 +487,7 @@ mod tests {
         let alpha = |law, value| {
             let mut entry = entry(Some(100.0), Some(11.0), None);
             entry.pressure_viscosity = PressureViscosityEntry { law, value };
-            Lubricant::new(&entry).unwrap().at(40.0).alpha
+            Lubricant::new(&entry).unwrap().oil_at(40.0).alpha
         };
         for law in [
             PressureViscosityLaw::Gold,

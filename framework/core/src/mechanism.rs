@@ -79,7 +79,7 @@ pub trait Mechanism: Sized + 'static {
     }
     /// Compares the batched results of models with those at single points around a context; for mechanisms whose models may
     /// implement batched evaluation. Returns the faults.
-    fn side_by_side(_model: &Self::Model, _at: &Self::At<'_>, _notes: NoteBase) -> Option<&'static str> {
+    fn compare_batched(_model: &Self::Model, _at: &Self::At<'_>, _notes: NoteBase) -> Option<&'static str> {
         None
     }
     /// The adapter through which `none`, `constant`, `formula` and `table` serve this mechanism.
@@ -99,7 +99,11 @@ pub trait Component: Mechanism<Answer = Loss> {
     /// Attachment of its parts; determines relative speed, loads, oil and which members take the reaction.
     type Attachment: Attach;
     /// The context of a part at its site.
-    fn at<'a>(part: &'a Self::Part, site: <Self::Attachment as Attach>::Site<'a>, notes: Notes<'a>) -> Self::At<'a>;
+    fn context<'a>(
+        part: &'a Self::Part,
+        site: <Self::Attachment as Attach>::Site<'a>,
+        notes: Notes<'a>,
+    ) -> Self::At<'a>;
     /// Batched losses at several loads of the support, with all other quantities as in `at`; false if the mechanism has no batched
     /// evaluation, so that its models are evaluated once per load.
     fn losses(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _losses: &mut LossLanes) -> bool {
@@ -305,7 +309,7 @@ macro_rules! context {
             /// The same for the model of a nested slot, which has its own notes.
             #[inline]
             pub fn nested(&self, slot: &$crate::mechanism::Slot<$M>) -> Self {
-                self.with(|to| to.notes = self.notes.of(slot.notes))
+                self.with(|to| to.notes = self.notes.nested(slot.notes))
             }
 
             /// Notes whether a value is in the range of a limit; returns the value.

@@ -64,7 +64,7 @@ impl RotorShare {
     ///
     /// # Errors
     /// If the speeds of the list do not increase.
-    pub fn at(&self, speed: f64) -> Result<f64, MeasuredFault> {
+    pub fn share_at(&self, speed: f64) -> Result<f64, MeasuredFault> {
         match self {
             Self::One(share) => Ok(*share),
             Self::Over(list) => {
@@ -185,12 +185,12 @@ impl MotorMap {
         }
         let [motoring, generating] = quadrants;
         Ok(Self {
-            motoring: Quadrant::of(&motoring, "motoring").map_err(|f| vec![f])?,
+            motoring: Quadrant::from_nodes(&motoring, "motoring").map_err(|f| vec![f])?,
             generating: if generating.is_empty() {
                 notes.push("no negative torques: generating has the losses of motoring at the same torque".to_owned());
                 None
             } else {
-                Some(Quadrant::of(&generating, "generating").map_err(|f| vec![f])?)
+                Some(Quadrant::from_nodes(&generating, "generating").map_err(|f| vec![f])?)
             },
             notes,
         })
@@ -294,7 +294,7 @@ fn place(values: &[f64], x: f64) -> usize {
 }
 
 impl Quadrant {
-    fn of(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
+    fn from_nodes(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
         let speeds = rising(nodes.iter().map(|n| n.speed));
         let torques = rising(nodes.iter().map(|n| n.torque));
         let temperatures = rising(nodes.iter().map(|n| n.temperature));

@@ -10,7 +10,7 @@ use crate::registry::{MechanismEntry, Origin, Section};
 
 impl MechanismEntry {
     /// The entry of a mechanism without its own section.
-    pub const fn of<M: Mechanism>(origin: Origin) -> Self {
+    pub const fn new<M: Mechanism>(origin: Origin) -> Self {
         Self {
             key: M::KEY,
             meaning: M::MEANING,
@@ -30,8 +30,8 @@ impl MechanismEntry {
     /// The entry of a mechanism whose parts have a section.
     pub const fn component<C: Component>(origin: Origin) -> Self {
         Self {
-            section: Some(Section::of::<C>()),
-            ..Self::of::<C>(origin)
+            section: Some(Section::new::<C>()),
+            ..Self::new::<C>(origin)
         }
     }
 }

@@ -20,6 +20,7 @@ pub(crate) use placed::sealed::Sealed;
 pub use placed::{Placed, Section};
 pub use recipe::NetworkRecipe;
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::loss::{Limit, Observed, Term};
 use crate::mechanism::QuantityDoc;
@@ -154,6 +155,9 @@ pub const fn default_of(key: &'static str, grade: Evidence, because: &'static st
     Graded { key, grade, because }
 }
 
+/// Source of a model whose law the user states, such as `formula` and `table`.
+pub const USER_DEFINED: &str = "user-defined";
+
 /// A type-erased `Arc<M::Model>`.
 pub type Built = Box<dyn Any + Send + Sync>;
 
@@ -216,6 +220,11 @@ impl Entry {
         slots
             .filter_map(|(key, record)| Some((key.clone(), mechanism(record)?)))
             .collect()
+    }
+
+    /// True if the user states the law of the model: it has no published source.
+    pub fn is_user_defined(&self) -> bool {
+        self.source == USER_DEFINED
     }
 
     /// Description, as a sentence: the first paragraph of the doc comment of its parameters.
@@ -330,7 +339,7 @@ impl Registry {
     /// # Errors
     /// If nothing is linked, or two entries have the same name; each error names modules and lines.
     pub fn linked() -> Result<Self, Vec<Diagnostic>> {
-        Self::of(
+        Self::from_entries(
             inventory::iter::<MechanismEntry>().copied(),
             inventory::iter::<Entry>().copied(),
             inventory::iter::<Catalogue>().copied(),
@@ -369,7 +378,7 @@ impl Registry {
     ///
     /// # Errors
     /// As [`Registry::linked`].
-    pub fn of(
+    pub fn from_entries(
         mechanisms: impl IntoIterator<Item = MechanismEntry>,
         models: impl IntoIterator<Item = Entry>,
         catalogues: impl IntoIterator<Item = Catalogue>,
@@ -534,16 +543,19 @@ impl Registry {
 }
 
 fn missing(message: String, name: &str, names: &[&str]) -> Diagnostic {
-    Diagnostic::error("", message).help(match did_you_mean(name, names.iter().copied()) {
-        Some(close) => format!("write {close}"),
-        None => format!("use one of {}", names.join(", ")),
-    })
+    Diagnostic::error("", message)
+        .code(codes::UNKNOWN_NAME)
+        .help(match did_you_mean(name, names.iter().copied()) {
+            Some(close) => format!("write {close}"),
+            None => format!("use one of {}", names.join(", ")),
+        })
 }
 
 fn twice(what: &str, name: &str, one: Origin, other: Origin) -> Diagnostic {
     Diagnostic::error("", format!("two registrations of the {what} `{name}`"))
         .note(format!("one at {one}, the other at {other}"))
         .help("rename one of them")
+        .code(codes::REGISTRATION)
 }
 
 /// Reads a struct from a resolved value; a failure is a bug. `type` is the framework's key, not the model's.
@@ -561,7 +573,7 @@ pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json
 #[macro_export]
 macro_rules! register_mechanism {
     ($M:ty) => {
-        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::of::<$M>($crate::origin!()) }
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::new::<$M>($crate::origin!()) }
     };
 }
 

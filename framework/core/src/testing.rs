@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use crate::conformance::check_all;
-use crate::eval::{Evaluated, ask};
+use crate::eval::{Evaluated, evaluate_input};
 use crate::language::Language;
 
 /// The language of everything linked into this test, composed once.
@@ -33,7 +33,7 @@ pub fn language() -> &'static Language {
 /// With the errors of the input, or with the reason why the model is undefined there.
 #[track_caller]
 pub fn eval(model: &str, input: &str) -> Evaluated {
-    match ask(language(), model, "input", input, Path::new("")) {
+    match evaluate_input(language(), model, "input", input, Path::new("")) {
         Ok(evaluated) => evaluated,
         Err(findings) => panic!("{model}: {findings}"),
     }

@@ -1,4 +1,5 @@
 //! The only module that opens files of users: regular files with a limited length.
+//! A [`FileSource`] replaces the disk by texts in memory, an archive or a database.
 
 use std::collections::BTreeMap;
 use std::fmt;

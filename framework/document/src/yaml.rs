@@ -5,7 +5,8 @@
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
-use super::diagnostic::{Code, Diagnostic};
+use super::codes;
+use super::diagnostic::Diagnostic;
 use super::node::{Content, Key, Node, Span};
 use super::quantity::number_length;
 use crate::files::LONGEST_TEXT;
@@ -37,7 +38,7 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
                 content: Content::Null,
                 span,
             },
-            findings: vec![error.at(span).help(help).code(Code::Syntax)],
+            findings: vec![error.at(span).help(help).code(codes::UNREADABLE)],
         };
     }
     let mut reader = Reader {
@@ -59,7 +60,7 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
         findings: reader
             .findings
             .into_iter()
-            .map(|finding| finding.code(Code::Syntax))
+            .map(|finding| finding.code(codes::SYNTAX))
             .collect(),
     }
 }
@@ -233,6 +234,7 @@ impl<'a> Reader<'a> {
                 Some((key, _)) => self.findings.push(
                     Diagnostic::error("", format!("the key `{name}` occurs twice"))
                         .at(key_span)
+                        .code(codes::DUPLICATE_KEY)
                         .label(key.span, "first occurrence")
                         .help("rename one of them or merge them"),
                 ),

@@ -1,15 +1,23 @@
-//! Studies of gearloss: their documents, measured data, duties, identification and analyses.
+//! Studies of gearloss: documents, measured data, cycles, identification and analyses.
 
-pub mod analyses;
-pub mod analysis;
-pub mod duty;
-pub mod fit;
-pub mod identify;
-pub mod measured;
+// For authors of analyses.
 pub mod prelude;
+
+// The document of a study, its data and its duties.
+pub mod codes;
+pub mod duty;
+pub mod measured;
+pub mod study;
+
+// Analyses: how a study is run, entries and outcomes, results as columns.
+pub mod analyses;
 pub mod results;
 pub mod run;
-pub mod study;
 pub mod table;
 pub mod tasks;
+
+// What analyses share: points, varied quantities, identification, fits of columns.
+pub mod analysis;
+pub mod fit;
+pub mod identify;
 pub mod varied;

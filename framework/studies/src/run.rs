@@ -8,6 +8,7 @@ use gearloss_framework::language::Language;
 
 use crate::analyses::progress::Silent;
 use crate::analyses::{AnyOutcome, Context, Stopped};
+use crate::codes;
 use crate::study::Study;
 
 /// A study that is run. It prints nothing and writes no file.
@@ -61,7 +62,7 @@ impl<'a> StudyRun<'a> {
         if let Some((set, by)) = self.study.pending(analysis).filter(|_| !cx.only_checks) {
             let message = format!("the model set `{set}` has no values, because the analysis `{by}` produced none");
             let help = format!("correct `{by}`, or choose another set");
-            return Err(cx.wrong(&cx.path(), message, &help));
+            return Err(cx.wrong_as(codes::NOT_FOUND_YET, &cx.path(), message, &help));
         }
         let outcome = analysis.run(cx)?;
         if let Some(then) = analysis.then() {

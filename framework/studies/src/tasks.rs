@@ -1,4 +1,4 @@
-//! The work of an analysis in tasks, so that results are kept from run to run and computed on several machines.
+//! Tasks of an analysis, so that results can be stored and computed on several machines.
 //!
 //! An analysis computes in stages of many tasks that do not depend on each other: pieces of points ([`Context::solve_pieces`]), and
 //! samples, pairs of values or starts ([`Context::each`]). Parts of an analysis such as model sets do not wait for each other
@@ -23,7 +23,7 @@ pub struct Task<'a> {
     pub part: usize,
     /// Number of the stage in its part, in the order in which the analysis comes to them.
     pub stage: usize,
-    /// Number of the task in its stage.
+    /// Index of the task in its stage.
     pub number: usize,
 }
 
@@ -32,21 +32,21 @@ pub trait TaskResults: Sync {
     /// Whether this run computes a task.
     fn is_own(&self, task: Task<'_>) -> bool;
 
-    /// Whether the result of a task is there.
+    /// Whether the result of a task exists.
     fn is_kept(&self, task: Task<'_>) -> bool;
 
-    /// Whether this run computes stages to the end whose results are not all there, and keeps none.
+    /// Whether this run completes stages with missing results, without storing any.
     fn completes(&self) -> bool;
 
     /// The result of a task.
     ///
     /// # Errors
-    /// [`Stopped::Unwritten`] where it cannot be read.
+    /// [`Stopped::Unwritten`] if it cannot be read.
     fn read(&self, task: Task<'_>) -> Result<Vec<u8>, Stopped>;
 
-    /// Keeps the result of a task.
+    /// Stores the result of a task.
     ///
     /// # Errors
-    /// [`Stopped::Unwritten`] where it cannot be written.
+    /// [`Stopped::Unwritten`] if it cannot be written.
     fn keep(&self, task: Task<'_>, result: &[u8]) -> Result<(), Stopped>;
 }

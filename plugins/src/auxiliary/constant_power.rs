@@ -6,7 +6,7 @@
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Evidence, USER_DEFINED, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -19,13 +19,13 @@ pub struct ConstantPower {
     #[schemars(range(min = 0.0, max = 1e6))]
     pub power: f64,
     /// Speed below which the torque is constant. [rpm]
-    #[serde(default = "least")]
+    #[serde(default = "default_least_speed")]
     #[schemars(range(min = 0.01, max = 1e5))]
     pub least_speed: f64,
 }
 
 /// 100 rpm. \[rad/s\]
-fn least() -> f64 {
+fn default_least_speed() -> f64 {
     100.0 * std::f64::consts::PI / 30.0
 }
 
@@ -36,7 +36,7 @@ impl AuxiliaryModel for ConstantPower {
 }
 
 register!(Auxiliary, "constant_power", ConstantPower,
-    source: "user-defined",
+    source: USER_DEFINED,
     example: "{ type: constant_power, power: 150 W }",
     evidence: [
         formula(Evidence::User, "the user states it"),

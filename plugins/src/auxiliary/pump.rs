@@ -31,21 +31,21 @@ pub struct Params {
     #[schemars(range(min = 0.01, max = 1.0))]
     pub efficiency: f64,
     /// Volumetric efficiency with a displacement. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub volumetric_efficiency: f64,
     /// Speed below which the torque is constant, with a flow. [rpm]
-    #[serde(default = "least")]
+    #[serde(default = "default_least_speed")]
     #[schemars(range(min = 0.01, max = 1e5))]
     pub least_speed: f64,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
 /// 100 rpm. \[rad/s\]
-fn least() -> f64 {
+fn default_least_speed() -> f64 {
     100.0 * std::f64::consts::PI / 30.0
 }
 

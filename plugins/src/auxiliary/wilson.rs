@@ -1,4 +1,4 @@
-//! Shaft torque of a displacement pump with pressure-dependent, viscous and constant friction, after Wilson.
+//! Shaft torque of a displacement pump with pressure-dependent, viscous and constant friction, according to Wilson.
 //!
 //! Source: Wilson 1946, quoted from memory: T = V_g/(2 pi) (dp (1 + C_f) + C_v eta w) + T_c. The user states the coefficients of the pump.
 
@@ -13,7 +13,7 @@ const PRESSURE: Term = Term::no_load(0, "pressure");
 const VISCOUS: Term = Term::no_load(1, "viscous");
 const CONSTANT: Term = Term::no_load(2, "constant");
 
-/// Displacement pump with pressure-dependent, viscous and constant friction, after Wilson.
+/// Displacement pump with pressure-dependent, viscous and constant friction, according to Wilson.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Wilson {
     /// Pressure rise. [bar]

@@ -1,4 +1,4 @@
-//! Rolling bearings after Harris, in Palmgren's form.
+//! Rolling bearings according to Harris, in Palmgren's form.
 //!
 //! Source: Harris, Kotzalas: Rolling Bearing Analysis, quoted from memory: M0 as SKF 1994; M1 = z (Fs/Cs)^y F_b dm with deep groove z 0.0004 (light)
 //! to 0.0006, y 0.55; angular contact 0.001, 0.33; self-aligning 0.0003, 0.40; thrust ball 0.0008, 0.33; rollers as SKF 1994. F_b =
@@ -15,7 +15,7 @@ use serde::Deserialize;
 use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
 
-/// Rolling bearings after Harris, in Palmgren's form.
+/// Rolling bearings according to Harris, in Palmgren's form.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Factor f0 of the load-independent moment; default: by kind, series and lubrication. [-]

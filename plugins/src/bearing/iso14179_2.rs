@@ -1,4 +1,4 @@
-//! Rolling bearings after Palmgren, as in ISO/TR 14179-2.
+//! Rolling bearings according to Palmgren, as in ISO/TR 14179-2.
 //!
 //! Source: ISO/TR 14179-2:2001; SKF General Catalogue 1994; Palmgren 1957: M = M0 + M1 (+ M2 for cylindrical rollers under axial
 //! load), N mm: M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below; M1 = f1 P1^a dm^b with a = b = 1 except for
@@ -17,7 +17,7 @@ use serde::Deserialize;
 use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO, flanged};
 use super::rows::{self, Lack};
 
-/// Load-dependent and load-independent moment after Palmgren, as in ISO/TR 14179-2.
+/// Load-dependent and load-independent moment according to Palmgren, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Factor f0 of the load-independent moment; default: by kind, series and lubrication. [-]
@@ -26,11 +26,11 @@ pub struct Iso14179 {
     /// Factor z of f1 = z (P0/C0)^y for ball bearings, or f1 itself for roller bearings; default: by kind and series. [-]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub f1: Option<f64>,
-    /// Exponent y of deep groove ball bearings: 0.55 according to SKF and Harris, 0.5 after Schaeffler. [-]
+    /// Exponent y of deep groove ball bearings: 0.55 according to SKF and Harris, 0.5 according to Schaeffler. [-]
     #[serde(default = "exponent")]
     #[schemars(range(min = 0.1, max = 1.0))]
     pub exponent: f64,
-    /// Factor k of P1 = k Fa - 0.1 Fr of deep groove ball bearings: 3 according to SKF and Harris, 3.3 after Schaeffler. [-]
+    /// Factor k of P1 = k Fa - 0.1 Fr of deep groove ball bearings: 3 according to SKF and Harris, 3.3 according to Schaeffler. [-]
     #[serde(default = "axial_factor")]
     #[schemars(range(min = 0.5, max = 5.0))]
     pub axial_factor: f64,
@@ -85,8 +85,8 @@ register!(Bearing, "iso14179_2", Iso14179,
         formula(Evidence::SeveralSources, "catalogues and standard give the same formula"),
         default_of("f0", Evidence::Recalled, "table quoted from memory, not checked; the series selects within a range"),
         default_of("f1", Evidence::Disputed, "three published variants for deep groove balls; factors for needle roller bearings differ by four"),
-        default_of("exponent", Evidence::Disputed, "0.55 according to SKF and Harris, 0.5 after Schaeffler"),
-        default_of("axial_factor", Evidence::Disputed, "3 according to SKF and Harris, 3.3 after Schaeffler"),
+        default_of("exponent", Evidence::Disputed, "0.55 according to SKF and Harris, 0.5 according to Schaeffler"),
+        default_of("axial_factor", Evidence::Disputed, "3 according to SKF and Harris, 3.3 according to Schaeffler"),
         default_of("f2", Evidence::Recalled, "table quoted from memory, not checked; flanges of the EC design"),
     ],
     limits: [AXIAL_RATIO, RADIAL_RATIO], terms: [LOAD, NO_LOAD], observed: [P1], prepare: prepare);

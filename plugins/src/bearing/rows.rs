@@ -30,7 +30,7 @@ pub enum Rule {
         y: f64,
     },
     Thrust,
-    /// P1 = k Fa cot(alpha) - 0.1 Fr of balls, after Harris; P0 as for angular contact bearings.
+    /// P1 = k Fa cot(alpha) - 0.1 Fr of balls, according to Harris; P0 as for angular contact bearings.
     Ball {
         k_cot: f64,
         y0: f64,
@@ -40,7 +40,7 @@ pub enum Rule {
         k_cot: f64,
         y0: f64,
     },
-    /// P1 = k Fa cot(alpha), after Harris.
+    /// P1 = k Fa cot(alpha), according to Harris.
     Roller {
         k_cot: f64,
     },

@@ -372,7 +372,7 @@ impl BearingModel for Model {
         }
         let n = at.speed.abs().rpm();
         let nu = at.show("nu", "mm2/s", at.nu.mm2_s());
-        let (g_rr, g_sl) = self.variables.at(fr, fa, n, nu, self.blend);
+        let (g_rr, g_sl) = self.variables.evaluate(fr, fa, n, nu, self.blend);
         at.show("G_rr", "-", g_rr);
         at.show("G_sl", "-", g_sl);
         self.check_speeds(at, n);
@@ -534,7 +534,7 @@ mod tests {
     fn a3_1_deep_groove_6308_in_a_low_bath() {
         let part = part();
         let model = Model::new(&params(), &part).unwrap();
-        let (g_rr, g_sl) = model.variables.at(3000.0, 1000.0, 3000.0, 15.0, None);
+        let (g_rr, g_sl) = model.variables.evaluate(3000.0, 1000.0, 3000.0, 15.0, None);
         close(g_rr, 0.206651);
         close(g_sl, 1220.21);
         let loss = model.loss(&at(&part, 3000.0, 1000.0, 10.0)).unwrap();
@@ -549,7 +549,7 @@ mod tests {
         let (g_rr, g_sl) = Model::new(&params(), &part())
             .unwrap()
             .variables
-            .at(3000.0, 0.0, 3000.0, 15.0, None);
+            .evaluate(3000.0, 0.0, 3000.0, 15.0, None);
         close(g_rr, 0.0998062);
         close(g_sl, 598.636);
     }
@@ -588,7 +588,7 @@ mod tests {
             unloaded.value(CENTRIFUGAL.index).to_bits()
         );
         // The split does not change the sum: 4 additions of positive numbers round by at most 4 epsilon.
-        let (g_rr, g_sl) = model.variables.at(2000.0, 1500.0, 3000.0, 15.0, None);
+        let (g_rr, g_sl) = model.variables.evaluate(2000.0, 1500.0, 3000.0, 15.0, None);
         let whole = (moments.rolling * g_rr + moments.mu_sl * g_sl) * 1e-3;
         assert!((loaded.sum() / whole - 1.0).abs() < 4.0 * f64::EPSILON);
         assert!(loaded.value(0) > 0.0 && loaded.value(1) > 0.0);

@@ -1,13 +1,14 @@
 //! Open wet multi-disc clutch or brake: shear of the oil between the discs.
 //!
 //! Derived for laminar flow between parallel discs, fed at the inner radius. Full film: T = N pi eta dw (r_o^4 - r_i^4)/(2 h).
-//! Centrifugal pumping draws more oil outwards than is supplied: dp/dr = rho C r - 6 eta Q/(pi r h^3) with C = 0.3 w1^2 + 0.4 w1 w2
-//! + 0.3 w2^2. `coverage`: beyond r_c = sqrt(6 eta Q/(pi rho C h^3)) the oil covers only the share (r_c/r)^2 of the gap: T = N (pi
-//! eta dw (r*^4 - r_i^4)/(2 h) + 6 eta^2 dw Q (r_o^2 - r*^2)/(rho C h^4)), r* = r_c limited to r_i to r_o. The drag rises with
-//! speed, peaks when r_c reaches the outer radius, then falls with 1/w, as measured drag does. `pressure_balance`: the film ends
-//! where its pressure has fallen to that of the housing, with mist beyond; it collapses within about 15 % of speed, as on plates
-//! without grooves. Kitabayashi 2003, Rao 2011 and Iqbal 2013 describe the same mechanism; their coefficients are not public, so
-//! their names are not used. Not for touching plates, axially vibrating plates, or turbulent flow (rho w r h/eta above about 1000).
+//! Centrifugal pumping draws more oil outwards than is supplied: dp/dr = rho C r - 6 eta Q/(pi r h^3) with C = 0.3 w1^2 + 0.4 w1 w2 + 0.3 w2^2.
+//! `coverage`: beyond r_c = sqrt(6 eta Q/(pi rho C h^3)) the oil covers only the share (r_c/r)^2 of the gap:
+//! T = N (pi eta dw (r*^4 - r_i^4)/(2 h) + 6 eta^2 dw Q (r_o^2 - r*^2)/(rho C h^4)), r* = r_c limited to r_i to r_o. The drag
+//! rises with speed, peaks when r_c reaches the outer radius, then falls with 1/w, as measured drag does.
+//! `pressure_balance`: the film ends where its pressure has fallen to that of the housing, with mist beyond; it
+//! collapses within about 15 % of speed, as on plates without grooves.
+//! Kitabayashi 2003, Rao 2011 and Iqbal 2013 describe the same mechanism; their coefficients are not public, so their names are
+//! not used. Not for touching plates, axially vibrating plates, or turbulent flow (rho w r h/eta above about 1000).
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -37,7 +38,7 @@ pub enum Film {
 }
 
 coefficients! {
-    /// Constants of the centrifugal pumping C after Hashimoto and others.
+    /// Constants of the centrifugal pumping C according to Hashimoto and others.
     struct Constants {
         /// Factor of the square of either speed in C.
         own_pumping = 0.3, in 0.15..=0.6;
@@ -195,7 +196,7 @@ impl ClutchModel for Discs {
 }
 
 register!(Clutch, "disc_gap", Params,
-    source: "derived: laminar flow between discs with centrifugal pumping (0.3 w^2 after Hashimoto et al. 1984)",
+    source: "derived: laminar flow between discs with centrifugal pumping (0.3 w^2 according to Hashimoto et al. 1984)",
     example: "{ type: disc_gap, flow: 3 l/min }",
     evidence: [
         formula(Evidence::Derived, "full film is textbook; coverage follows from continuity"),

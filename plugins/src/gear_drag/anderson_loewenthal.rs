@@ -1,4 +1,4 @@
-//! Windage of one gear in air-oil mist after Anderson and Loewenthal.
+//! Windage of one gear in air-oil mist according to Anderson and Loewenthal.
 //!
 //! Source: Anderson, Loewenthal, NASA TP-1622 (1980), quoted from memory: P = 2.82e-7 (1 + 2.3 b/R) n^2.8 R^4.6 (0.028 eta + 0.019)^0.2 in kW; n in
 //! 1/min, R and b in m, eta in mPa s. The constants assume a mist; for air alone only the viscous term is omitted.
@@ -36,7 +36,7 @@ coefficients! {
     }
 }
 
-/// Windage of one gear in air-oil mist after Anderson and Loewenthal.
+/// Windage of one gear in air-oil mist according to Anderson and Loewenthal.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct AndersonLoewenthal {
     /// Oil mist with its viscosity; otherwise air alone.

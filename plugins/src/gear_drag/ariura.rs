@@ -26,12 +26,12 @@ pub struct Ariura {
     #[schemars(range(min = -200.0, max = 200.0))]
     pub jet_speed: f64,
     /// Share of the momentum that acts on the gear: 0.85 to 1. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 2.0))]
     pub c: f64,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

@@ -1,4 +1,4 @@
-//! Windage of one gear after Dawson.
+//! Windage of one gear according to Dawson.
 //!
 //! Source: Dawson: Windage loss in larger high-speed gears, Proc. IMechE 198A (1984) 51-59, quoted from memory:
 //! P = 1e-20 n^2.9 (0.16 D^3.9 + D^2.9 b^0.75 m^1.15) Phi lambda in kW; n in 1/min, D root diameter, b and m in mm.
@@ -37,22 +37,22 @@ coefficients! {
     }
 }
 
-/// Windage of one gear after Dawson.
+/// Windage of one gear according to Dawson.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Dawson {
     /// Factor of the medium: 1 in air, more in oil mist. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub phi: f64,
     /// Factor of the enclosure: 1 free, 0.7 loose, 0.5 to 0.6 tight. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 1.0))]
     pub lambda: f64,
     #[serde(default)]
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

@@ -1,4 +1,4 @@
-//! Windage of one gear after Diab, by dimensional analysis or from faces and teeth.
+//! Windage of one gear according to Diab, by dimensional analysis or from faces and teeth.
 //!
 //! Source: Diab, Ville, Velex, Changenet: Windage losses in high speed gears, J. Mech. Des. 126 (2004) 903-908, quoted from memory.
 //! Dimensional: C_t = 60 Re^-0.25 (b/R)^0.8 z^-0.4 ((h1/R)^0.56 + (h2/R)^0.56), P = 1/2 C_t rho w^3 R^5, Re = rho w R^2/mu, h1 and h2 the
@@ -60,7 +60,7 @@ coefficients! {
     }
 }
 
-/// Windage of one gear after Diab, by dimensional analysis or from faces and teeth.
+/// Windage of one gear according to Diab, by dimensional analysis or from faces and teeth.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Diab {
     /// Which of the two laws.
@@ -70,7 +70,7 @@ pub struct Diab {
     #[schemars(inner(range(min = 0.1, max = 10000.0)))]
     pub flanges: Option<[f64; 2]>,
     /// Factor for deflectors on the teeth, for the analytical law; 1 without deflectors. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub xi: f64,
     /// Volume fraction of oil in the air. [-]
@@ -81,7 +81,7 @@ pub struct Diab {
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

@@ -1,4 +1,4 @@
-//! Splash torque of one gear after Mauz, with a reconstructed scale.
+//! Splash torque of one gear according to Mauz, with a reconstructed scale.
 //!
 //! Source: Mauz 1987, as quoted by Shen and Rinderknecht: T = K_0 (eta/eta_0)^-1.255 (r_a/r_0) C_WZ C_WA C_M C_V eta v_t A_B with
 //! C_M = (m_n/4.5 mm)^(1/7) and r_0 = 54 mm. The quotation does not state eta_0, and its K_0 = 1.86e-3 gives torques that are a
@@ -37,7 +37,7 @@ coefficients! {
     }
 }
 
-/// Splash torque of one gear after Mauz, with a reconstructed scale.
+/// Splash torque of one gear according to Mauz, with a reconstructed scale.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Mauz {
     /// Scale, reconstructed. [-]
@@ -45,15 +45,15 @@ pub struct Mauz {
     #[schemars(range(min = 1.0, max = 1e5))]
     pub k_0: f64,
     /// Factor for the distance to the wall at the circumference. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_wz: f64,
     /// Factor for the distance to the wall at the faces. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_wa: f64,
     /// Factor for the oil volume. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_v: f64,
     #[serde(default)]
@@ -63,7 +63,7 @@ pub struct Mauz {
 fn k_0() -> f64 {
     1.86e3
 }
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

@@ -1,4 +1,4 @@
-//! Squeezing torque of oil that is injected into a mesh, after Mauz.
+//! Squeezing torque of oil that is injected into a mesh, according to Mauz.
 //!
 //! Source: Mauz 1987, quoted from memory: T = 4.12 rho Q^0.75 r_w v_t^1.25 b^0.25 m_n^0.25 (nu/nu_0)^0.25 (h_Z/h_Z0)^0.5, SI; dimensionally exact.
 //! nu_0 and h_Z0 are not public, so the user states both ratios. Computed once for each mesh, at the first gear. Oil injected at
@@ -47,7 +47,7 @@ pub enum Side {
     Outgoing,
 }
 
-/// Squeezing torque of oil that is injected into a mesh, after Mauz.
+/// Squeezing torque of oil that is injected into a mesh, according to Mauz.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct MauzInjection {
     /// Flow into the mesh. [l/min]
@@ -57,18 +57,18 @@ pub struct MauzInjection {
     #[serde(default)]
     pub side: Side,
     /// Viscosity over its reference. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub viscosity_ratio: f64,
     /// Tooth height over its reference. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub tooth_height_ratio: f64,
     #[serde(default)]
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

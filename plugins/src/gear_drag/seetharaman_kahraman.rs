@@ -1,4 +1,4 @@
-//! Rim and faces of one immersed gear after Seetharaman and Kahraman, without oil in the root spaces.
+//! Rim and faces of one immersed gear according to Seetharaman and Kahraman, without oil in the root spaces.
 //!
 //! Source: Seetharaman, Kahraman: Load-independent spin power losses of a spur gear pair, J. Tribol. 131 (2009), partly quoted from memory:
 //! P_rim = 4 eta b r_o^2 w^2 phi; each face 0.41 rho nu^0.5 U^2.5 A/sqrt(r_o sin phi) to Re = 2 r_o sin phi U/nu = 1e5,
@@ -37,7 +37,7 @@ coefficients! {
     }
 }
 
-/// Rim and faces of one immersed gear after Seetharaman and Kahraman; incomplete.
+/// Rim and faces of one immersed gear according to Seetharaman and Kahraman; incomplete.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct SeetharamanKahraman {
     #[serde(default)]

@@ -1,4 +1,4 @@
-//! Windage of a smooth rotor of the gear's size, after Townsend.
+//! Windage of a smooth rotor of the gear's size, according to Townsend.
 //!
 //! Source: Townsend (ed.): Dudley's Gear Handbook, 2nd ed., 1991, quoted from memory: P = n^3 D^5 L^0.7/1e17 in hp, n in 1/min, D and L in inches.
 //! A rotor without teeth: the loss is below the laws for gears.

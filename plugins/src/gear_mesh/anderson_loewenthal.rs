@@ -1,4 +1,4 @@
-//! Loss of spur gear meshes evaluated at one point of the path of contact, after Anderson and Loewenthal.
+//! Loss of spur gear meshes evaluated at one point of the path of contact, according to Anderson and Loewenthal.
 //!
 //! Source: Anderson, Loewenthal: Spur gear system efficiency at part and full load, NASA TP-1622 (1980) with its errata sheet,
 //! quoted from memory: sliding with the friction of Benedict and Kelley, and rolling with the film of Hamrock and Dowson, both a quarter

@@ -8,7 +8,7 @@ use gearloss_framework::generic::{Lookup, PLACE};
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::registry::{Build, Evidence, USER_DEFINED, formula};
 use gearloss_framework::table::{Interpolation, Outside, Reading};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -81,7 +81,7 @@ impl GearMeshModel for Efficiency {
 }
 
 register!(GearMesh, "efficiency", Params,
-    source: "user-defined",
+    source: USER_DEFINED,
     example: "{ type: efficiency, value: 0.985 }",
     evidence: [formula(Evidence::User, "the user states it")],
     limits: [PLACE], terms: [SLIDING], observed: [EFFICIENCY], geometry: false, prepare: prepare);

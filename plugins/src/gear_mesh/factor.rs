@@ -21,9 +21,10 @@ impl Factor {
             at.branch("no speed or no torque: no loss");
             return Ok(Loss::POWERS);
         }
-        let mu = self
-            .friction
-            .mu(&MeanFrictionAt::of(at, at.notes.of(self.friction.notes)))?;
+        let mu = self.friction.mu(&MeanFrictionAt::at_pitch_point(
+            at,
+            at.notes.nested(self.friction.notes),
+        ))?;
         let mu = at.observe(&MU, mu);
         let factor = at.observe(&LOSS_FACTOR, self.value);
         let input = at.show("P_in", "W", at.torque * at.speed.abs());

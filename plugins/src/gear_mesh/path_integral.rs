@@ -9,12 +9,12 @@
 //! `contact_lines` it is that over the inclined lines of contact.
 //! Rolling friction is optional. One law is Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, times the factor for film
 //! thinning by inlet heating (Gupta et al. in the form of Arana et al. 2019; at least a twentieth, where the fit ends), because the
-//! isothermal law grows too fast with viscosity and speed. The other is 9e7 N/m2 times film thickness and face width after Crook
+//! isothermal law grows too fast with viscosity and speed. The other is 9e7 N/m2 times film thickness and face width according to Crook
 //! 1963 as used by Anderson and Loewenthal, with the minimum film thickness of Dowson and Higginson, times the sum velocity (some
 //! authors use half of it, which is an option). Without torque the loss is zero; rolling friction hardly depends on load, so with
 //! it the loss jumps at zero torque by about a watt.
 //! The integral is within 1e-4 of its limit for any law of friction: each smooth section of the path between A, B, C, D and E, and
-//! between the kinks of the load sharing, has as many nodes as the law requires, denser at its ends. Rolling friction after Crook,
+//! between the kinks of the load sharing, has as many nodes as the law requires, denser at its ends. Rolling friction according to Crook,
 //! whose film grows without bound where the load ramp starts, is within 2e-3.
 
 use gearloss_framework::document::Diagnostic;
@@ -189,11 +189,11 @@ impl GearMeshModel for Integral {
         }
         let pair = &at.part.pair;
         let speed = at.speed.abs();
-        let mean = MeanFrictionAt::of(at, at.notes);
+        let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
         let path = self
             .path
-            .at(&mean, at.notes.within(self.friction.notes))
+            .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
             .with(|to| to.bodies = at.bodies());
         let line_load = at.show("F_bn/b", "N/m", path.line_load);
         let short = self.short.as_ref().map_or(f64::NAN, |short| short.sum(&path));
@@ -275,7 +275,7 @@ impl GearMeshModel for Integral {
             #[inline(always)]
             |path, line_loads| {
                 let short = self.short.as_ref()?;
-                let own = notes.of(self.friction.notes);
+                let own = notes.nested(self.friction.notes);
                 if !short.note(path, line_loads, own) {
                     let noted = self.path.with_lanes(|mu| {
                         let wide = self.friction.along_lanes(path, line_loads, mu);
@@ -312,9 +312,12 @@ impl Integral {
             return None;
         }
         let pair = &at.part.pair;
-        let mean = MeanFrictionAt::of(at, Notes::MUTED);
-        let notes = at.notes.within(self.friction.notes);
-        let path = self.path.at(&mean, notes).with(|to| to.bodies = at.bodies());
+        let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
+        let notes = at.notes.nested_at_same_state(self.friction.notes);
+        let path = self
+            .path
+            .at_operating_point(&mean, notes)
+            .with(|to| to.bodies = at.bodies());
         wide(
             #[inline(always)]
             || {
@@ -481,7 +484,7 @@ pub(crate) mod tests {
                 let slot = build.slot_at::<GearMesh>("model", &part, &model).unwrap();
                 for torque in [0.01, 2.0, 300.0] {
                     let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| to.torque = torque);
-                    let fault = GearMesh::side_by_side(&*slot, &at, slot.notes);
+                    let fault = GearMesh::compare_batched(&*slot, &at, slot.notes);
                     assert_eq!(fault, None, "{sharing} {kind:?} {torque}");
                 }
             }

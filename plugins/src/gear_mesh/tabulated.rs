@@ -34,7 +34,7 @@ use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use table::{Asked, Extents, Table};
+use table::{DirectModel, Extents, Table};
 
 const TOTAL: Term = Term::load(0, "total");
 
@@ -179,12 +179,12 @@ fn torques(part: &MeshPart) -> [f64; 2] {
 
 impl Tabulated {
     /// The table for a point, built on first use, and the temperatures whose mean is its axis.
-    fn table(&self, at: &GearMeshAt<'_>, asked: &Asked<'_>) -> Result<(&Table, [f64; 2]), Undefined> {
-        let build = |known| Table::new(asked, &self.extents, self.nodes, self.checks, known);
+    fn table(&self, at: &GearMeshAt<'_>, direct: &DirectModel<'_>) -> Result<(&Table, [f64; 2]), Undefined> {
+        let build = |known| Table::new(direct, &self.extents, self.nodes, self.checks, known);
         if let Some([first, second]) = at.bodies() {
             let table = self
                 .over_bodies
-                .get_or_init(|| asked.follows_bodies(&self.extents).then(|| build(true)));
+                .get_or_init(|| direct.follows_bodies(&self.extents).then(|| build(true)));
             if let Some(table) = table {
                 return built(table).map(|table| (table, [first, second]));
             }
@@ -219,12 +219,12 @@ impl GearMeshModel for Tabulated {
             at.branch("no own oil: the tabulated model itself");
             return self.itself(at);
         };
-        let asked = Asked {
+        let direct = DirectModel {
             model: &self.of,
             part: at.part,
             lubricant: &oil.lubricant,
         };
-        let (table, [first, second]) = self.table(at, &asked)?;
+        let (table, [first, second]) = self.table(at, &direct)?;
         let speed = at.speed.abs();
         let place = table.place([speed, at.torque, 0.5 * (first + second)], &oil.lubricant);
         let farthest = place.iter().fold(

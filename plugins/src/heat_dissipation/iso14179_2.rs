@@ -1,6 +1,6 @@
 //! Heat dissipation of the housing according to ISO/TR 14179-2 (Funck).
 //!
-//! Source: ISO/TR 14179-2:2001, after Funck 1985, partly quoted from memory: Q = k A_ca (T_oil - T_ambient), 1/k = A_ca/(alpha_oil A_oil) + s/lambda +
+//! Source: ISO/TR 14179-2:2001, according to Funck 1985, partly quoted from memory: Q = k A_ca (T_oil - T_ambient), 1/k = A_ca/(alpha_oil A_oil) + s/lambda +
 //! 1/alpha_ca, alpha_ca = alpha_con + alpha_rad; alpha_rad = 0.23e-6 eps ((T_wall + T_amb)/2)^3; free: alpha_con = 18 h^-0.1 ((T_wall -
 //! T_amb)/T_amb)^0.3; forced: alpha_con = 0.0086 Re'^0.64/l_x, Re' = sqrt(Re^2 + Gr/2.5); T in K, lengths in m. T_wall follows from
 //! T_wall = T_amb + k (T_oil - T_amb)/alpha_ca, here in three iterations from the oil temperature.
@@ -56,7 +56,7 @@ pub struct Params {
     #[schemars(range(min = 1.0, max = 1e5))]
     pub alpha_oil: f64,
     /// Factor on convection to the air. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.01, max = 100.0))]
     pub factor: f64,
     #[serde(default)]
@@ -67,7 +67,7 @@ fn splash() -> f64 {
     200.0
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -137,7 +137,7 @@ impl HeatDissipationModel for Ready {
         let (mut wall, mut k, mut alpha) = (oil, 0.0, 0.0);
         for _ in 0..3 {
             let convection = if self.part.air_speed > 0.0 {
-                let air = Air::at(0.5 * (wall + ambient));
+                let air = Air::at_temperature(0.5 * (wall + ambient));
                 forced(
                     &self.params.coefficients,
                     self.part.air_speed,
@@ -165,7 +165,7 @@ impl HeatDissipationModel for Ready {
 }
 
 register!(HeatDissipation, "iso14179_2", Params,
-    source: "ISO/TR 14179-2:2001, after Funck",
+    source: "ISO/TR 14179-2:2001, according to Funck",
     example: "{ type: iso14179_2 }",
     evidence: [
         formula(Evidence::Recalled, "free and forced convection quoted from memory, not checked; radiation derived"),

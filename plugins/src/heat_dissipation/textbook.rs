@@ -1,6 +1,6 @@
 //! Textbook free and forced convection with radiation.
 //!
-//! Source: free convection at a vertical wall after Churchill and Chu 1975, Nu = (0.825 + 0.387 Ra^(1/6)/(1 + (0.492/Pr)^(9/16))^(8/27))^2; forced
+//! Source: free convection at a vertical wall according to Churchill and Chu 1975, Nu = (0.825 + 0.387 Ra^(1/6)/(1 + (0.492/Pr)^(9/16))^(8/27))^2; forced
 //! convection along a plate, laminar Nu = 0.664 Re^0.5 Pr^(1/3), above Re = 5e5 with a laminar leading part Nu = (0.037 Re^0.8 -
 //! 871) Pr^(1/3), which joins the laminar law continuously; combined (alpha_f^3 + alpha_n^3)^(1/3); radiation eps sigma (T_w^2 +
 //! T_a^2)(T_w + T_a). Air at the mean temperature of wall and surroundings.
@@ -25,12 +25,12 @@ const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coe
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Factor on convection, such as 2 for the moving air of a workshop. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.01, max = 100.0))]
     pub factor: f64,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

@@ -5,7 +5,7 @@
 //! refers to the total temperature difference between rotor and bore, with the area at the mean circumference. Nu = 2 is conduction
 //! through the gap.
 //!
-//! The data are for air. In oil the two upper branches are multiplied by (Pr/0.7)^0.3 after Aoki, Nohira and Arai, Bull. JSME 10
+//! The data are for air. In oil the two upper branches are multiplied by (Pr/0.7)^0.3 according to Aoki, Nohira and Arai, Bull. JSME 10
 //! (1967) 523-532, quoted from memory, who measured from X = 5e3 on. Between the onset of vortices and that value the exponent rises from
 //! zero, so that the law is continuous. No axial flow, smooth surfaces; slots increase the heat transfer. Oil properties are taken
 //! at the mean temperature of both nodes; properties of a mixture with air are weighted by volume, its specific heat by mass.

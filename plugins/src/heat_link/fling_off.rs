@@ -44,7 +44,7 @@ pub struct Params {
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: Option<f64>,
     /// Number of wetted flanks per tooth. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 2))]
     pub flanks: u32,
     /// Normalised cooling q: heat absorbed by the film over sqrt(k rho c t*), per kelvin. [-]
@@ -53,7 +53,7 @@ pub struct Params {
     pub normalised_cooling: f64,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 

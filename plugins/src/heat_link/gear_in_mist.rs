@@ -1,7 +1,7 @@
 //! A gear rotating in oil, air or a mist of both: its sides and its toothed face.
 //!
 //! Sources: Olver, IMechE G 205 (1991) 35-43 (sides and track of a gear); rotating disc in free fluid, laminar and turbulent; rotating
-//! cylinder after Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062, Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter and the speed of
+//! cylinder according to Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062, Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter and the speed of
 //! the surface, 1e3 < Re < 1e5. Mist properties are weighted by volume, its specific heat by mass. At standstill the heat transfer
 //! is zero: free convection is not included.
 //!

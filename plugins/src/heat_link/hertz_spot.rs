@@ -38,7 +38,7 @@ pub struct Params {
     #[schemars(range(min = 0.0, max = 1e4))]
     pub radius: Option<f64>,
     /// Number of such spots in parallel. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub count: f64,
     /// Thermal conductivities of both bodies. [W/(m K)]
@@ -55,7 +55,7 @@ pub struct Params {
     pub heat_capacities: [f64; 2],
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 fn conductivities() -> [f64; 2] {

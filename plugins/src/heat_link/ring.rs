@@ -32,7 +32,7 @@ pub struct Params {
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub conductivity: f64,
     /// Number of such rings in parallel. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 1000))]
     pub count: u32,
 }
@@ -41,7 +41,7 @@ fn steel() -> f64 {
     STEEL
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 

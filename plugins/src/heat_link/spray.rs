@@ -1,7 +1,7 @@
 //! Oil sprayed on a surface, such as the windings of a motor: limited by the heat capacity of the stream.
 //!
 //! Sources: stream along an isothermal wall, G = C (1 - exp(-alpha A/C)) with the heat capacity flow C of the stream, between the
-//! wall and the arriving oil; textbooks. Coefficient of a jet from its size and speed after Metzger, Cummings and Ruby, 5th Int.
+//! wall and the arriving oil; textbooks. Coefficient of a jet from its size and speed according to Metzger, Cummings and Ruby, 5th Int.
 //! Heat Transfer Conf. 1974, quoted from memory: St Pr^0.487 = 2.74 Re^-0.348 (L/d)^-0.774, St = alpha/(rho c v), Re = v d/nu.
 //!
 //! L is interpreted as the radius of the surface cooled by the jet, and d as the nozzle diameter.
@@ -54,7 +54,7 @@ pub struct Params {
     #[schemars(range(min = 0.01, max = 1e8))]
     pub area: f64,
     /// Share of the oil flow that reaches the surface. [-]
-    #[serde(default = "all")]
+    #[serde(default = "default_share")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: f64,
     /// Heat transfer coefficient, unless a `jet` is given. [W/(m2 K)]
@@ -64,7 +64,7 @@ pub struct Params {
     pub jet: Option<Jet>,
 }
 
-fn all() -> f64 {
+fn default_share() -> f64 {
     1.0
 }
 

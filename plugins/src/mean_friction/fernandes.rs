@@ -1,4 +1,4 @@
-//! Mean friction of a mesh after Fernandes, FEUP.
+//! Mean friction of a mesh according to Fernandes, FEUP.
 //!
 //! Source: Fernandes, Marques, Martins, Seabra, Tribol. Int. 2015, as in the author's public programs: mu = 0.014 (1/S_p)^0.25
 //! S_g^0.25 X_L with S_p = v_SC eta alpha^0.5/F_bn^0.5 and S_g = Ra/(l rho_redC)^0.5, SI throughout; l is the minimum total length
@@ -32,7 +32,7 @@ coefficients! {
     }
 }
 
-/// Mean friction of a mesh after Fernandes, from a dimensionless load and roughness.
+/// Mean friction of a mesh according to Fernandes, from a dimensionless load and roughness.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Lubricant factor; default: that of the oil. [-]

@@ -86,10 +86,10 @@ impl MeanFrictionModel for Local {
                 value: 0.0,
             });
         }
-        let notes = at.notes.of(self.friction.notes);
+        let notes = at.notes.nested(self.friction.notes);
         let mu = match self.at {
             Where::Path => self.path.with_space(|mu| {
-                self.friction.along(&self.path.at(at, notes), mu)?;
+                self.friction.along(&self.path.at_operating_point(at, notes), mu)?;
                 Ok(self.path.average(mu))
             })?,
             Where::PitchPoint => self.friction.mu(&ContactAt::usual(&NoPart {}, notes).with(|to| {

@@ -1,6 +1,6 @@
-//! Mean friction of a mesh after Michaelis, as in DIN 3990-4.
+//! Mean friction of a mesh according to Michaelis, as in DIN 3990-4.
 //!
-//! Source: DIN 3990-4:1987 after Michaelis 1987, quoted from memory: mu = 0.045 (w_Bt/(v_SC rho_redC))^0.2 eta^-0.05 X_R X_L with
+//! Source: DIN 3990-4:1987 according to Michaelis 1987, quoted from memory: mu = 0.045 (w_Bt/(v_SC rho_redC))^0.2 eta^-0.05 X_R X_L with
 //! X_R = 2.2 (Ra/rho_redC)^0.25; w_Bt in N/mm and at least 150, v_SC in m/s, rho_redC in mm, eta in mPa s, Ra in um.
 //! The load factors of the standard (K_A and others) are not applied: this is the nominal load.
 
@@ -44,7 +44,7 @@ coefficients! {
     }
 }
 
-/// Mean friction of a mesh after Michaelis, as in DIN 3990-4.
+/// Mean friction of a mesh according to Michaelis, as in DIN 3990-4.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Michaelis {
     /// Lubricant factor; default: that of the oil. [-]

@@ -1,4 +1,4 @@
-//! Mean friction of a mesh after Schlenk, as in ISO/TR 14179-2.
+//! Mean friction of a mesh according to Schlenk, as in ISO/TR 14179-2.
 //!
 //! Source: Schlenk 1994; ISO/TR 14179-2:2001; Niemann/Winter: mu = 0.048 (F_bt/b/(v_SC rho_redC))^0.2 eta^-0.05 Ra^0.25 X_L;
 //! F_bt/b in N/mm, v_SC in m/s, rho_redC in mm, eta in mPa s at oil temperature, Ra in um as the mean of both flanks.
@@ -108,7 +108,7 @@ impl OilType {
     }
 }
 
-/// Mean friction of a mesh after Schlenk, as in ISO/TR 14179-2.
+/// Mean friction of a mesh according to Schlenk, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Schlenk {
     /// Lubricant factor; default: that of `oil`, else that of the lubricant. [-]

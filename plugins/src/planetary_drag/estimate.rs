@@ -102,7 +102,7 @@ impl PlanetaryDragModel for Estimate {
         let mut planets = 0.0;
         for (slot, planet) in self.planets.iter().zip(&at.part.planets) {
             let depth = |diameter: f64| orbiting_dip(at.level, 0.5 * diameter, at.part.orbit);
-            let loss = slot.loss(&GearDragAt::usual(planet, at.notes.of(slot.notes)).with(|to| {
+            let loss = slot.loss(&GearDragAt::usual(planet, at.notes.nested(slot.notes)).with(|to| {
                 to.speed = at.planet_speed;
                 to.speed_2 = at.planet_speed;
                 to.tip_dip = depth(planet.gear.tip_diameter);

@@ -10,7 +10,7 @@ use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::gear_drag::Covers;
 use gearloss_framework::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::registry::{Build, Evidence, USER_DEFINED, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -110,7 +110,7 @@ impl PlanetaryDragModel for PowerLaw {
 }
 
 register!(PlanetaryDrag, "power_law", PowerLaw,
-    source: "user-defined",
+    source: USER_DEFINED,
     example: "{ type: power_law, moment: 0.05 Nm, speed: 300 rpm, nu: 100 mm2/s, volume: 90 ml, speed_exponent: 0.6, \
               viscosity_exponent: 0.4, volume_exponent: 0.8 }",
     evidence: [formula(Evidence::User, "the user states it")],

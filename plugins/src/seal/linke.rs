@@ -1,4 +1,4 @@
-//! Radial lip seals after Linke.
+//! Radial lip seals according to Linke.
 //!
 //! Source: Linke, Stirnradverzahnung: P = 7.69e-6 d^2 n in W, d in mm, n in 1/min; one lip. The torque is independent of speed, oil
 //! and temperature. Some programs attribute it to ISO/TR 14179-2, incorrectly.
@@ -22,7 +22,7 @@ coefficients! {
     }
 }
 
-/// Radial lip seals after Linke: torque from the square of the diameter.
+/// Radial lip seals according to Linke: torque from the square of the diameter.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Linke {
     #[serde(default)]

@@ -1,4 +1,4 @@
-//! Radial lip seals after Niemann and Winter, with a user-defined coefficient.
+//! Radial lip seals according to Niemann and Winter, with a user-defined coefficient.
 //!
 //! Source: Niemann/Winter, Maschinenelemente 2, as quoted by Concli: P = lambda_L d^2 n/1000 in W, d in mm, n in 1/min. No value of
 //! lambda_L is published; it depends on temperature and wear. 7.69e-3 gives the law of Linke. A number, or a table over quantities

@@ -81,7 +81,7 @@ impl Case {
         (1..).filter_map(move |i| Self::new(sobol.point(i))).take(number)
     }
 
-    fn at(&self) -> GearMeshAt<'_> {
+    fn context(&self) -> GearMeshAt<'_> {
         let (pair, t) = (&self.part.pair, &self.t);
         let eta = spread(t[12], 2e-3, 0.5);
         GearMeshAt::usual(&self.part, Notes::MUTED).with(|to| {
@@ -131,11 +131,11 @@ fn errors(registry: &Registry, law: &Value, sharing: LoadSharing, cases: &[Case]
     for (i, case) in cases.iter().enumerate() {
         let mut build = Build::new(registry, &files);
         let slot = build.slot_beside::<ToothFriction, _>("law", &case.part, law).unwrap();
-        let at = case.at();
-        let mean = MeanFrictionAt::of(&at, Notes::MUTED);
+        let at = case.context();
+        let mean = MeanFrictionAt::at_pitch_point(&at, Notes::MUTED);
         let sum = |path: &Path| {
             let mut mu = vec![0.0; path.len()];
-            slot.along(&path.at(&mean, Notes::MUTED), &mut mu)
+            slot.along(&path.at_operating_point(&mean, Notes::MUTED), &mut mu)
                 .map(|_| path.sliding(&mu))
         };
         let pair = &case.part.pair;
@@ -230,7 +230,7 @@ fn rolling_is_as_close_to_its_limit_as_stated() {
                         "rolling_friction": rolling });
                     let mut build = Build::new(&registry, &files);
                     let slot = build.slot_at::<GearMesh>("model", &case.part, &model).unwrap();
-                    slot.loss(&case.at()).unwrap().sum()
+                    slot.loss(&case.context()).unwrap().sum()
                 };
                 let few = watts(json!({ "type": "constant", "value": 0.0 }));
                 let many = watts(json!({ "type": "formula", "formula": "0" }));

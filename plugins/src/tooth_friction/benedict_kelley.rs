@@ -1,4 +1,4 @@
-//! Friction between flanks after Benedict and Kelley.
+//! Friction between flanks according to Benedict and Kelley.
 //!
 //! Source: Benedict, Kelley: Instantaneous coefficients of gear tooth friction, ASLE Trans. 4 (1961) 59-70:
 //! mu = 0.0127 lg(0.02966 w/(eta v_g v_S^2)) with w in N/m, eta in Pa s, v_g and the sum velocity v_S in m/s; the constant of the
@@ -39,7 +39,7 @@ coefficients! {
     }
 }
 
-/// Friction between flanks after Benedict and Kelley.
+/// Friction between flanks according to Benedict and Kelley.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct BenedictKelley {
     /// Apply the roughness factor.

@@ -1,4 +1,4 @@
-//! Power law of boundary or fluid friction after Doleschel.
+//! Power law of boundary or fluid friction according to Doleschel.
 //!
 //! Source: Doleschel 2002 (FVA 345), quoted from memory: mu = mu_R (p_H/1000 N/mm2)^a (v_S/v_R)^b (eta/20 mPa s)^c with v_R = 8.3 m/s for fluid and
 //! 0.2 m/s for boundary friction, which is independent of viscosity. Coefficient and exponents are properties of the oil from its
@@ -24,7 +24,7 @@ const SUM_SPEED: Limit = Limit::new(
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
-/// Power law of boundary or fluid friction after Doleschel, with test constants of an oil.
+/// Power law of boundary or fluid friction according to Doleschel, with test constants of an oil.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Doleschel {
     /// Coefficient of friction at the reference. [-]

@@ -1,4 +1,4 @@
-//! Friction between flanks after Drozdov and Gavrikov.
+//! Friction between flanks according to Drozdov and Gavrikov.
 //!
 //! Source: Drozdov, Gavrikov: Friction and scoring under simultaneous rolling and sliding, Wear 11 (1968) 291-302, quoted from memory:
 //! mu = 1/(0.8 nu^0.5 v_g + v_S phi + 13.4), phi = 0.47 - 0.13e-4 p - 0.4e-3 nu; nu in mm2/s, v_g and the sum velocity v_S in m/s, Hertz
@@ -43,7 +43,7 @@ coefficients! {
     }
 }
 
-/// Friction between flanks after Drozdov and Gavrikov.
+/// Friction between flanks according to Drozdov and Gavrikov.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct DrozdovGavrikov {
     #[serde(default)]

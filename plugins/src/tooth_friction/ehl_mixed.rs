@@ -1,9 +1,9 @@
 //! Thermal elastohydrodynamic and mixed friction along the path of contact.
 //!
 //! Source: Shore and Kadiric, Optimization of electric vehicle drivetrain fluid with a new system-level approach: at each point of
-//! the path the film after Chittenden et al., thinned by inlet heating; viscosity after Roelands at the mean Hertz pressure and the
-//! film temperature; shear stress after Johnson and Tevaarwerk with a limit, its mean over the transit after Olver and Spikes;
-//! flash and film temperature after Blok; boundary friction from the film ratio. Each point converges with its own heat, the path
+//! the path the film according to Chittenden et al., thinned by inlet heating; viscosity according to Roelands at the mean Hertz pressure and the
+//! film temperature; shear stress according to Johnson and Tevaarwerk with a limit, its mean over the transit according to Olver and Spikes;
+//! flash and film temperature according to Blok; boundary friction from the film ratio. Each point converges with its own heat, the path
 //! with the body temperatures of the gears. Where the publication has misprints (the factor eta_inf in its shear rate, the
 //! viscosity in its flow groups), the form required by its other equations is used.
 //!
@@ -264,7 +264,7 @@ impl EhlMixed {
         mu: &mut [f64],
         mut seen: impl FnMut(&Place<'_>, &Settled),
     ) -> (Tally, f64) {
-        let oil = self.fluid.at(Supplied {
+        let oil = self.fluid.for_supply(Supplied {
             temperature: path.temperature,
             nu: path.nu,
             eta: path.eta,
@@ -351,7 +351,7 @@ impl ToothFrictionModel for EhlMixed {
             at.branch("at standstill: boundary friction, the limit without a film");
             return Ok(at.observe(&MU, self.fluid.rheology.mu_b));
         }
-        let oil = self.fluid.at(Supplied {
+        let oil = self.fluid.for_supply(Supplied {
             temperature: at.temperature,
             nu: at.nu,
             eta: at.eta,

@@ -57,14 +57,14 @@ impl ToothFrictionModel for Mean {
             to.beta = at.beta;
             to.conductivity = at.conductivity;
             to.x_l = at.x_l;
-            to.notes = at.notes.of(self.friction.notes);
+            to.notes = at.notes.nested(self.friction.notes);
         }))
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         mu.fill(
             self.friction
-                .mu(&path.mean.with(|to| to.notes = path.notes.of(self.friction.notes)))?,
+                .mu(&path.mean.with(|to| to.notes = path.notes.nested(self.friction.notes)))?,
         );
         Ok(Along::default())
     }

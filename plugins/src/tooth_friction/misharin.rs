@@ -1,4 +1,4 @@
-//! Friction between flanks after Misharin.
+//! Friction between flanks according to Misharin.
 //!
 //! Source: Misharin 1958, quoted from memory: mu = 0.325 (v_g v_S nu)^-0.25, nu in mm2/s, v_g and the sum velocity v_S in m/s. Stated for
 //! 0.02 to 0.08, to which it is limited, and for Hertz pressures of 245 MPa and more; the range of slide-to-roll ratios is not
@@ -40,7 +40,7 @@ coefficients! {
     }
 }
 
-/// Friction between flanks after Misharin.
+/// Friction between flanks according to Misharin.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Misharin {
     /// Limit the coefficient to the stated 0.02 to 0.08.

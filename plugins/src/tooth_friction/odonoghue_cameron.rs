@@ -1,4 +1,4 @@
-//! Friction between flanks after O'Donoghue and Cameron.
+//! Friction between flanks according to O'Donoghue and Cameron.
 //!
 //! Source: O'Donoghue, Cameron: Friction and temperature in rolling sliding contacts, ASLE Trans. 9 (1966) 186-194, quoted from memory:
 //! mu = 0.6 (S + 22)/35/(eta^(1/8) v_g^(1/3) v_S^(1/6) R^(1/2)), in inches: S centre line average in uin, eta in cP, speeds in in/s,
@@ -50,7 +50,7 @@ coefficients! {
     }
 }
 
-/// Friction between flanks after O'Donoghue and Cameron.
+/// Friction between flanks according to O'Donoghue and Cameron.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct ODonoghueCameron {
     /// Maximum coefficient of friction; boundary friction limits the growth of the formula near the pitch point and at creeping

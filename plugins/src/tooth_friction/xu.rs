@@ -84,7 +84,7 @@ pub struct Xu {
 
 impl Roughness {
     /// S of the regression. \[um\]
-    fn of(self, ra: f64, rq: f64) -> f64 {
+    fn composite(self, ra: f64, rq: f64) -> f64 {
         match self {
             Self::CompositeRms => rq.um(),
             Self::Ra => ra.um(),
@@ -108,7 +108,7 @@ fn check_oil(notes: Notes<'_>, eta: f64, s: f64) -> Result<f64, Undefined> {
 
 impl ToothFrictionModel for Xu {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        let s = self.roughness.of(at.ra, at.rq);
+        let s = self.roughness.composite(at.ra, at.rq);
         let nu0 = check_oil(at.notes, at.eta, s)?;
         let p = at.check(&PRESSURE, at.pressure.gpa());
         let sr = at.check(&SLIDE_ROLL, at.slide_roll());
@@ -133,7 +133,7 @@ impl ToothFrictionModel for Xu {
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
-        let s = self.roughness.of(path.ra, path.rq);
+        let s = self.roughness.composite(path.ra, path.rq);
         let nu0 = check_oil(path.notes, path.eta, s)?;
         let unit = unit_pressure(path.line_load, path.modulus);
         if unit == 0.0 {
@@ -164,7 +164,7 @@ impl ToothFrictionModel for Xu {
     }
 
     fn along_lanes(&self, path: &PathAt<'_>, line_loads: &Lane, mu: &mut [Lane]) -> bool {
-        let s = self.roughness.of(path.ra, path.rq);
+        let s = self.roughness.composite(path.ra, path.rq);
         let Ok(nu0) = check_oil(Notes::MUTED, path.eta, s) else {
             return false;
         };
@@ -227,7 +227,7 @@ fn note_ranges(
     range: Option<(f64, f64)>,
     notes: LaneNotes<'_>,
 ) {
-    let _ = check_oil(path.notes, path.eta, roughness.of(path.ra, path.rq));
+    let _ = check_oil(path.notes, path.eta, roughness.composite(path.ra, path.rq));
     let root_load = path.extent.root_load;
     let noted = range.is_some_and(|(low, high)| {
         let [low, high] = [low, high].map(|line_load| unit_pressure(line_load, path.modulus));
@@ -267,7 +267,7 @@ struct Weighted {
 
 impl Weighted {
     fn common(&self, path: &PathAt<'_>) -> Option<Common> {
-        let s = self.roughness.of(path.ra, path.rq);
+        let s = self.roughness.composite(path.ra, path.rq);
         let nu0 = check_oil(Notes::MUTED, path.eta, s).ok()?;
         Some(Common::new(&self.coefficients, path, s, nu0))
     }
@@ -278,7 +278,7 @@ impl WeightedFriction for Weighted {
         let unit = unit_pressure(path.line_load, path.modulus);
         let along = self.common(path);
         along.map_or(f64::NAN, |along| {
-            self.series.at(-along.fall(unit)) * power(self.coefficients.b2, unit) * along.factor
+            self.series.sum_at(-along.fall(unit)) * power(self.coefficients.b2, unit) * along.factor
         })
     }
 
@@ -291,7 +291,7 @@ impl WeightedFriction for Weighted {
             #[inline(always)]
             || {
                 let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-                let raised = powers.of(0, |i| units[i], b2, |unit| power(b2, unit));
+                let raised = powers.raise(0, |i| units[i], b2, |unit| power(b2, unit));
                 let sums = self.series.lanes(&over(&units, |unit| -along.fall(unit)));
                 each(|i| sums[i] * raised[i] * along.factor)
             },
@@ -528,9 +528,9 @@ mod tests {
             })
             .collect();
         let part = fzg_c14(0.4e-6, 0.5e-6);
-        let extent = PathExtent::of(&nodes);
+        let extent = PathExtent::from_nodes(&nodes);
         let mean = MeanFrictionAt::usual(&part, Notes::MUTED);
-        let path = PathAt::of(&nodes, &extent, 0.02, &mean, Notes::MUTED).with(|to| {
+        let path = PathAt::new(&nodes, &extent, 0.02, &mean, Notes::MUTED).with(|to| {
             to.speed = 300.0;
             to.line_load = 2e5;
         });

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use gearloss_framework::codes;
 use gearloss_framework::coefficients::changed_from_source;
-use gearloss_framework::document::{Code, Diagnostic, Severity, Sources, Span};
+use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Severity, Sources};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
@@ -70,7 +71,7 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
 /// The result for a file.
 #[derive(Default)]
 struct Checked {
-    findings: Vec<Value>,
+    findings: Vec<PlacedDiagnostic>,
     /// Components of a study's gearboxes without a model.
     notes: Vec<String>,
     /// The file cannot be used.
@@ -91,6 +92,7 @@ fn study(looked: Looked) -> Result<Checked, Failure> {
             Failure::Found(findings) => checked.findings.extend(found(&findings.list, &findings.sources)),
             Failure::Input(text) => {
                 let finding = Diagnostic::error("", text.trim().trim_start_matches("error: "));
+                let finding = finding.code(gearloss_studies::codes::STUDY);
                 checked.findings.extend(found(&[finding], &Sources::default()));
             }
             Failure::Interrupted => return Err(Failure::Interrupted),
@@ -139,7 +141,7 @@ fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -
         gearbox.places.place(
             Diagnostic::warning(note.path, message)
                 .help("use a larger bearing, or check the rating")
-                .code(Code::Gearbox),
+                .code(codes::OVERLOADED),
         )
     });
     let warnings: Vec<Diagnostic> = transmission.warnings.iter().cloned().chain(overloaded).collect();
@@ -165,41 +167,6 @@ fn ratios(t: &Transmission) -> Value {
 }
 
 /// Findings with file, line and column instead of spans.
-fn found(list: &[Diagnostic], sources: &Sources) -> Vec<Value> {
-    let place = |span: Span| {
-        sources
-            .locate(span)
-            .map_or([Value::Null, Value::Null, Value::Null], |(file, line, column)| {
-                [file.into(), line.into(), column.into()]
-            })
-    };
-    list.iter()
-        .map(|finding| {
-            let [file, line, column] = finding
-                .spans
-                .first()
-                .map_or([Value::Null, Value::Null, Value::Null], |(span, _)| place(*span));
-            let related: Vec<Value> = finding
-                .spans
-                .iter()
-                .skip(1)
-                .map(|(span, label)| {
-                    let [file, line, column] = place(*span);
-                    json!({ "file": file, "line": line, "column": column, "message": label })
-                })
-                .collect();
-            json!({
-                "severity": finding.severity,
-                "code": finding.code.unwrap_or(Code::Other),
-                "path": finding.path,
-                "message": finding.message,
-                "help": finding.help,
-                "notes": finding.notes,
-                "file": file,
-                "line": line,
-                "column": column,
-                "related": related,
-            })
-        })
-        .collect()
+fn found(list: &[Diagnostic], sources: &Sources) -> Vec<PlacedDiagnostic> {
+    list.iter().map(|finding| sources.placed(finding)).collect()
 }

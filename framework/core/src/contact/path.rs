@@ -60,7 +60,7 @@ impl Path {
             .map(|(p, n)| p.weight / pair.base_pitch * p.share * n.sliding)
             .collect();
         Self {
-            extent: PathExtent::of(&nodes),
+            extent: PathExtent::from_nodes(&nodes),
             nodes,
             points,
             weights,
@@ -101,8 +101,8 @@ impl Path {
     }
 
     /// The path at one operating point.
-    pub fn at<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
-        PathAt::of(&self.nodes, &self.extent, self.length, mean, notes)
+    pub fn at_operating_point<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
+        PathAt::new(&self.nodes, &self.extent, self.length, mean, notes)
     }
 
     /// Runs a function with space for friction at each point; most paths need little, and zeroing more costs time.

@@ -59,14 +59,14 @@ pub struct GearEntry {
     pub temperature_offset: f64,
     /// Factor on the drag losses of the gear, for effects that the model does not include; drags at a mesh use the mean of both
     /// gears. An identification may fit it. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
     /// Drag models of this gear by name; they replace those in `models`.
     pub drag: Option<NamedSlots<GearDrag>>,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -173,7 +173,7 @@ pub struct MeshEntry {
     pub temperature_offset: f64,
     /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
     /// may fit it. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
     /// Loss model of the mesh; default: that of `models`.
@@ -222,7 +222,7 @@ pub struct PlanetarySetEntry {
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
     /// Factor on the drag loss of the set, for effects that the model does not include. An identification may fit it. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
     /// Drag model of the carrier with its planets; default: that of `models`.

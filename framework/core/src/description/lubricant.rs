@@ -101,7 +101,7 @@ pub struct ViscosityEntry {
     #[schemars(range(min = 50.0, max = 300.0))]
     pub vogel_c: f64,
     /// Factor on the viscosity at every temperature, for a sheared, diluted or oxidised oil, or for identification. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub factor: f64,
 }
@@ -115,12 +115,12 @@ impl Default for ViscosityEntry {
             points: Vec::new(),
             law: ViscosityLaw::default(),
             vogel_c: vogel_c(),
-            factor: one(),
+            factor: default_one(),
         }
     }
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 

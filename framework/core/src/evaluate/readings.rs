@@ -58,7 +58,7 @@ impl Solution<'_> {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         }
     }
 

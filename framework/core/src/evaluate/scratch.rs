@@ -35,7 +35,7 @@ pub struct Scratch {
     pub(super) relative: Vec<f64>,
     /// Rotating components that carry load: they are evaluated in every iteration.
     pub(super) braking: Vec<usize>,
-    /// Values that models keep over the iterations of a point or the points of a row, by instance.
+    /// Values that models keep over the iterations of a point or the points of a batch, by instance.
     pub(super) kept: Vec<[f64; MOST_KEPT]>,
     pub(super) cells: Vec<Extent>,
     pub(super) work: Work,
@@ -46,7 +46,7 @@ pub struct Scratch {
     pub(super) status: Status,
     pub(super) passes: usize,
     /// Loss model evaluations for the point.
-    pub(super) asked: Cell<usize>,
+    pub(super) calls: Cell<usize>,
     /// Loss model evaluations for previous points.
     pub(super) called: usize,
     /// Observed extents of every limit and observed quantity since the scratch was made, one count per point.
@@ -56,7 +56,7 @@ pub struct Scratch {
 impl Scratch {
     /// Loss model evaluations for the last evaluated point.
     pub fn calls(&self) -> usize {
-        self.asked.get()
+        self.calls.get()
     }
 
     /// Observed extents since the scratch was made or since the last call.
@@ -77,7 +77,7 @@ impl Scratch {
 
     /// Loss model evaluations for all points so far.
     pub fn all_calls(&self) -> usize {
-        self.called + self.asked.get()
+        self.called + self.calls.get()
     }
 
     /// Speeds of the members. \[rad/s\]
@@ -162,7 +162,7 @@ impl Scratch {
             },
             status: Status::Standstill,
             passes: 0,
-            asked: Cell::new(0),
+            calls: Cell::new(0),
             called: 0,
             totals: vec![Extent::EMPTY; transmission.cells],
         }

@@ -79,8 +79,12 @@ impl Transmission {
             PartKind::Mesh(i) => {
                 let speed = self.mesh_speed(i, &s.speeds);
                 let count = self.meshes[i].seat.count * self.meshes[i].loss_factor;
-                let asked = s.mesh_losses[i].as_ref().map_or(0.0, |loss| loss.total_watts(speed)) * count;
-                let ratio = if asked > 0.0 { s.work.mesh_loss[i] / asked } else { 1.0 };
+                let returned = s.mesh_losses[i].as_ref().map_or(0.0, |loss| loss.total_watts(speed)) * count;
+                let ratio = if returned > 0.0 {
+                    s.work.mesh_loss[i] / returned
+                } else {
+                    1.0
+                };
                 (&s.mesh_losses[i], speed, count * ratio, speed == 0.0)
             }
             PartKind::Drag(i) => {
@@ -250,7 +254,7 @@ impl Solution<'_> {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         self.transmission
             .mesh_at(mesh, s.tangential[mesh], s.work.drives[mesh], &state, &Notebook::CLOSED)
@@ -300,7 +304,7 @@ impl Solution<'_> {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         let info = &t.parts[part];
         let book = Notebook {

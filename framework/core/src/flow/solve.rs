@@ -92,7 +92,7 @@ impl Flow {
         let (mut least, mut slow, mut damping) = (f64::INFINITY, 0, 1.0);
         for _ in 0..tolerance.passes {
             *passes += 1;
-            if !ask(speeds, work, losses) {
+            if !evaluate_losses(speeds, work, losses) {
                 return End::Open;
             }
             self.weigh(speeds, work);
@@ -222,21 +222,24 @@ enum End {
 }
 
 /// Evaluates the losses of the models at the present torques; false if a result is NaN.
-fn ask(speeds: &[f64], work: &mut Work, losses: &mut impl FnMut(&mut FlowState<'_>)) -> bool {
-    work.asked.fill(0.0);
+fn evaluate_losses(speeds: &[f64], work: &mut Work, losses: &mut impl FnMut(&mut FlowState<'_>)) -> bool {
+    work.model_losses.fill(0.0);
     work.answer.drags_mut().fill(0.0);
     losses(&mut FlowState {
         speeds,
         multipliers: &work.multipliers,
         drives: &work.drives,
         ports: &work.ports,
-        mesh_loss: &mut work.asked,
+        mesh_loss: &mut work.model_losses,
         drags: work.answer.drags_mut(),
     });
-    for (k, loss) in work.asked.iter().enumerate() {
+    for (k, loss) in work.model_losses.iter().enumerate() {
         work.answer.set_mesh(k, *loss, work.rolling[k].abs());
     }
-    work.asked.iter().chain(work.answer.drags()).all(|x| x.is_finite())
+    work.model_losses
+        .iter()
+        .chain(work.answer.drags())
+        .all(|x| x.is_finite())
 }
 
 /// Adopts the driving gears of the last solve; true if one of them was assumed differently.

@@ -1,6 +1,6 @@
 //! The square system of equilibrium: multipliers of rows and torques of ports.
 
-use super::abreast::SparseFlow;
+use super::batched::SparseFlow;
 use super::linear::{Panels, inverse, padded, product};
 use crate::kinematics::Train;
 

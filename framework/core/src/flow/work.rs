@@ -156,7 +156,7 @@ pub struct Work {
     /// Largest difference of power between the losses used last and the results of the models. \[W\]
     pub mismatch: f64,
     /// Results of the models for the meshes. \[W\]
-    pub(super) asked: Vec<f64>,
+    pub(super) model_losses: Vec<f64>,
     /// Losses in the last solve, in the one before, and the results of the models for each.
     pub(super) used: Losses,
     pub(super) used_before: Losses,
@@ -185,16 +185,16 @@ pub struct Work {
 impl Work {
     /// Computes the losses of an ideal power flow; they change no torque.
     pub fn once(&mut self, speeds: &[f64], mut losses: impl FnMut(&mut FlowState<'_>)) {
-        self.asked.fill(0.0);
+        self.model_losses.fill(0.0);
         losses(&mut FlowState {
             speeds,
             multipliers: &self.multipliers,
             drives: &self.drives,
             ports: &self.ports,
-            mesh_loss: &mut self.asked,
+            mesh_loss: &mut self.model_losses,
             drags: &mut self.drags,
         });
-        self.mesh_loss.copy_from_slice(&self.asked);
+        self.mesh_loss.copy_from_slice(&self.model_losses);
         self.drags.fill(0.0);
     }
 
@@ -242,7 +242,7 @@ impl Flow {
             drives: vec![Drive::Neither; k],
             largest: 0.0,
             mismatch: 0.0,
-            asked: vec![0.0; k],
+            model_losses: vec![0.0; k],
             used: losses.clone(),
             used_before: losses.clone(),
             answer: losses.clone(),

@@ -91,10 +91,10 @@ impl<'a> LaneNotes<'a> {
     }
 
     /// The same for the model of a nested slot.
-    pub fn of(self, base: NoteBase) -> Self {
+    pub fn nested(self, base: NoteBase) -> Self {
         Self {
             base,
-            common: self.common.of(base),
+            common: self.common.nested(base),
             ..self
         }
     }

@@ -58,7 +58,7 @@ impl Powers {
     /// same at every speed and in every oil; nothing may be added or cut off in it. The result is remembered at `place`, so a model
     /// gives each of its powers its own place, counted from zero.
     #[inline(always)]
-    pub fn of(&mut self, place: usize, x: impl Fn(usize) -> f64, exponent: f64, exact: impl Fn(f64) -> f64) -> Lane {
+    pub fn raise(&mut self, place: usize, x: impl Fn(usize) -> f64, exponent: f64, exact: impl Fn(f64) -> f64) -> Lane {
         if let Some(Some(anchor)) = self.places.get(place)
             && anchor.exponent == exponent
         {
@@ -121,12 +121,12 @@ mod tests {
             let exact = |x: f64| x.powf(exponent);
             let mut powers = Powers::remembering();
             let first = each(|i| 10.0_f64.powf(0.4 * i as f64 - 6.0));
-            assert_eq!(powers.of(0, |i| first[i], exponent, exact), over(&first, exact));
+            assert_eq!(powers.raise(0, |i| first[i], exponent, exact), over(&first, exact));
             for step in -20..=20 {
                 let x = each(|i| first[i] * (1.0 + 0.99 * CLOSE * f64::from(step) / 20.0));
                 let found = wide(
                     #[inline(always)]
-                    || powers.of(0, |i| x[i], exponent, |_| f64::NAN),
+                    || powers.raise(0, |i| x[i], exponent, |_| f64::NAN),
                 );
                 for i in 0..LANES {
                     let own = exact(x[i]);
@@ -149,26 +149,26 @@ mod tests {
             calls.set(calls.get() + 1);
             cube_root(x)
         };
-        let mut ask = |place: usize, x: f64, others: f64| {
+        let mut is_exact = |place: usize, x: f64, others: f64| {
             calls.set(0);
-            let found = powers.of(place, |i| if i == 7 { x } else { others }, 1.0 / 3.0, exact);
+            let found = powers.raise(place, |i| if i == 7 { x } else { others }, 1.0 / 3.0, exact);
             assert!((found[7] - cube_root(x)).abs() <= 1e-15 && (found[8] - cube_root(others)).abs() <= 1e-15);
             calls.get() > 0
         };
-        assert!(ask(0, 3.0, 3.0));
-        assert!(!ask(0, 3.001, 3.0));
+        assert!(is_exact(0, 3.0, 3.0));
+        assert!(!is_exact(0, 3.001, 3.0));
         // One lane is enough.
-        assert!(ask(0, 3.1, 3.0));
-        assert!(!ask(0, 3.1, 3.0));
+        assert!(is_exact(0, 3.1, 3.0));
+        assert!(!is_exact(0, 3.1, 3.0));
         // Zero load is never close to anything, and its power is zero.
-        assert!(ask(0, 0.0, 3.0));
-        assert!(ask(0, 0.0, 3.0));
+        assert!(is_exact(0, 0.0, 3.0));
+        assert!(is_exact(0, 0.0, 3.0));
         // Each place has its own memory.
-        assert!(ask(2, 3.0, 3.0));
-        assert!(!ask(2, 3.0, 3.0));
+        assert!(is_exact(2, 3.0, 3.0));
+        assert!(!is_exact(2, 3.0, 3.0));
         powers.forget();
         calls.set(0);
-        powers.of(2, |_| 3.0, 1.0 / 3.0, exact);
+        powers.raise(2, |_| 3.0, 1.0 / 3.0, exact);
         assert!(calls.get() > 0);
     }
 
@@ -176,13 +176,13 @@ mod tests {
     fn without_a_memory_every_power_is_exact() {
         let mut powers = Powers::EXACT;
         for x in [2.0, 2.0] {
-            let asked = std::cell::Cell::new(false);
+            let evaluated = std::cell::Cell::new(false);
             let root = |x: f64| {
-                asked.set(true);
+                evaluated.set(true);
                 cube_root(x)
             };
-            assert_eq!(powers.of(0, |_| x, 1.0 / 3.0, root)[0], cube_root(2.0));
-            assert!(asked.get());
+            assert_eq!(powers.raise(0, |_| x, 1.0 / 3.0, root)[0], cube_root(2.0));
+            assert!(evaluated.get());
         }
     }
 }

@@ -1,5 +1,5 @@
 #![allow(clippy::unwrap_used)]
-use super::abreast::tests::assert_abreast;
+use super::batched::tests::assert_batched_equals_single;
 use super::layout::Section;
 use super::*;
 use crate::attach::Axial;
@@ -113,7 +113,7 @@ fn two_speed() -> Layout {
 
 fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64; 2]>) {
     let solved = ShaftLoads::new(layout).unwrap();
-    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let mut loads = vec![SupportLoad::default(); layout.supports.len()];
     let mut passed = vec![0.0; solved.scratch_len()];
     // Rotated first, so that the forces of the caller stay unchanged.
@@ -482,7 +482,7 @@ fn g_planet_bearing() {
         meshes: vec![sun, ring],
     };
     let solved = ShaftLoads::new(&layout).unwrap();
-    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     // The most loaded planet carries 1.1 times its share of 60 N m; the carrier turns at 750 rpm.
     let share = 1.1 * 60.0 / 3.0;
     let speeds = [0.0, 750.0 * std::f64::consts::PI / 30.0, 0.0, 0.0];
@@ -707,7 +707,7 @@ fn axial_case(a: SupportLayout, b: SupportLayout, thrust: f64) -> Result<(f64, f
         meshes: Vec::new(),
     };
     let solved = ShaftLoads::new(&layout)?;
-    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let (loads, _) = loads_of(&layout, &[]);
     Ok((loads[0].axial, loads[1].axial, loads[0].untaken))
 }

@@ -58,7 +58,7 @@ impl Density {
     }
 
     /// Density at a temperature in degC. \[kg/m3\]
-    pub fn at(&self, temperature: f64) -> f64 {
+    pub fn rho_at(&self, temperature: f64) -> f64 {
         let warmer = temperature - STANDARD;
         match self {
             Self::Linear { rho15, expansion } => rho15 * (1.0 - expansion * warmer),
@@ -77,9 +77,9 @@ mod tests {
 
     #[test]
     fn d3_density_of_845_at_80_degc() {
-        close(Density::linear(845.0, 15.0, 7e-4).at(80.0), 806.553);
-        close(Density::api(845.0, 15.0).at(80.0), 803.662);
-        close(Density::din_51757(845.0, 15.0).at(80.0), 845.0 - 0.7 * 65.0);
+        close(Density::linear(845.0, 15.0, 7e-4).rho_at(80.0), 806.553);
+        close(Density::api(845.0, 15.0).rho_at(80.0), 803.662);
+        close(Density::din_51757(845.0, 15.0).rho_at(80.0), 845.0 - 0.7 * 65.0);
     }
 
     #[test]
@@ -89,8 +89,8 @@ mod tests {
             Density::din_51757(803.0, 80.0),
             Density::api(803.0, 80.0),
         ] {
-            close(law.at(80.0), 803.0);
-            close(law.at(15.0), law.rho15());
+            close(law.rho_at(80.0), 803.0);
+            close(law.rho_at(15.0), law.rho15());
         }
     }
 }

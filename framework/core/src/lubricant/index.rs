@@ -1,4 +1,4 @@
-//! Viscosity index after ASTM D2270 and ISO 2909, and its inverses.
+//! Viscosity index according to ASTM D2270 and ISO 2909, and its inverses.
 
 /// Upper end of each range of kv100, then the coefficients of L and H.
 const ROWS: [(f64, [f64; 6]); 16] = [

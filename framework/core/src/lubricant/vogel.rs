@@ -1,4 +1,4 @@
-//! Viscosity over temperature after Vogel: eta = A exp(B / (t + C)), t in degC.
+//! Viscosity over temperature according to Vogel: eta = A exp(B / (t + C)), t in degC.
 
 /// A fitted law of the dynamic viscosity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,4 +1,4 @@
-//! Viscosity over temperature after Walther, ASTM D341 and DIN 51563: lg lg Z = A - B lg T, Z the viscosity in mm2/s with a
+//! Viscosity over temperature according to Walther, ASTM D341 and DIN 51563: lg lg Z = A - B lg T, Z the viscosity in mm2/s with a
 //! constant.
 
 use std::f64::consts::LN_10;

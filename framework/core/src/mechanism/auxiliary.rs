@@ -69,7 +69,7 @@ impl Component for Auxiliary {
     type Attachment = OnMember;
 
     #[inline(always)]
-    fn at<'a>(part: &'a NoPart, site: MemberSite<'a>, notes: Notes<'a>) -> AuxiliaryAt<'a> {
+    fn context<'a>(part: &'a NoPart, site: MemberSite<'a>, notes: Notes<'a>) -> AuxiliaryAt<'a> {
         let oil = site.oil;
         AuxiliaryAt {
             part,

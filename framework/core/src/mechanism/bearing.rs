@@ -359,7 +359,7 @@ impl Mechanism for Bearing {
     fn speed(at: &BearingAt<'_>) -> f64 {
         at.speed
     }
-    fn side_by_side(model: &Self::Model, at: &BearingAt<'_>, notes: NoteBase) -> Option<&'static str> {
+    fn compare_batched(model: &Self::Model, at: &BearingAt<'_>, notes: NoteBase) -> Option<&'static str> {
         let factor = |i: usize| 0.3 + 1.5 * i as f64 / LANES as f64;
         let loads = LoadLanes {
             radial: each(|i| at.radial * factor(i)),
@@ -421,7 +421,7 @@ impl Component for Bearing {
     type Attachment = Support;
 
     #[inline(always)]
-    fn at<'a>(part: &'a BearingPart, site: SupportSite<'a>, notes: Notes<'a>) -> BearingAt<'a> {
+    fn context<'a>(part: &'a BearingPart, site: SupportSite<'a>, notes: Notes<'a>) -> BearingAt<'a> {
         let oil = site.oil;
         BearingAt {
             part,

@@ -33,7 +33,7 @@ pub struct ClutchPart {
     #[schemars(range(min = 1.0, max = 2000.0))]
     pub outer_diameter: Option<f64>,
     /// Number of friction interfaces. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 100))]
     pub faces: u32,
     /// Gap of one open interface. [mm]
@@ -41,7 +41,7 @@ pub struct ClutchPart {
     pub gap: Option<f64>,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 
@@ -91,7 +91,7 @@ impl Component for Clutch {
     type Attachment = Clearance;
 
     #[inline(always)]
-    fn at<'a>(part: &'a ClutchPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> ClutchAt<'a> {
+    fn context<'a>(part: &'a ClutchPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> ClutchAt<'a> {
         let oil = site.oil;
         ClutchAt {
             part,

@@ -316,7 +316,7 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
     fn speed(at: &GearMeshAt<'_>) -> f64 {
         at.speed
     }
-    fn side_by_side(model: &Self::Model, at: &GearMeshAt<'_>, notes: NoteBase) -> Option<&'static str> {
+    fn compare_batched(model: &Self::Model, at: &GearMeshAt<'_>, notes: NoteBase) -> Option<&'static str> {
         let torques = each(|i| at.torque * (0.3 + 1.5 * i as f64 / LANES as f64));
         let of = |lane: usize, notes: Notes<'_>| {
             model.loss(&at.with(|to| {

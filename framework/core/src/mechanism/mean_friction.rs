@@ -84,7 +84,7 @@ context! {
 
 impl<'a> MeanFrictionAt<'a> {
     /// The mesh at its pitch point.
-    pub fn of(at: &GearMeshAt<'a>, notes: Notes<'a>) -> Self {
+    pub fn at_pitch_point(at: &GearMeshAt<'a>, notes: Notes<'a>) -> Self {
         let part = at.part;
         let pair = &part.pair;
         let tangential = at.torque / pair.base_radius[0];

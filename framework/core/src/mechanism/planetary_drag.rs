@@ -36,7 +36,7 @@ pub struct PlanetaryPart {
     #[schemars(range(min = 0.5, max = 10000.0))]
     pub orbit: f64,
     /// Number of different planet bodies on the orbit. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 10))]
     pub bodies: u32,
     /// Gears on the first planet body.
@@ -55,7 +55,7 @@ pub struct PlanetaryPart {
     pub has_level: bool,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 

@@ -91,7 +91,7 @@ impl Component for Seal {
     type Attachment = OnMember;
 
     #[inline(always)]
-    fn at<'a>(part: &'a SealPart, site: MemberSite<'a>, notes: Notes<'a>) -> SealAt<'a> {
+    fn context<'a>(part: &'a SealPart, site: MemberSite<'a>, notes: Notes<'a>) -> SealAt<'a> {
         let oil = site.oil;
         SealAt {
             part,

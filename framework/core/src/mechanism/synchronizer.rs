@@ -43,7 +43,7 @@ pub struct CouplingPart {
     #[serde(default)]
     pub kind: CouplingKind,
     /// Number of friction cones. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 4))]
     pub cones: u32,
     /// Mean diameter of a cone, or diameter of a ring gap. [mm]
@@ -64,7 +64,7 @@ pub struct CouplingPart {
     pub oil_fill: f64,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 
@@ -119,7 +119,7 @@ impl Component for Synchronizer {
     type Attachment = Clearance;
 
     #[inline(always)]
-    fn at<'a>(part: &'a CouplingPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> SynchronizerAt<'a> {
+    fn context<'a>(part: &'a CouplingPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> SynchronizerAt<'a> {
         let oil = site.oil;
         SynchronizerAt {
             part,

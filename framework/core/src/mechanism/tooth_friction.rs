@@ -228,7 +228,7 @@ pub struct PathExtent {
 
 impl PathExtent {
     /// The extent of a path.
-    pub fn of(nodes: &[PathNode]) -> Self {
+    pub fn from_nodes(nodes: &[PathNode]) -> Self {
         let range = |value: fn(&PathNode) -> f64| {
             let values = nodes.iter().map(value);
             [
@@ -291,7 +291,7 @@ pub struct PathAt<'a> {
 
 impl<'a> PathAt<'a> {
     /// The path of a mesh: its points, their extent and the length of the line of contact of one pair. \[m\]
-    pub fn of(
+    pub fn new(
         nodes: &'a [PathNode],
         extent: &'a PathExtent,
         length: f64,
@@ -331,7 +331,7 @@ impl<'a> PathAt<'a> {
     /// The same for the law of a nested slot, which has its own notes.
     #[inline]
     pub fn nested(&self, slot: &Slot<ToothFriction>) -> Self {
-        self.with(|to| to.notes = self.notes.of(slot.notes))
+        self.with(|to| to.notes = self.notes.nested(slot.notes))
     }
 
     /// Hertz pressure of a node with `root_load` one. \[Pa m^0.5\]
@@ -385,7 +385,7 @@ impl Mechanism for ToothFriction {
     fn answer(model: &Self::Model, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         model.mu(at)
     }
-    fn side_by_side(model: &Self::Model, at: &ContactAt<'_>, notes: NoteBase) -> Option<&'static str> {
+    fn compare_batched(model: &Self::Model, at: &ContactAt<'_>, notes: NoteBase) -> Option<&'static str> {
         suite::fault(model, at, notes)
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {

@@ -116,11 +116,11 @@ fn the_share_of_the_rotor_is_one_number_or_rises_with_speed() {
             },
         ])
     };
-    assert_eq!(RotorShare::default().at(500.0).unwrap(), 0.2);
-    assert!((over([0.0, 1000.0]).at(-500.0).unwrap() - 0.2).abs() < 1e-12);
-    assert_eq!(over([0.0, 1000.0]).at(2000.0).unwrap(), 0.3);
+    assert_eq!(RotorShare::default().share_at(500.0).unwrap(), 0.2);
+    assert!((over([0.0, 1000.0]).share_at(-500.0).unwrap() - 0.2).abs() < 1e-12);
+    assert_eq!(over([0.0, 1000.0]).share_at(2000.0).unwrap(), 0.3);
     assert_eq!(
-        over([10.0, 10.0]).at(5.0).unwrap_err().message,
+        over([10.0, 10.0]).share_at(5.0).unwrap_err().message,
         "the speeds of `rotor_share` do not increase"
     );
 }

@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::{Entry, Registry, from_resolved};
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::NoteBase;
@@ -36,7 +37,7 @@ impl Files {
         Self::from_source(Disk::shared(), folder)
     }
 
-    /// Files of a source beside a document in this folder.
+    /// Files of a source, relative to this folder.
     pub fn from_source(source: SharedSource, folder: impl Into<PathBuf>) -> Self {
         Self {
             folder: folder.into(),
@@ -134,7 +135,7 @@ impl<'a> Build<'a> {
 
     /// An error at the path that is being built.
     pub fn error(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::error(self.path.clone(), message)
+        Diagnostic::error(self.path.clone(), message).code(codes::MODEL)
     }
 
     /// The path that is being built.

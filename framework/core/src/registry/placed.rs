@@ -67,23 +67,23 @@ impl<C: Component> sealed::Sealed for PlacedAs<C> {}
 impl<C: Component> Placed for PlacedAs<C> {
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::answer(&self.model, &C::at(&self.part, site, book.notes(self.model.notes)))
+        C::answer(&self.model, &C::context(&self.part, site, book.notes(self.model.notes)))
     }
     fn losses(&self, state: &State<'_>, loads: &LoadLanes, book: &Notebook<'_>, losses: &mut LossLanes) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        let at = C::at(&self.part, site, book.notes(self.model.notes));
+        let at = C::context(&self.part, site, book.notes(self.model.notes));
         C::losses(&self.model, &at, loads, losses)
     }
     fn note(&self, state: &State<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::note(&self.model, &C::at(&self.part, site, notes.all()), loads, notes)
+        C::note(&self.model, &C::context(&self.part, site, notes.all()), loads, notes)
     }
     fn notes_hang_on_load(&self) -> bool {
         C::notes_hang_on_load(&self.model)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        readings::<C>(&C::at(&self.part, site, Notes::MUTED))
+        readings::<C>(&C::context(&self.part, site, Notes::MUTED))
     }
     fn between(&self) -> [Option<u16>; 2] {
         C::Attachment::between(self.seat)
@@ -118,7 +118,7 @@ pub struct Section {
 
 impl Section {
     /// The section of a component.
-    pub(crate) const fn of<C: Component>() -> Self {
+    pub(crate) const fn new<C: Component>() -> Self {
         Self {
             name: C::SECTION,
             schemas: |generator| {

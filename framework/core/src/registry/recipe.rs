@@ -14,7 +14,7 @@ pub struct NetworkRecipe {
     /// The network in its written form under `thermal.network`, with numbers in documented units, from the typed sections of a
     /// resolved description and from all of it. Missing data is an error at `thermal.network`. Unknown ids are left unchanged:
     /// building reports them.
-    pub lay_out: fn(&GearboxEntry, &Value) -> Result<Value, Diagnostic>,
+    pub generate: fn(&GearboxEntry, &Value) -> Result<Value, Diagnostic>,
     /// Where it is registered.
     pub origin: Origin,
 }
@@ -46,7 +46,7 @@ mod tests {
     fn one_recipe_is_taken_none_and_two_are_told() {
         let recipe = NetworkRecipe {
             meaning: "Nothing.",
-            lay_out: |_, _| Ok(Value::Null),
+            generate: |_, _| Ok(Value::Null),
             origin: crate::origin!(),
         };
         assert!(only(&[recipe]).is_ok());

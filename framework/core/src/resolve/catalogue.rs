@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value};
 
 use super::designation::suggest;
-use super::{Came, absent, entries_mut};
+use super::{ValueSource, absent, entries_mut};
 use crate::attach::dangling;
+use crate::codes;
 use crate::document::{Diagnostic, Dimension, Unit};
 use crate::language::{LUBRICANTS, Language};
 use crate::registry::Files;
@@ -114,7 +115,7 @@ pub(super) fn fill(
     language: &Language,
     files: &Files,
     value: &mut Value,
-    came: &mut BTreeMap<String, Came>,
+    sources: &mut BTreeMap<String, ValueSource>,
     found: &mut Vec<Diagnostic>,
 ) {
     let mut own: BTreeMap<String, CatalogueTable> = BTreeMap::new();
@@ -160,11 +161,13 @@ pub(super) fn fill(
                         .map(String::as_str)
                         .collect();
                     let path = format!("{section}.{id}.designation");
-                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`")).note(format!(
-                        "{} designations are known: `gearloss catalogue {}` lists them",
-                        names.len(),
-                        if section == LUBRICANTS { "oils" } else { section }
-                    ));
+                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`"))
+                        .code(codes::UNKNOWN_DESIGNATION)
+                        .note(format!(
+                            "{} designations are known: `gearloss catalogue {}` lists them",
+                            names.len(),
+                            if section == LUBRICANTS { "oils" } else { section }
+                        ));
                     if let Some((base, suffix)) = without_suffix(&designation, names.iter().copied()) {
                         found.push(error.help(format!(
                             "write `{base}`, which has the same dimensions and ratings; no row states what `{suffix}` changes, such as seals, \
@@ -206,11 +209,11 @@ pub(super) fn fill(
                             continue;
                         }
                     }
-                    let from = Came::Catalogue {
+                    let from = ValueSource::Catalogue {
                         designation: designation.clone(),
                         confidence: row.confidence.clone(),
                     };
-                    came.insert(format!("{section}.{id}.{key}"), from);
+                    sources.insert(format!("{section}.{id}.{key}"), from);
                 }
             }
         }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::language::Language;
 
@@ -118,7 +119,8 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
                 .last()
                 .map_or_else(|| "model_sets".to_owned(), |last| format!("model_sets.{last}.extends"));
             let error = Diagnostic::error(path, format!("no model set is called `{name}`"))
-                .note(format!("available: {}", names.join(", ")));
+                .note(format!("available: {}", names.join(", ")))
+                .code(codes::UNKNOWN_NAME);
             return Err(match did_you_mean(name, names.iter().copied()) {
                 Some(close) => error.help(format!("write `{close}`")),
                 None => error.help("use one of them, or add it under `model_sets`"),
@@ -129,6 +131,7 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
                 format!("model_sets.{known}.extends"),
                 "model sets extend each other in a circle",
             )
+            .code(codes::EXTENDS)
             .note(format!("the circle: {}", chain.join(", ")))
             .help("remove one `extends`"));
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::{Came, lookup, paths};
+use super::{ValueSource, lookup, paths};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::language::Language;
@@ -25,7 +25,7 @@ pub(super) fn meets_inside(pattern: &str) -> bool {
 pub(super) fn expand(
     language: &Language,
     value: &mut Value,
-    came: &mut BTreeMap<String, Came>,
+    sources: &mut BTreeMap<String, ValueSource>,
     found: &mut Vec<Diagnostic>,
 ) -> bool {
     if lookup(value, NETWORK).and_then(Value::as_str) != Some("auto") {
@@ -38,12 +38,12 @@ pub(super) fn expand(
     let written = language
         .registry()
         .network_recipe()
-        .and_then(|recipe| (recipe.lay_out)(&entry, value))
+        .and_then(|recipe| (recipe.generate)(&entry, value))
         .map_err(|error| vec![error])
         .and_then(|written| language.checked(&written, NETWORK));
     match written {
         Ok(written) => {
-            came.insert(NETWORK.to_owned(), Came::Network);
+            sources.insert(NETWORK.to_owned(), ValueSource::Network);
             paths::write(value, NETWORK, written)
         }
         Err(errors) => {

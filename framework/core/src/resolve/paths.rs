@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 
 /// The value at a path.
@@ -125,7 +126,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
         };
         let Some(next) = next else {
             if let Some(file) = file_of(at, &good, key) {
-                let error = Diagnostic::error(pattern, format!("the values of the table are in the file `{file}`"));
+                let error = missing(pattern, format!("the values of the table are in the file `{file}`"));
                 return error.help(
                     "only values of the document have paths: write the table there, as `axes:` and `values:` of `type: table` in \
                      place of `file:`",
@@ -133,7 +134,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             }
             if let Some(list) = at.as_array() {
                 let last = list.len().saturating_sub(1);
-                let error = Diagnostic::error(pattern, format!("`{good}` is a list and has no entry `{key}`"));
+                let error = missing(pattern, format!("`{good}` is a list and has no entry `{key}`"));
                 return error.help(format!("write a number from 0 to {last}, or `*` for all"));
             }
             let place = if good.is_empty() {
@@ -141,7 +142,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             } else {
                 format!("`{good}`")
             };
-            let error = Diagnostic::error(pattern, format!("{place} has no `{key}`"));
+            let error = missing(pattern, format!("{place} has no `{key}`"));
             let keys: Vec<&str> = at.as_object().into_iter().flatten().map(|(k, _)| k.as_str()).collect();
             if ["models", "model_sets"].contains(&key) {
                 return error.help(
@@ -164,7 +165,12 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
         good.push_str(key);
         at = next;
     }
-    Diagnostic::error(pattern, "the path matches nothing")
+    missing(pattern, "the path matches nothing")
+}
+
+/// A path that the resolved description does not have.
+fn missing(pattern: &str, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(pattern, message).code(codes::UNKNOWN_PATH)
 }
 
 #[cfg(test)]
@@ -203,12 +209,12 @@ mod tests {
             matches(&value, "seals.D1.model.values.*"),
             ["seals.D1.model.values.0", "seals.D1.model.values.1"]
         );
-        let said = |path: &str| {
+        let message = |path: &str| {
             let error = no_match(&value, path);
             format!("{}; {}", error.message, error.help.unwrap_or_default())
         };
         assert_eq!(
-            said("seals.D1.model.values.2"),
+            message("seals.D1.model.values.2"),
             "`seals.D1.model.values` is a list and has no entry `2`; write a number from 0 to 1, or `*` for all"
         );
         for path in [
@@ -217,7 +223,7 @@ mod tests {
             "seals.D2.model.file.1",
         ] {
             assert!(
-                said(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
+                message(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
             );
         }
     }

@@ -110,7 +110,7 @@ impl<E> Balance<E> {
         self.stable.first()
     }
 
-    fn ask(&mut self, temperature: f64, law: &mut impl FnMut(f64) -> Result<Step, E>) -> Option<Step> {
+    fn evaluate(&mut self, temperature: f64, law: &mut impl FnMut(f64) -> Result<Step, E>) -> Option<Step> {
         match law(temperature) {
             Ok(step) => {
                 self.history.push(step);
@@ -154,7 +154,7 @@ fn search<E>(
     };
     let place = |i: usize, count: usize| low + (high - low) * i as f64 / count as f64;
     let mut scan: Vec<(f64, Option<Step>)> = (0..=stretches)
-        .map(|i| (place(i, stretches), found.ask(place(i, stretches), &mut law)))
+        .map(|i| (place(i, stretches), found.evaluate(place(i, stretches), &mut law)))
         .collect();
     for doubling in 1..=doublings {
         // Losses exceeded dissipation at all points: refine the scan before concluding that they do so everywhere.
@@ -169,7 +169,7 @@ fn search<E>(
         found.spacing = (high - low) / count as f64;
         let between: Vec<(f64, Option<Step>)> = (0..count / 2)
             .map(|i| place(2 * i + 1, count))
-            .map(|t| (t, found.ask(t, &mut law)))
+            .map(|t| (t, found.evaluate(t, &mut law)))
             .collect();
         let mut both = Vec::with_capacity(count + 1);
         for (i, old) in scan.into_iter().enumerate() {
@@ -245,7 +245,7 @@ fn close<E>(
             break;
         }
         let t = last.temperature + share.clamp(least, 1.0 - least) * (other.temperature - last.temperature);
-        let new = found.ask(t, law)?;
+        let new = found.evaluate(t, law)?;
         let before;
         if (new.residual() > 0.0) == (last.residual() > 0.0) {
             before = last;
@@ -387,7 +387,7 @@ mod tests {
     }
 
     impl Law {
-        fn at(&self, t: f64) -> f64 {
+        fn loss_at(&self, t: f64) -> f64 {
             let mut loss = self.base * (-self.fall * (t - 20.0)).exp();
             for [place, width, height] in &self.humps {
                 loss += height * (-((t - place) / width).powi(2)).exp();
@@ -416,10 +416,10 @@ mod tests {
         #![proptest_config(ProptestConfig { cases: 10_000, ..ProptestConfig::default() })]
         #[test]
         fn ten_thousand_laws_balance_or_have_the_outcome_that_is_true(law in laws(), conductance in 0.1..30.0_f64) {
-            let found = solved([20.0, 150.0], conductance, |t| law.at(t));
-            let residual = |t: f64| law.at(t) - conductance * (t - 20.0);
+            let found = solved([20.0, 150.0], conductance, |t| law.loss_at(t));
+            let residual = |t: f64| law.loss_at(t) - conductance * (t - 20.0);
             for root in &found.stable {
-                let loss = law.at(root.temperature);
+                let loss = law.loss_at(root.temperature);
                 match root.beyond {
                     // A very small loss is matched as well as the digits of the temperature allow.
                     None => prop_assert!(residual(root.temperature).abs() <= (1e-9 * loss).max(1e-13 * conductance)),

@@ -146,7 +146,7 @@ impl Housing {
             ambient: self.ambient,
             rho: oil.rho,
             heat_capacity: oil.heat_capacity,
-            notes: notes.of(way.model.notes),
+            notes: notes.nested(way.model.notes),
         };
         let conductance = way.model.conductance(&at)?;
         if !(conductance.is_finite() && conductance >= 0.0) {
@@ -286,8 +286,8 @@ mod tests {
             name: "stand_in",
             ..crate::generic::entries::<HeatDissipation>()[0]
         };
-        let mechanism = MechanismEntry::of::<HeatDissipation>(crate::origin!());
-        let registry = Registry::of([mechanism], [own], [], []).unwrap();
+        let mechanism = MechanismEntry::new::<HeatDissipation>(crate::origin!());
+        let registry = Registry::from_entries([mechanism], [own], [], []).unwrap();
         let files = Files::default();
         let mut build = Build::new(&registry, &files);
         let part = Arc::new(HousingPart::from(OutsideEntry::default()));

@@ -14,8 +14,9 @@ use super::states::states;
 use super::statics::{imported, load_factors, shaft_loads};
 use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
 use crate::attach::{Common, Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
+use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
-use crate::document::Diagnostic;
+use crate::document::{Diagnostic, classify};
 use crate::language::Language;
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
@@ -23,7 +24,7 @@ use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::{ModelRef, NamedSlots};
 use crate::registry::{Build, Files};
-use crate::resolve::{Came, Resolved};
+use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
 
@@ -40,9 +41,12 @@ impl Transmission {
         let members = Members::new(&entry, &mut found);
         let ports = ports(&entry, &members, &mut found);
         let (ports, wheels) = joined(&entry, &members, ports, &mut found);
+        classify(&mut found, codes::SHAFTS);
         let (gears, meshes) = gearing(language.registry(), &entry, &members, &mut found, &mut warnings);
         let sharing = planets::sharing(&entry, &members, &mut found);
+        classify(&mut found, codes::GEARING);
         let nodes = NodeNames::new(&entry, &mut found);
+        classify(&mut found, codes::NETWORK);
         let mut oils = OilNumbers::new(&entry, &members, &meshes, &nodes);
         let mut build = Build::new(language.registry(), files);
 
@@ -54,6 +58,7 @@ impl Transmission {
         } = place(
             language, resolved, &members, &sharing, &mut oils, &mut build, &mut found,
         );
+        classify(&mut found, codes::COMPONENT);
         let mut mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
         for mesh in &mut mesh_models {
             let gears = mesh.seat.gears.map(|g| gears[g].id.as_str());
@@ -87,14 +92,17 @@ impl Transmission {
             });
             components.push(Component::new(model.placed, model.loss_factor, None));
         }
+        classify(&mut found, codes::MODEL);
         let levels = levels(&entry, &gears, &oils);
         warnings.extend(plausible::oil_level(&entry, &gears, &levels, &oils));
         let drags = drags(
             language, &entry, &gears, &meshes, &levels, covered, &mut oils, &mut build, &mut parts, &mut found,
         );
 
+        classify(&mut found, codes::DRAG);
         planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
         let housing = Housing::new(&entry, &mut build, &mut found);
+        classify(&mut found, codes::THERMAL);
         let around = Around {
             names: &nodes,
             members: &members.names,
@@ -108,7 +116,7 @@ impl Transmission {
         if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
             let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
             unmet(written, &paths, &mut found);
-            let laid_out = *resolved.came("thermal.network") == Came::Network;
+            let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
             if entry.thermal.mode == ThermalMode::Network {
                 unused(&entry, laid_out, &mut found, &mut warnings);
             }
@@ -118,11 +126,13 @@ impl Transmission {
                     .help("add `network: auto` under `thermal`, or nodes and links"),
             );
         }
+        classify(&mut found, codes::NETWORK);
         let states = if found.is_empty() {
             states(&entry, &members, &meshes, &clearances, (&ports, &wheels), &mut found)
         } else {
             Vec::new()
         };
+        classify(&mut found, codes::POWER_FLOW);
         let loads = shaft_loads(&entry, &members, &meshes, &supports, &mut found, &mut warnings);
         let load_factors = load_factors(&supports, &ports, &mut found);
         let imported = match &entry.imported_loads {
@@ -142,7 +152,9 @@ impl Transmission {
             }
             None => None,
         };
-        let (oils, more) = oils.finish();
+        classify(&mut found, codes::SUPPORT);
+        let (oils, mut more) = oils.finish();
+        classify(&mut more, codes::LUBRICANT);
         // Errors of an oil cause many of the later ones.
         found.splice(0..0, more);
         if let (true, Some(loads)) = (found.is_empty(), loads) {

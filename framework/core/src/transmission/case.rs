@@ -2,7 +2,8 @@
 
 use super::Transmission;
 use super::states::{all_ports, explain, prescribed};
-use crate::document::Diagnostic;
+use crate::codes;
+use crate::document::{Diagnostic, classify};
 use crate::flow::{Flow, FlowFault};
 use crate::kinematics::Motion;
 
@@ -75,6 +76,7 @@ impl Transmission {
             }
         }
         if !found.is_empty() {
+            classify(&mut found, codes::GIVEN);
             return Err(found);
         }
         let columns = all_ports(state, &self.ports);
@@ -124,7 +126,7 @@ impl Transmission {
             unknown,
             given,
         )
-        .map_err(|fault| vec![self.flow_fault(&fault, state, equal.len(), &path)])?;
+        .map_err(|fault| vec![self.flow_fault(&fault, state, equal.len(), &path).code(codes::GIVEN)])?;
         Ok(Case {
             state: index,
             motion,
@@ -168,6 +170,7 @@ impl Transmission {
                 plural(torques)
             ),
         );
+        let error = error.code(codes::GIVEN);
         Err(if others.len() > 1 {
             error
                 .note(format!("ports: {}, {}", self.ports[reference].name, others.join(", ")))
@@ -224,12 +227,14 @@ impl Transmission {
                 )
                 .note(format!("the loop: {}", rows.join("; ")))
                 .help("add `torque_shares: [{ member: ..., meshes: [..., ...], parts: [0.5, 0.5] }]`")
+                .code(codes::POWER_FLOW)
             }
             FlowFault::Singular => Diagnostic::error(
                 path,
                 format!("the given torques depend on each other in `{}`", state.name),
             )
-            .help("state a torque at another port, or correct the torque shares"),
+            .help("state a torque at another port, or correct the torque shares")
+            .code(codes::POWER_FLOW),
         }
     }
 }

@@ -6,6 +6,7 @@ use super::members::Members;
 use super::plausible;
 use super::seats::{GearSeat, MeshSeat};
 use crate::attach::dangling;
+use crate::codes;
 use crate::description::{
     GearEntry, GearKind, GearboxEntry, MeshEntry, PlanetarySetEntry, gears::Hand, gears::Mounting, gears::ShiftSign,
 };
@@ -317,6 +318,7 @@ fn unsigned_shift(id: &str, gear: &GearEntry) -> Option<Diagnostic> {
                 -shift
             ),
         )
+        .code(codes::PROFILE_SHIFT)
         .help(
             "add `profile_shift_sign: iso21771` if the value is defined as in ISO 21771 or DIN 3960, or `outward` to keep the present interpretation",
         )

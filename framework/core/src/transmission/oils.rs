@@ -56,10 +56,10 @@ impl Oils {
     }
 
     /// Writes the state of all oils at the temperatures of the nodes, or at one for all nodes. \[degC\]
-    pub fn at(&self, temperatures: &[f64], oils: &mut [Oil]) {
+    pub fn write_states(&self, temperatures: &[f64], oils: &mut [Oil]) {
         for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
             let temperature = temperatures.get(*node).unwrap_or(&temperatures[0]);
-            *oil = self.lubricants[*lubricant].at(temperature + offset);
+            *oil = self.lubricants[*lubricant].oil_at(temperature + offset);
         }
     }
 

@@ -77,7 +77,7 @@ struct PlacedDrag {
 }
 
 impl PlacedDrag {
-    fn at<'a>(&'a self, state: &State<'_>, notes: Notes<'a>) -> PlanetaryDragAt<'a> {
+    fn context<'a>(&'a self, state: &State<'_>, notes: Notes<'a>) -> PlanetaryDragAt<'a> {
         let [speed, carrier_speed, planet_speed] = self.members.map(|m| state.speed(Some(m)));
         let oil = state.oil(&self.spot);
         let part = &*self.part;
@@ -105,10 +105,10 @@ impl Sealed for PlacedDrag {}
 impl Placed for PlacedDrag {
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
         self.model
-            .loss(&self.at(state, book.notes(self.model.notes).forgetting()))
+            .loss(&self.context(state, book.notes(self.model.notes).forgetting()))
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
-        readings::<PlanetaryDrag>(&self.at(state, Notes::MUTED))
+        readings::<PlanetaryDrag>(&self.context(state, Notes::MUTED))
     }
     fn between(&self) -> [Option<u16>; 2] {
         [Some(self.members[0]), None]

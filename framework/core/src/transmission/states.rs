@@ -3,6 +3,7 @@
 use super::members::Members;
 use super::seats::MeshSeat;
 use crate::attach::{SeatedClearance, dangling};
+use crate::codes;
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::flow::{MeshRow, Share};
@@ -273,7 +274,8 @@ pub(crate) fn explain(
     };
     match fault {
         Fault::Under { columns, ports: among } => {
-            let error = Diagnostic::error(path, format!("{} can rotate freely in `{}`", list(columns), state.name));
+            let error = Diagnostic::error(path, format!("{} can rotate freely in `{}`", list(columns), state.name))
+                .code(codes::UNDERDETERMINED);
             if among.is_empty() {
                 error.help(format!(
                     "engage a coupling, or write `{}: {{ engaged: [...], standstill: [{}] }}`",
@@ -307,11 +309,13 @@ pub(crate) fn explain(
             )
             .note(format!("tied by {}", rows(by)))
             .help("prescribe one of them")
+            .code(codes::OVERDETERMINED)
         }
         Fault::Locked { port: locked, rows: by } => {
             Diagnostic::error(path, format!("{} cannot rotate in `{}`", port(locked), state.name))
                 .note(format!("locked by {}", rows(by)))
                 .help("engage fewer couplings, or correct the tooth numbers of the loop")
+                .code(codes::OVERDETERMINED)
         }
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::members::Members;
 use super::seats::{MeshSeat, orbit};
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
+use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
@@ -35,7 +36,7 @@ pub struct LoadFactors {
 
 impl LoadFactor {
     /// The factor at the torques of all ports, by number.
-    pub fn at(&self, torque: impl Fn(usize) -> f64) -> f64 {
+    pub fn value_at(&self, torque: impl Fn(usize) -> f64) -> f64 {
         match self {
             Self::Constant(factor) => *factor,
             Self::Over { port, torques, factors } => clamped(torques, factors, torque(*port).abs()),
@@ -239,6 +240,7 @@ fn unsupported(
                 let what = if members.loose[i] { "gear" } else { "shaft" };
                 found.push(
                     Diagnostic::error(path, format!("the {what} is loaded and has no bearings"))
+                        .code(codes::NO_BEARING)
                         .note("without them its bearing loads and losses would be missing from every result")
                         .help(
                             "add its bearings, with `model: none` for bearings without loss; or write `bearings: none` here",
@@ -262,6 +264,7 @@ fn unsupported(
                 if !taken {
                     warnings.push(
                         Diagnostic::warning(path.clone(), format!("no bearing takes thrust towards {words}"))
+                            .code(codes::THRUST)
                             .help("set `axial:` of a bearing to left, right or both"),
                     );
                 }
@@ -283,7 +286,8 @@ fn unsupported(
                         bare.join(", ")
                     ),
                 )
-                .help("add bearings between the planets and the carrier, or write `bearings: none` for these shafts"),
+                .help("add bearings between the planets and the carrier, or write `bearings: none` for these shafts")
+                .code(codes::UNCOUNTED),
             );
         }
     }

@@ -36,37 +36,37 @@ use crate::table::Table;
 /// Losses and efficiency over a grid.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MapEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
     /// Grid; not with `points`.
     pub grid: Option<String>,
-    /// File of points in place of a grid, as of measured data: torque, speed, and where it has them gear state and temperature
-    /// of the oil, which then holds for its point.
+    /// File of points instead of a grid, for example of measured data: torque, speed, and optionally gear and oil temperature of each
+    /// point.
     pub points: Option<Data>,
     /// Columns of the points that change a value of the gearbox: column to resolved path.
     #[serde(default)]
     pub bind: Ordered<String>,
-    /// Gear state of the points where no column says it; absent, the first.
+    /// Gear of points without a column `gear`; default: the first.
     pub gear: Option<String>,
-    /// Measured points that are drawn into the pictures.
+    /// Measured points that are drawn into the figures.
     pub measured: Option<Data>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// Formats to write; absent, CSV and JSON. Pictures show efficiency, loss and, with a balance, temperature.
+    /// Formats to write; default: CSV and JSON. Figures show efficiency, loss and, with a heat balance, temperature.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
-    /// Tables of losses for other programs, one file for each gear state; a grid is needed.
+    /// Loss tables for other programs, one file for each gear; requires a grid.
     #[serde(default)]
     pub export: Vec<ExportName>,
-    /// Largest share of the loss torque by which the straight lines of a `lossy_gear` table may miss it at a point of the grid;
-    /// above it the table is refused. [-]
+    /// Maximum relative deviation of the straight lines of a `lossy_gear` table from the loss torque at a grid point; above it there is an
+    /// error. [-]
     #[serde(default = "quarter")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub lossy_gear_limit: f64,
 }
 
-/// About what sets of models differ by among themselves.
+/// About the difference between model sets.
 fn quarter() -> f64 {
     0.25
 }
@@ -92,35 +92,35 @@ register_analysis!(MapEntry);
 /// The maps of an analysis.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct MapOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
-    /// One for each gear state, each model set and each combination of bound values.
+    /// One for each gear, each model set and each combination of bound values.
     pub maps: Vec<MapOfSet>,
-    /// The points of all maps; without rows where these were handed over as they came ([`Context::sink`]).
+    /// The points of all maps; without rows if these were passed to [`Context::sink`].
     #[serde(skip)]
     pub table: Table,
-    /// What there is to say of the file of points.
+    /// Notes on the file of points.
     #[serde(skip)]
     pub about_points: Vec<String>,
-    /// What there is to say of the file of measured points.
+    /// Notes on the file of measured points.
     #[serde(skip)]
     pub about_measured: Vec<String>,
-    /// Measured points, to be drawn.
+    /// Measured points for figures.
     #[serde(skip)]
     pub marks: Vec<Mark>,
-    /// Notes of all maps of a set together, where these make one table over a bound value.
+    /// Combined notes of all maps of a set, if they form one table over a bound value.
     #[serde(skip)]
     pub notes_of_sets: Option<Vec<NotesOfSet>>,
-    /// Tables for other programs that are asked for.
+    /// Requested tables for other programs.
     #[serde(skip)]
     pub exports: Vec<ExportName>,
-    /// Largest share by which straight lines of a `lossy_gear` table may miss the loss torque.
+    /// Maximum relative deviation of the straight lines of a `lossy_gear` table.
     #[serde(skip)]
     pub lossy_gear_limit: f64,
 }
 
-/// A map under one model set in one gear state with one combination of bound values.
+/// A map with one model set, one gear and one combination of bound values.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct MapOfSet {
     /// Name of the set.
@@ -129,28 +129,28 @@ pub struct MapOfSet {
     pub gear: String,
     /// Bound values: resolved path to value.
     pub bound: serde_json::Map<String, Value>,
-    /// Temperature of the oil; absent, each point has its own. [degC]
+    /// Oil temperature; absent if each point has its own. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// The sums of losses that each point has.
+    /// The sums of losses of each point.
     pub sums: Vec<SumMeaning>,
-    /// The parts whose losses each point has, in their order.
+    /// The components whose losses are listed for each point, in order.
     pub parts: Vec<PartModel>,
-    /// Passes over the loss models.
+    /// Number of iterations over the loss models.
     pub passes: usize,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
-    /// What is weakly founded.
+    /// Formulas, defaults and data with low evidence grades.
     pub evidence: Vec<WeakPoint>,
     /// The points.
     #[schemars(with = "Vec<points::MapPoint<'static>>")]
     pub points: MapPoints,
-    /// How the temperature of the oil is found.
+    /// Origin of the oil temperature.
     #[serde(skip)]
     pub oil: OilTemperature,
-    /// What pictures and texts show.
+    /// Data for figures and text.
     #[serde(skip)]
     pub shown: ShownMap,
-    /// What tables for other programs need beside the points.
+    /// Further data for tables of other programs.
     #[serde(skip)]
     pub export: ExportData,
 }
@@ -160,11 +160,11 @@ pub struct MapOfSet {
 pub struct SumMeaning {
     /// Name.
     pub sum: &'static str,
-    /// What it sums.
+    /// Description.
     pub meaning: &'static str,
 }
 
-/// A part with losses.
+/// A component with losses.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct PartModel {
     /// Path.
@@ -175,10 +175,10 @@ pub struct PartModel {
     pub model: &'static str,
 }
 
-/// A measured point, to be drawn.
+/// A measured point for figures.
 #[derive(Debug, Clone)]
 pub struct Mark {
-    /// Gear state; absent, any.
+    /// Gear; absent: any.
     pub gear: Option<String>,
     /// Torque. [Nm]
     pub torque: f64,
@@ -257,7 +257,7 @@ impl MapEntry {
         self.outcome(cx, rows, maps, Vec::new())
     }
 
-    /// The points of the maps over the grid that the entry names.
+    /// The points of the maps over the grid of the entry.
     fn planned<'s>(&'s self, cx: &'s Context<'_>) -> Result<Vec<Planned<'s>>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
@@ -273,7 +273,7 @@ impl MapEntry {
         }
     }
 
-    /// One map for each set, each gear state and each combination of bound values that the rows of a file have.
+    /// One map for each set, gear and combination of bound values of the rows of a file.
     fn over_list(&self, cx: &Context<'_>, points: &Data) -> Result<MapOutcome, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
@@ -281,7 +281,7 @@ impl MapEntry {
             return Err(cx.wrong(
                 &format!("{path}.export"),
                 "a table for another program needs a grid",
-                "give `grid` in place of `points`",
+                "give `grid` instead of `points`",
             ));
         }
         let bind: Vec<&str> = self.bind.ids().collect();
@@ -340,7 +340,7 @@ impl MapEntry {
         self.outcome(cx, rows, maps, about)
     }
 
-    /// Measured points that are to be drawn.
+    /// Measured points for figures.
     fn measured(&self, cx: &Context<'_>) -> Result<Measured, Stopped> {
         match &self.measured {
             Some(data) => cx.read_at_ports(&format!("{}.measured", cx.path()), data, &[]),
@@ -376,23 +376,23 @@ impl MapEntry {
     }
 }
 
-/// The temperature that all points share; absent where they differ, or where it is found by balance.
+/// The common temperature of all points; absent if they differ or are found by heat balance.
 fn common(points: &[PointResult]) -> Option<f64> {
     let first = points.first().filter(|p| p.balance.is_none())?.oil?;
     points.iter().all(|p| p.oil == Some(first)).then_some(first)
 }
 
-/// The table of all maps as its rows come.
+/// The table of all maps while its rows are computed.
 struct Rows<'c> {
     cx: &'c Context<'c>,
-    /// Paths of the parts that have a column; sets may differ in their parts, and each part has one.
+    /// Paths of the components with a column; sets may have different components, and each component has one column.
     parts: Vec<String>,
-    /// How many columns come before those of points.
+    /// Number of columns before those of points.
     constant: usize,
     table: Table,
-    /// Whether the table holds its rows: where nobody takes them, and where JSON lists the points.
+    /// Whether the table stores its rows: without a receiver, or if JSON lists the points.
     holds: bool,
-    /// Whether rows are wanted at all, by a file or by the caller.
+    /// Whether rows are requested, by a file or by the caller.
     wanted: bool,
 }
 
@@ -415,7 +415,7 @@ impl<'c> Rows<'c> {
     }
 }
 
-/// A map as it is computed.
+/// A map during computation.
 struct Map<'a> {
     built: Arc<Built<'a>>,
     bound: Vec<(String, Value)>,
@@ -426,13 +426,13 @@ struct Map<'a> {
     notes: Vec<Note>,
     passes: usize,
     undefined: Vec<UndefinedLoss>,
-    /// Its rows in the table, where that holds them.
+    /// Its rows in the table, if stored.
     rows: Range<usize>,
     export: ExportData,
 }
 
 impl<'a> Map<'a> {
-    /// A map without points yet; its rows are those that the table gets next.
+    /// A map without points; its rows are the next in the table.
     fn new(
         built: &Arc<Built<'a>>,
         bound: &[(String, Value)],
@@ -455,7 +455,7 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// Adds what was taken from a piece that follows.
+    /// Adds the data of the next piece.
     fn add(&mut self, piece: Piece<Taken>, of_map: &RowsOf<'_>, rows: &mut Rows<'_>) -> Result<(), Stopped> {
         merge(&mut self.seen, &piece.seen);
         let order: Vec<(usize, Range<usize>)> = piece.runs().collect();
@@ -513,7 +513,7 @@ impl<'a> Map<'a> {
     }
 }
 
-/// Notes of all maps of each set, where the maps make one table over a bound value: their transmissions differ in it only.
+/// Notes of all maps of each set, if the maps form one table over a bound value: their transmissions differ only in it.
 fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
     let first = maps.first()?;
     let fits = |map: &Map<'_>| map.shown.is_line() && map.bound.len() == 1 && map.gear == first.gear;

@@ -13,7 +13,7 @@ pub enum Write {
     Json,
     /// Parquet, with the columns of the CSV.
     Parquet,
-    /// Pictures, one file each.
+    /// Figures, one file each.
     Svg,
 }
 
@@ -23,7 +23,7 @@ impl Write {
         vec![Self::Csv, Self::Json]
     }
 
-    /// CSV, JSON and pictures.
+    /// CSV, JSON and figures.
     pub(crate) fn every_format() -> Vec<Self> {
         vec![Self::Csv, Self::Json, Self::Svg]
     }

@@ -159,13 +159,13 @@ impl Drag {
     /// Moment at an oil height in mm, speed in 1/min, viscosity in mm2/s. \[N mm\]
     pub fn moment(&self, height: f64, n: f64, nu: f64) -> f64 {
         match self.bath {
-            Bath::Level => self.at(height, n, nu),
-            Bath::Jet(height) => 2.0 * self.at(height, n, nu),
-            Bath::Vertical(share) => share * self.at(1.2 * self.d_m, n, nu),
+            Bath::Level => self.moment_at_height(height, n, nu),
+            Bath::Jet(height) => 2.0 * self.moment_at_height(height, n, nu),
+            Bath::Vertical(share) => share * self.moment_at_height(1.2 * self.d_m, n, nu),
         }
     }
 
-    fn at(&self, height: f64, n: f64, nu: f64) -> f64 {
+    fn moment_at_height(&self, height: f64, n: f64, nu: f64) -> f64 {
         if height <= 0.0 || n == 0.0 {
             return 0.0;
         }

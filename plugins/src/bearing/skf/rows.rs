@@ -424,12 +424,12 @@ impl Variables {
     /// G_rr and G_sl at a speed in 1/min without load; zero for all kinds but [`Variables::Ball`].
     pub fn without_load(&self, n: f64) -> (f64, f64) {
         match self {
-            Self::Ball { .. } => self.at(0.0, 0.0, n, 0.0, None),
+            Self::Ball { .. } => self.evaluate(0.0, 0.0, n, 0.0, None),
             _ => (0.0, 0.0),
         }
     }
 
-    /// As [`Variables::at`] in all lanes, for kinds that have them, with powers that may be remembered.
+    /// As [`Variables::evaluate`] in all lanes, for kinds that have them, with powers that may be remembered.
     #[inline(always)]
     pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>, powers: &mut Powers) -> (Lane, Lane) {
         let Self::DeepGroove {
@@ -449,14 +449,14 @@ impl Variables {
         let combined_only = unpushed == 0 && count(|i| fa[i] < to * fr[i]) == 0;
         // One function per loop: the steps of a lane depend on each other, those of different lanes do not.
         if !combined_only {
-            g_rr = powers.of(
+            g_rr = powers.raise(
                 0,
                 |i| fr[i],
                 ROLLING,
                 #[inline(always)]
                 |fr| rolling * power(fr, ROLLING),
             );
-            g_sl = powers.of(
+            g_sl = powers.raise(
                 1,
                 |i| fr[i],
                 SLIDING,
@@ -467,7 +467,7 @@ impl Variables {
         if unpushed == LANES as u64 {
             return (g_rr, g_sl);
         }
-        let angles = powers.of(
+        let angles = powers.raise(
             2,
             |i| fa[i],
             ANGLE,
@@ -475,14 +475,14 @@ impl Variables {
             |fa| angle(power(share(fa, c0), ANGLE)),
         );
         let pushed = each(|i| fa[i] / sine(angles[i]));
-        let both_rr = powers.of(
+        let both_rr = powers.raise(
             3,
             |i| fr[i] + r2 * pushed[i],
             ROLLING,
             #[inline(always)]
             |load| rolling * power(load, ROLLING),
         );
-        let both_sl = powers.of(
+        let both_sl = powers.raise(
             4,
             #[inline(always)]
             |i| cubed_sliding(fr[i], fa[i], pushed[i], s2),
@@ -506,7 +506,7 @@ impl Variables {
 
     /// G_rr and G_sl from radial and axial load in N, speed in 1/min and viscosity in mm2/s; `blend` is the share Fa/Fr of deep
     /// groove ball bearings up to which the radial form passes into the combined one.
-    pub fn at(&self, fr: f64, fa: f64, n: f64, nu: f64, blend: Option<f64>) -> (f64, f64) {
+    pub fn evaluate(&self, fr: f64, fa: f64, n: f64, nu: f64, blend: Option<f64>) -> (f64, f64) {
         match *self {
             Self::DeepGroove {
                 rolling,
@@ -615,7 +615,7 @@ mod tests {
     #[track_caller]
     fn check(kind: BearingKind, series: &str, d_m: f64, load: [f64; 2], n: f64, g_rr: f64, g_sl: f64) {
         let row = row(&part(kind, series, d_m), false).unwrap();
-        let own = row.variables.at(load[0], load[1], n, 20.0, None);
+        let own = row.variables.evaluate(load[0], load[1], n, 20.0, None);
         assert!((own.0 / g_rr - 1.0).abs() < 1e-5, "{own:?} {g_rr}");
         assert!((own.1 / g_sl - 1.0).abs() < 1e-5, "{own:?} {g_sl}");
     }
@@ -730,7 +730,7 @@ mod tests {
                     let mut exact = Powers::EXACT;
                     let (g_rr, g_sl) = row.lanes(&radial, &fa, blend, &mut exact);
                     for i in 0..LANES {
-                        let own = row.at(radial[i], fa[i], 1000.0, 30.0, blend);
+                        let own = row.evaluate(radial[i], fa[i], 1000.0, 30.0, blend);
                         let lanes = (g_rr[i].to_bits(), g_sl[i].to_bits());
                         assert_eq!(
                             lanes,
@@ -748,7 +748,7 @@ mod tests {
     #[test]
     fn a_blend_joins_radial_and_combined_load() {
         let row = row(&part(BearingKind::DeepGrooveBall, "63", 65.0), false).unwrap();
-        let at = |fa: f64, blend| row.variables.at(3000.0, fa, 3000.0, 15.0, blend);
+        let at = |fa: f64, blend| row.variables.evaluate(3000.0, fa, 3000.0, 15.0, blend);
         // As published, the sliding variable jumps by more than half at the first newton.
         assert!(at(1.0, None).1 / at(0.0, None).1 > 1.5);
         assert!((at(1.0, Some(0.1)).1 / at(0.0, None).1 - 1.0).abs() < 1e-3);
@@ -770,7 +770,7 @@ mod tests {
         let variables = row(&part(BearingKind::ToroidalRoller, "C22", 70.0), false)
             .unwrap()
             .variables;
-        let at = |fr: f64| variables.at(fr, 0.0, 0.0, 10.0, None);
+        let at = |fr: f64| variables.evaluate(fr, 0.0, 0.0, 10.0, None);
         // The published exponent 0.78 becomes 0.74 with the powers of d_m on both sides: a published step of a tenth at 70 mm.
         assert!((at(rolling_change * 1.0001).0 / at(rolling_change * 0.9999).0 - 1.0).abs() < 0.11);
         assert!((at(sliding_change * 1.0001).1 / at(sliding_change * 0.9999).1 - 1.0).abs() < 1e-3);

@@ -45,7 +45,7 @@ pub struct Point {
 
 impl Point {
     /// The context of a mesh model at the point.
-    pub fn at<'a>(&self, part: &'a MeshPart, lubricant: &Lubricant, notes: Notes<'a>) -> GearMeshAt<'a> {
+    pub fn context<'a>(&self, part: &'a MeshPart, lubricant: &Lubricant, notes: Notes<'a>) -> GearMeshAt<'a> {
         let Oil {
             temperature,
             nu,
@@ -56,7 +56,7 @@ impl Point {
             conductivity,
             x_l,
             ..
-        } = lubricant.at(self.oil);
+        } = lubricant.oil_at(self.oil);
         let [temperature_1, temperature_2] = self.bodies.unwrap_or([temperature; 2]);
         GearMeshAt::usual(part, notes).with(|to| {
             to.torque = self.torque;
@@ -90,7 +90,7 @@ pub struct Answer {
 
 /// A model with its pair and its oil.
 #[derive(Clone, Copy)]
-pub struct Asked<'a> {
+pub struct DirectModel<'a> {
     /// The model.
     pub model: &'a Slot<GearMesh>,
     /// The pair.
@@ -99,7 +99,7 @@ pub struct Asked<'a> {
     pub lubricant: &'a Lubricant,
 }
 
-impl Asked<'_> {
+impl DirectModel<'_> {
     /// Evaluates the model.
     ///
     /// # Errors
@@ -108,7 +108,7 @@ impl Asked<'_> {
         let mut extents = vec![Extent::EMPTY; self.model.notes.end()];
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
         let notes = Notes::new(cells, self.model.notes);
-        let loss = self.model.loss(&point.at(self.part, self.lubricant, notes))?;
+        let loss = self.model.loss(&point.context(self.part, self.lubricant, notes))?;
         Ok(Answer {
             watts: loss.total_watts(point.speed),
             share: loss.first_heat(),
@@ -258,15 +258,15 @@ impl Table {
     /// # Errors
     /// If it is undefined at any of them.
     pub fn new(
-        asked: &Asked<'_>,
+        direct: &DirectModel<'_>,
         extents: &Extents,
         nodes: [usize; 3],
         checks: u32,
         known: bool,
     ) -> Result<Self, Undefined> {
-        let axes = Axes::new(extents, asked.lubricant);
+        let axes = Axes::new(extents, direct.lubricant);
         let ends = extents.temperatures;
-        let point = |place: [f64; 3]| axes.point(place, ends, asked.lubricant);
+        let point = |place: [f64; 3]| axes.point(place, ends, direct.lubricant);
         let mut points = Vec::new();
         for k in 0..nodes.iter().product() {
             let at = [k / (nodes[1] * nodes[2]), k / nodes[2] % nodes[1], k % nodes[2]];
@@ -279,9 +279,9 @@ impl Table {
             });
         }
         let node = |point: &Point| {
-            let answer = asked.answer(point)?;
+            let answer = direct.answer(point)?;
             let conduction = match point.bodies {
-                Some([temperature, _]) => asked.conduction(point, temperature, &answer)?,
+                Some([temperature, _]) => direct.conduction(point, temperature, &answer)?,
                 None => 0.0,
             };
             Ok((answer, conduction))
@@ -297,8 +297,8 @@ impl Table {
             nodes,
             errors: Errors::default(),
         };
-        let checks = table.checks(checks, ends, asked.lubricant, known);
-        table.errors = table.compare(&checks, asked)?;
+        let checks = table.checks(checks, ends, direct.lubricant, known);
+        table.errors = table.compare(&checks, direct)?;
         Ok(table)
     }
 
@@ -328,13 +328,13 @@ impl Table {
             .collect()
     }
 
-    fn compare(&self, checks: &[Point], asked: &Asked<'_>) -> Result<Errors, Undefined> {
+    fn compare(&self, checks: &[Point], direct: &DirectModel<'_>) -> Result<Errors, Undefined> {
         let mut errors = Errors::default();
         let mut squares = 0.0;
-        for (point, answer) in checks.iter().zip(for_all(checks, |point| asked.answer(point))) {
+        for (point, answer) in checks.iter().zip(for_all(checks, |point| direct.answer(point))) {
             let Answer { watts, share, .. } = answer?;
             let [first, second] = point.bodies.unwrap_or([point.oil; 2]);
-            let place = self.place([point.speed, point.torque, 0.5 * (first + second)], asked.lubricant);
+            let place = self.place([point.speed, point.torque, 0.5 * (first + second)], direct.lubricant);
             let read = self.read(place, point.torque * point.speed, first - second);
             let error = if read.watts == watts {
                 0.0

@@ -15,16 +15,16 @@ use gearloss_framework::contact::{dowson_higginson, thermal_factor};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Film {
-    /// Central film after Chittenden et al., for a long ellipse with the pressure of the line.
+    /// Central film according to Chittenden et al., for a long ellipse with the pressure of the line.
     #[default]
     ChittendenLine,
-    /// Central film after Hamrock and Dowson, for a long ellipse with the pressure of the line.
+    /// Central film according to Hamrock and Dowson, for a long ellipse with the pressure of the line.
     HamrockDowsonLine,
-    /// Central film of a line contact after Dowson and Toyoda; a third above the others.
+    /// Central film of a line contact according to Dowson and Toyoda; a third above the others.
     DowsonToyoda,
-    /// Minimum film of a line contact after Dowson and Higginson.
+    /// Minimum film of a line contact according to Dowson and Higginson.
     DowsonHigginson,
-    /// Central film of a line contact after Ertel and Grubin.
+    /// Central film of a line contact according to Ertel and Grubin.
     ErtelGrubin,
 }
 
@@ -56,7 +56,7 @@ pub fn turned(radii: [f64; 2], angle: f64) -> [f64; 2] {
     [1.0 / (cos / x + sin / y), 1.0 / (sin / x + cos / y)]
 }
 
-/// Central and minimum film over the radius along the entrainment after Chittenden et al., from U, G and W = F/(E' R^2) with that
+/// Central and minimum film over the radius along the entrainment according to Chittenden et al., from U, G and W = F/(E' R^2) with that
 /// radius, and the ratio of the radius across to the radius along, from about one half.
 pub fn chittenden(u: f64, g: f64, w: f64, across: f64) -> [f64; 2] {
     let flooded = |factor: f64| 1.0 - (-factor * across.powf(2.0 / 3.0)).exp();
@@ -64,7 +64,7 @@ pub fn chittenden(u: f64, g: f64, w: f64, across: f64) -> [f64; 2] {
     [4.31 * common * flooded(1.23), 3.68 * common * flooded(0.67)]
 }
 
-/// Central and minimum film over the radius along the entrainment after Hamrock and Dowson, from U, G, W = F/(E' R^2) and the ratio
+/// Central and minimum film over the radius along the entrainment according to Hamrock and Dowson, from U, G, W = F/(E' R^2) and the ratio
 /// of the axes of the ellipse.
 pub fn hamrock_dowson(u: f64, g: f64, w: f64, ellipse: f64) -> [f64; 2] {
     [

@@ -31,7 +31,7 @@ pub struct TractionPoint {
     pub stress: f64,
 }
 
-/// Stress after Eyring at a shear rate for a viscosity law, of which `z` is used. \[Pa\]
+/// Stress according to Eyring at a shear rate for a viscosity law, of which `z` is used. \[Pa\]
 pub fn stress(law: &Roelands, tau0: f64, pressure: f64, temperature: f64, shear_rate: f64) -> f64 {
     tau0 * (law.eta(pressure, temperature) * shear_rate / tau0).asinh()
 }

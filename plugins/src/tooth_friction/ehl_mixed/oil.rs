@@ -93,7 +93,7 @@ impl MeshFluid {
     }
 
     /// The oil at one operating point.
-    pub fn at(&self, supplied: Supplied) -> Oil<'_> {
+    pub fn for_supply(&self, supplied: Supplied) -> Oil<'_> {
         let z = || {
             self.z
                 .unwrap_or_else(|| Roelands::exponent(supplied.alpha, supplied.eta))

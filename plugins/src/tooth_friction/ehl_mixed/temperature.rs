@@ -47,14 +47,14 @@ impl Flank {
         2.0 / 3.0 * (2.0 / (PI * half_width * swept)).sqrt() / length
     }
 
-    /// Mean rise under a uniformly heated circle at any speed after Tian and Kennedy, from heat per area (W/m2), radius (m) and
+    /// Mean rise under a uniformly heated circle at any speed according to Tian and Kennedy, from heat per area (W/m2), radius (m) and
     /// speed (m/s). \[K\]
     pub fn circle(&self, heat: f64, radius: f64, speed: f64) -> f64 {
         1.22 * heat * radius / (self.conductivity * (PI * (0.6575 + self.peclet(radius, speed))).sqrt())
     }
 }
 
-/// Maximum flash temperature of a Hertzian band between two flanks of one material after Blok. \[K\]
+/// Maximum flash temperature of a Hertzian band between two flanks of one material according to Blok. \[K\]
 pub fn blok(mu: f64, contact: &Contact, flank: &Flank) -> f64 {
     let [u1, u2] = contact.speeds;
     let effusivity = (flank.conductivity * flank.density * flank.heat_capacity).sqrt();
@@ -121,7 +121,7 @@ mod tests {
         close(STEEL.circle(1e8, 1e-4, 5.0), 32.98295);
     }
 
-    /// Mean rise over a moving band after Jaeger at any Peclet number, over q'' a/k: the modified Bessel function K0 as its
+    /// Mean rise over a moving band according to Jaeger at any Peclet number, over q'' a/k: the modified Bessel function K0 as its
     /// integral, and the band as a line source weighted by the part of the band at each distance.
     fn jaeger(pe: f64) -> f64 {
         let steps = 3000;

@@ -1,8 +1,8 @@
 //! Mean shear stress in a film: the oil enters unstressed, has Eyring shear thinning, elastic strain and a limiting stress.
 //!
 //! Sources: Johnson and Tevaarwerk, Proc. R. Soc. A 356 (1977) 215-236: D0 dtau/dtheta = S - sinh tau over the share theta of the
-//! transit, in units of the Eyring stress, with D0 = eta U/(2 a G) and S = eta gdot/tau0; limiting stress and regimes after Evans
-//! and Johnson, IMechE C 200 (1986) 313-324; mean over the transit after Olver and Spikes, Proc. IMechE J 212 (1998) 321-336.
+//! transit, in units of the Eyring stress, with D0 = eta U/(2 a G) and S = eta gdot/tau0; limiting stress and regimes according to Evans
+//! and Johnson, IMechE C 200 (1986) 313-324; mean over the transit according to Olver and Spikes, Proc. IMechE J 212 (1998) 321-336.
 //! The viscosity is that at the mean pressure and the film temperature: with the inlet viscosity S and D0 would be orders of
 //! magnitude too small for the flow law from which they are derived.
 

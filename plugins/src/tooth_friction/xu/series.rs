@@ -104,7 +104,7 @@ impl Series {
     }
 
     /// The sum at `t`, without `exp(common)`; NaN outside the range.
-    pub fn at(&self, t: f64) -> f64 {
+    pub fn sum_at(&self, t: f64) -> f64 {
         let number = (t * self.scale) as usize;
         let piece = self.pieces.get(number);
         piece.map_or(f64::NAN, |piece| self.on_piece(piece, number, t))
@@ -122,7 +122,7 @@ impl Series {
                 #[inline(always)]
                 |t| self.on_piece(piece, first, t),
             ),
-            _ => over(t, |t| self.at(t)),
+            _ => over(t, |t| self.sum_at(t)),
         }
     }
 
@@ -224,9 +224,9 @@ mod tests {
             assert!(least_end == least && greatest_end == greatest, "{t}: {ends:b}");
             places += ends.count_ones();
             assert!(
-                (series.at(t) / sum - 1.0).abs() < 2e-14,
+                (series.sum_at(t) / sum - 1.0).abs() < 2e-14,
                 "{t}: {} against {sum}",
-                series.at(t)
+                series.sum_at(t)
             );
             let [below, above] = series.bounds(t).unwrap_or([0.0; 2]);
             assert!(below <= least && greatest <= above);
@@ -238,7 +238,7 @@ mod tests {
         }
         // A quarter of the points on average; otherwise they would save little.
         assert!(f64::from(places) / 2000.0 <= 3.0, "{places}");
-        assert!(series.at(1.001 * end).is_nan() && series.bounds(1.001 * end).is_none());
+        assert!(series.sum_at(1.001 * end).is_nan() && series.bounds(1.001 * end).is_none());
         assert!(series.places(0.5 * end, 1.001 * end).is_none());
     }
 

@@ -1,7 +1,7 @@
 //! Epicyclic sets, simple and coupled.
 
 use super::*;
-use crate::flow::{TaskLanes, Trail};
+use crate::flow::{TaskLanes, TorqueHistory};
 use crate::lanes::{LANES, Lane, each};
 
 /// sun 0, carrier 1, ring 2, planet 3.
@@ -383,7 +383,7 @@ fn a_set_near_self_locking_follows_the_speeds_before() {
         let flow = Flow::new(&train, meshes, Vec::new(), &motion.loops, vec![3], vec![0]).unwrap();
         // A fiftieth below self-locking small losses move much power, and the remaining error is underestimated.
         let limit = if zeta == 0.0105 { 2e-8 } else { 2e-9 };
-        let (mut work, mut trail, mut alone) = (flow.work_abreast(), Trail::default(), flow.work());
+        let (mut work, mut history, mut alone) = (flow.work_batched(), TorqueHistory::default(), flow.work());
         let torques = [each(|i| sense * (20.0 + i as f64))];
         let steady = vec![0.0; rig.columns];
         let mut speed = 100.0;
@@ -412,7 +412,7 @@ fn a_set_near_self_locking_follows_the_speeds_before() {
                     passes: 60,
                 },
             };
-            flow.real_abreast(&task, Some((&mut trail, speed.ln())), &mut work, |state| {
+            flow.real_batched(&task, Some((&mut history, speed.ln())), &mut work, |state| {
                 for (k, loss) in state.mesh_loss.iter_mut().enumerate() {
                     let row = rig.meshes[k].0.row;
                     *loss = each(|i| lost(k, state.drives[k], state.multipliers[row][i]));

@@ -52,7 +52,7 @@ pub(super) fn fault(model: &dyn ToothFrictionModel, contact: &ContactAt<'_>, not
         weighted: weighted.as_deref(),
         weights,
         nodes: &nodes,
-        extent: PathExtent::of(&nodes),
+        extent: PathExtent::from_nodes(&nodes),
         part: &part,
         contact,
         notes,
@@ -88,12 +88,12 @@ struct Wide {
 }
 
 /// True if both have the same bits, or are both NaN.
-fn same(a: f64, b: f64) -> bool {
+fn same_bits(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
 fn all_same(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| same(*a, *b))
+    a.iter().zip(b).all(|(a, b)| same_bits(*a, *b))
 }
 
 impl Law<'_> {
@@ -111,7 +111,7 @@ impl Law<'_> {
     }
 
     /// Evaluates the path at a line load, with the speed times a factor.
-    fn ask<R>(&self, line_load: f64, faster: f64, notes: Notes<'_>, then: impl FnOnce(&PathAt<'_>) -> R) -> R {
+    fn with_path<R>(&self, line_load: f64, faster: f64, notes: Notes<'_>, then: impl FnOnce(&PathAt<'_>) -> R) -> R {
         let (contact, load) = (self.contact, line_load / self.contact.line_load);
         let mean = MeanFrictionAt::usual(self.part, Notes::MUTED).with(|to| {
             to.line_load *= load;
@@ -119,7 +119,7 @@ impl Law<'_> {
             to.pressure *= load.sqrt();
         });
         then(
-            &PathAt::of(self.nodes, &self.extent, contact.length, &mean, notes).with(|to| {
+            &PathAt::new(self.nodes, &self.extent, contact.length, &mean, notes).with(|to| {
                 to.speed = SPEED * faster;
                 to.line_load = line_load;
                 to.modulus = contact.modulus;
@@ -132,7 +132,7 @@ impl Law<'_> {
     }
 
     fn along(&self, lane: usize, notes: Notes<'_>) -> Answer {
-        self.ask(self.line_loads[lane], 1.0, notes, |path| {
+        self.with_path(self.line_loads[lane], 1.0, notes, |path| {
             let mut mu = [f64::NAN; PLACES];
             let along = self.model.along(path, &mut mu)?;
             Ok((along, mu))
@@ -141,7 +141,7 @@ impl Law<'_> {
 
     fn sum(&self, lane: usize, notes: Notes<'_>) -> f64 {
         let sum = |path: &PathAt<'_>| self.weighted.map_or(0.0, |weighted| weighted.sum(path));
-        self.ask(self.line_loads[lane], 1.0, notes, sum)
+        self.with_path(self.line_loads[lane], 1.0, notes, sum)
     }
 
     /// The results for all line loads, times a factor, on a path without a load of its own.
@@ -150,7 +150,7 @@ impl Law<'_> {
         let mut mu = [Lane::ZERO; PLACES];
         // The evaluation at other loads uses another speed, too, unless kept values are checked.
         let faster = if factor == 1.0 || !kept.is_empty() { 1.0 } else { 1.3 };
-        self.ask(0.0, faster, Notes::muted(self.notes).keeping(kept), |path| Wide {
+        self.with_path(0.0, faster, Notes::muted(self.notes).keeping(kept), |path| Wide {
             answers: self.model.along_lanes(path, &line_loads, &mut mu),
             mu,
             sums: self
@@ -171,7 +171,7 @@ impl Law<'_> {
             (Err(answer), Err(kept)) => answer.what == kept.what,
             _ => false,
         };
-        if !alike || !same(self.sum(0, own), self.sum(0, keeping)) {
+        if !alike || !same_bits(self.sum(0, own), self.sum(0, keeping)) {
             return fault;
         }
         let together = kept();
@@ -187,7 +187,7 @@ impl Law<'_> {
 
     fn lanes(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
         let agrees = |lane: usize| match &answers[lane] {
-            Ok((_, mu)) => (0..PLACES).all(|k| same(wide.mu[k][lane], mu[k])),
+            Ok((_, mu)) => (0..PLACES).all(|k| same_bits(wide.mu[k][lane], mu[k])),
             Err(_) => (0..PLACES).any(|k| !wide.mu[k][lane].is_finite()),
         };
         if wide.answers && !(0..LANES).all(agrees) {
@@ -238,7 +238,7 @@ impl Law<'_> {
             let _ = self.along(lane, notes);
         };
         let together = |notes: LaneNotes<'_>| {
-            let noted = self.ask(0.0, 1.0, notes.all(), |path| {
+            let noted = self.with_path(0.0, 1.0, notes.all(), |path| {
                 let noted = weighted.note(path, &self.line_loads, notes);
                 if !noted && wide.answers {
                     self.model.note_lanes(path, &self.line_loads, &wide.mu, notes);
@@ -353,9 +353,10 @@ mod tests {
                 Slip::Sums => (1.0, (1.0 + 1e-15) * self.law.factor(path)),
                 _ => (1.0, self.law.factor(path)),
             };
-            let raised = powers.of(0, |i| line_loads[i], 0.5, |load| load.sqrt() * within);
+            let raised = powers.raise(0, |i| line_loads[i], 0.5, |load| load.sqrt() * within);
             // Remembered powers are not exact roots.
-            let forgets = self.law.0 == Slip::Forgets && (0..LANES).any(|i| !same(raised[i], line_loads[i].sqrt()));
+            let forgets =
+                self.law.0 == Slip::Forgets && (0..LANES).any(|i| !same_bits(raised[i], line_loads[i].sqrt()));
             let raised = if forgets { Lane::all(f64::NAN) } else { raised };
             over(&raised, |raised| raised * outside * self.sum)
         }

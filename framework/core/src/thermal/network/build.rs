@@ -79,7 +79,7 @@ impl Network {
             let rate = rate(&path, flow.capacity, flow.share, network, found);
             if let ([Some(from), Some(to)], Some(rate)) = (ends, rate) {
                 if from == to {
-                    found.push(same(&path));
+                    found.push(same_node(&path));
                 }
                 flows.push(([from, to], rate));
             }
@@ -133,7 +133,7 @@ fn node_of(names: &NodeNames, path: &str, id: &str, found: &mut Vec<Diagnostic>)
     node
 }
 
-fn same(path: &str) -> Diagnostic {
+fn same_node(path: &str) -> Diagnostic {
     Diagnostic::error(path, "both ends are the same node").help("name two nodes")
 }
 
@@ -220,7 +220,7 @@ fn law(
         return None;
     };
     if first == second {
-        found.push(same(path));
+        found.push(same_node(path));
         return None;
     }
     Some(Link {
@@ -270,7 +270,7 @@ fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Di
         let ids: Vec<&str> = around.ports.iter().map(|p| p.name.as_str()).collect();
         found.push(dangling(&format!("{path}.port"), "port", &entry.port, &ids));
     }
-    if let Err(fault) = entry.rotor_share.at(0.0) {
+    if let Err(fault) = entry.rotor_share.share_at(0.0) {
         found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).help(fault.help));
     }
     let map = match around.files.text(&entry.map) {
@@ -313,7 +313,7 @@ fn exchanger(
     let to = node_of(around.names, &format!("{path}.to"), &entry.to, found);
     let oil = rate(path, entry.capacity, None, network, found);
     if from.is_some() && from == to {
-        found.push(same(path));
+        found.push(same_node(path));
     }
     let held = network
         .nodes

@@ -397,9 +397,12 @@ pub(super) mod tests {
         t[17] = 31.0;
         for duration in [0.01, 1.0, 1000.0] {
             let after = circuit.solve(&heat, Some((duration, &t))).unwrap();
-            let came: f64 = heat.iter().sum::<f64>() * duration;
+            let supplied: f64 = heat.iter().sum::<f64>() * duration;
             let went = circuit.stored(&t, &after) + circuit.leaving(&after, &heat).total() * duration;
-            assert!((came - went).abs() < 1e-9 * came, "{duration}: {came} {went}");
+            assert!(
+                (supplied - went).abs() < 1e-9 * supplied,
+                "{duration}: {supplied} {went}"
+            );
             t = after;
         }
     }
@@ -415,9 +418,9 @@ pub(super) mod tests {
         heat[1] = 7.0;
         let t = circuit.solve(&heat, Some((1.0, &[23.0; 18]))).unwrap();
         assert_eq!(t[17], 60.0);
-        let came: f64 = heat.iter().sum();
+        let supplied: f64 = heat.iter().sum();
         let went = circuit.stored(&[23.0; 18], &t) + circuit.leaving(&t, &heat).total();
-        assert!((came - went).abs() < 1e-9 * came, "{came} {went}");
+        assert!((supplied - went).abs() < 1e-9 * supplied, "{supplied} {went}");
     }
 
     #[test]

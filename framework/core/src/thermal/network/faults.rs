@@ -1,5 +1,6 @@
 //! Faults of a thermal network that leave temperatures undetermined.
 
+use crate::codes;
 use crate::document::Diagnostic;
 
 /// Names, capacities and connections of a network.
@@ -54,6 +55,7 @@ pub fn check(shape: &Shape<'_>, found: &mut Vec<Diagnostic>) {
                 at(node),
                 format!("no path leads from `{}` to a prescribed temperature", shape.names[node]),
             )
+            .code(codes::NO_HEAT_PATH)
             .help("link it to a neighbour, to `ambient`, or to a heat exchanger, or give it a `temperature`"),
         );
     }
@@ -64,7 +66,8 @@ pub fn check(shape: &Shape<'_>, found: &mut Vec<Diagnostic>) {
                 at(ring[0]),
                 format!("oil flows in a loop without heat capacity: {}", names.join(", ")),
             )
-            .help("state a `heat_capacity`, mass times specific heat, for the oil of one of these nodes"),
+            .help("state a `heat_capacity`, mass times specific heat, for the oil of one of these nodes")
+            .code(codes::NO_HEAT_PATH),
         );
     }
 }

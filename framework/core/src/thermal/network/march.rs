@@ -36,14 +36,14 @@ pub struct Heats {
 
 impl Heats {
     /// Total heat input of the nodes.
-    pub fn came(&self) -> f64 {
+    pub fn heat_input(&self) -> f64 {
         self.parts.iter().sum::<f64>() + self.motors.iter().flatten().sum::<f64>() + self.sources
     }
 
     /// Energy balance error: heat input minus stored heat and outgoing heat; zero to rounding.
     pub fn residual(&self) -> f64 {
         let left = self.held.iter().sum::<f64>() + self.exchangers.iter().sum::<f64>() + self.flows;
-        self.came() - self.stored - left
+        self.heat_input() - self.stored - left
     }
 
     /// Adds another interval.

@@ -40,7 +40,7 @@ impl Network {
             // The windings are in the stator.
             let found = motor.map.loss(speed, torque, temperatures[motor.stator]);
             outside |= found.outside;
-            let share = motor.rotor_share.at(speed.abs()).unwrap_or(0.0);
+            let share = motor.rotor_share.share_at(speed.abs()).unwrap_or(0.0);
             let own = [share * found.loss, (1.0 - share) * found.loss];
             heat[motor.rotor] += own[0];
             heat[motor.stator] += own[1];
@@ -52,12 +52,17 @@ impl Network {
     pub fn start(&self, start: Option<f64>, around: &Surroundings) -> Vec<f64> {
         let ambient = around.ambient.unwrap_or(self.ambient);
         (0..self.names.len())
-            .map(|i| self.held(i, around).or(self.starts[i]).or(start).unwrap_or(ambient))
+            .map(|i| {
+                self.prescribed(i, around)
+                    .or(self.starts[i])
+                    .or(start)
+                    .unwrap_or(ambient)
+            })
             .collect()
     }
 
     /// Prescribed temperature of a node. \[degC\]
-    fn held(&self, node: usize, around: &Surroundings) -> Option<f64> {
+    fn prescribed(&self, node: usize, around: &Surroundings) -> Option<f64> {
         match (node, around.ambient) {
             (0, Some(ambient)) => Some(ambient),
             _ => self.held[node],
@@ -77,7 +82,9 @@ impl Network {
     ) -> Result<(), (usize, Undefined)> {
         circuit.capacities.clone_from(&self.capacities);
         circuit.held.clear();
-        circuit.held.extend((0..self.names.len()).map(|i| self.held(i, around)));
+        circuit
+            .held
+            .extend((0..self.names.len()).map(|i| self.prescribed(i, around)));
         // A single mass flow in the circuit, so that it is balanced: that of the oil of the housing.
         let oil = temperatures[self.oil];
         let pumped = || self.pumped.unwrap_or(0.0) * self.lubricant.density(oil);
@@ -128,7 +135,7 @@ impl Lawful {
         oil_flow: f64,
         cells: &[Cell<Extent>],
     ) -> Result<f64, Undefined> {
-        let oil = self.lubricant.at(0.5 * (first + second));
+        let oil = self.lubricant.oil_at(0.5 * (first + second));
         let at = HeatLinkAt {
             part: &self.part,
             temperature_1: first,

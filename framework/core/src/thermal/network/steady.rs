@@ -71,8 +71,8 @@ impl Transmission {
         let mut hot = 0;
         while steady.evaluations < MOST {
             steady.evaluations += 1;
-            let asked = self.warm(network, moment, &guess, scratch, &mut warm);
-            let after = asked.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Network));
+            let warmed = self.warm(network, moment, &guess, scratch, &mut warm);
+            let after = warmed.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Network));
             let after = match after {
                 Ok(after) => after,
                 Err(reason) => {

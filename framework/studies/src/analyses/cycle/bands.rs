@@ -10,14 +10,14 @@ use crate::analyses::trial::{Left, Trial};
 use crate::analyses::{Built, Context, Stopped};
 use crate::analysis::{correlation, quantile};
 
-/// Shares of the samples below the ends and the middle of a band.
+/// Probabilities of the ends and the middle of a band.
 const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// What samples of a gearbox leave.
+/// Results of samples of a gearbox.
 struct Samples {
-    /// Values of the inputs, and the mean losses of each duty.
+    /// Values of the inputs, and the mean losses of each cycle.
     driven: Vec<(Vec<f64>, Vec<MeanLoss>)>,
-    /// Why each of the others has no value.
+    /// Why each of the other samples has no value.
     failed: Vec<String>,
     left: Left,
 }
@@ -103,14 +103,14 @@ fn sample(
     }
     if samples.driven.len() < 2 {
         let first = samples.failed.first().map_or("", String::as_str);
-        let message = format!("hardly a sample could be driven: {first}");
+        let message = format!("hardly any sample could be simulated: {first}");
         return Err(cx.wrong(&path, message, "narrow the ranges of the inputs"));
     }
     Ok(samples)
 }
 
 impl Samples {
-    /// The band of one duty.
+    /// The band of one cycle.
     fn band(&self, duty: usize, inputs: &[Input], shares: usize) -> BandOfDuty {
         let band = |watts: &dyn Fn(&MeanLoss) -> f64| {
             let mut values: Vec<f64> = self.driven.iter().map(|(_, losses)| watts(&losses[duty])).collect();
@@ -129,7 +129,7 @@ impl Samples {
         }
     }
 
-    /// Inputs with their correlation with the mean loss of a duty, the strongest first.
+    /// Inputs with their correlation with the mean loss of a cycle, the strongest first.
     fn ranked(&self, duty: usize, inputs: &[Input]) -> Vec<InputOfBand> {
         let losses: Vec<f64> = self.driven.iter().map(|(_, losses)| losses[duty].loss).collect();
         let input = |(k, input): (usize, &Input)| {

@@ -1,4 +1,4 @@
-//! Samples of uncertain inputs over a grid, and the bands that they leave.
+//! Samples of uncertain inputs over a grid, and the resulting bands.
 
 use gearloss_numerics::sampling::Sobol;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Built, Context, Stopped};
 use crate::analysis::{PointResult, Points, correlation, quantile};
 
-/// Shares of the samples below the ends and the middle of a band.
+/// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
 /// Values of the inputs, the solved points, and the stated ranges outside which the sample lies.
@@ -48,7 +48,7 @@ pub struct Samples {
     pub failed: Vec<String>,
 }
 
-/// Solves all samples; the same whatever the number of threads. Adds the stated ranges that they left.
+/// Solves all samples, independent of the number of threads. Adds quantities outside their stated ranges.
 pub fn solve(
     cx: &Context<'_>,
     count: u32,
@@ -86,7 +86,7 @@ pub fn solve(
     }
     if solved.len() < 2 {
         let message = format!(
-            "hardly a sample could be built: {}",
+            "hardly any sample could be built: {}",
             failed.first().map_or("", String::as_str)
         );
         return Err(cx.wrong("analyses", message, "narrow the ranges of the inputs"));
@@ -107,7 +107,7 @@ impl Samples {
             PointOfBand {
                 torque_nm: p.torque,
                 speed_rpm: tidy(p.speed * RPM),
-                // Results hold efficiencies as shares.
+                // Results contain efficiencies as fractions.
                 efficiency: efficiency_percent.scaled(0.01),
                 loss_w: quantity(|p| p.loss),
                 loss_torque_nm: quantity(|p| p.loss_torque),

@@ -130,7 +130,7 @@ fn a_window_takes_the_rows_within() {
 
 #[test]
 fn times_that_repeat_or_fall_are_refused() {
-    let help = "sort the rows by time, with one row for each; a recording that starts again is another file";
+    let help = "sort the rows by time and remove duplicates; put a restarted recording into another file";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,0\n1,0\n1,0\n2,0\n0.5,0\n"),
         [
@@ -158,7 +158,7 @@ fn a_gap_is_refused_unless_it_is_accepted() {
 
 #[test]
 fn cells_without_a_number_are_told_together() {
-    let help = "correct the cell, or leave the row out";
+    let help = "correct the cell, or delete the row";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,NaN\n1,\n2,fast\n3,-0.1\n"),
         [
@@ -285,7 +285,7 @@ fn fewer_than_two_rows_are_refused() {
 fn a_speed_of_the_vehicle_needs_the_vehicle() {
     let trace = Trace::read(&entry(), b"t [s],v [m/s]\n0,0\n1,1\n").unwrap();
     let f = trace.intervals(None).unwrap_err();
-    assert_eq!(f.message, "the duty tells the speed of a vehicle and no torque");
+    assert_eq!(f.message, "the cycle has a vehicle speed but no torque");
 }
 
 #[test]

@@ -90,7 +90,7 @@ impl ShaftLoads {
     /// As [`ShaftLoads::evaluate`] for the tangential forces of a block; to be called within [`crate::lanes::wide`]. Loads that are
     /// always zero are not written, so they must be [`LoadLanes::NONE`] before the first call.
     #[inline(always)]
-    pub(crate) fn evaluate_abreast(
+    pub(crate) fn evaluate_batched(
         &self,
         tangential: &[Lane],
         speeds: &[f64],
@@ -139,7 +139,7 @@ impl ShaftLoads {
             } else {
                 (thrust, scale)
             };
-            let untaken = member.taking.share_abreast(&thrust, &scale, loads);
+            let untaken = member.taking.share_batched(&thrust, &scale, loads);
             if let Some((carrier, copies)) = member.carrier {
                 passed[carrier] = each(|i| passed[carrier][i] + (thrust[i] - untaken[i]) * copies);
                 sizes[carrier] = each(|i| sizes[carrier][i] + scale[i] * copies);
@@ -167,7 +167,7 @@ impl Taking {
 
     /// As [`Taking::share`] in all lanes; overwrites the axial loads.
     #[inline(always)]
-    fn share_abreast(&self, thrust: &Lane, scale: &Lane, loads: &mut [LoadLanes]) -> Lane {
+    fn share_batched(&self, thrust: &Lane, scale: &Lane, loads: &mut [LoadLanes]) -> Lane {
         if let Some((place, share)) = self.only() {
             loads[place].axial = each(|i| settled(thrust[i], scale[i]).abs() * share);
             return Lane::ZERO;
@@ -218,7 +218,7 @@ pub(super) mod tests {
     use super::*;
 
     /// Asserts that batched loads equal those of single points, to the bit.
-    pub fn assert_abreast(loads: &ShaftLoads, meshes: usize, speeds: &[f64]) {
+    pub fn assert_batched_equals_single(loads: &ShaftLoads, meshes: usize, speeds: &[f64]) {
         // Forces of both signs and zero.
         let tangential: Vec<Lane> = (0..meshes)
             .map(|k| each(|i| 137.0 * (i as f64 - 5.0) * if (i + k) % 3 == 0 { -1.0 } else { 1.0 + 0.1 * k as f64 }))
@@ -228,7 +228,7 @@ pub(super) mod tests {
         let mut passed = vec![Lane::all(0.0); loads.scratch_len()];
         wide(
             #[inline(always)]
-            || loads.evaluate_abreast(&tangential, speeds, &mut passed, &mut together),
+            || loads.evaluate_batched(&tangential, speeds, &mut passed, &mut together),
         );
         for i in 0..LANES {
             let own: Vec<f64> = tangential.iter().map(|lane| lane[i]).collect();

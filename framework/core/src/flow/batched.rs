@@ -4,10 +4,10 @@
 //! initial torques allow the first iteration to be the last. A lane in which a driving gear changes, or that does not converge
 //! within a few iterations, is excluded and solved by that loop.
 
+use super::history::{TorqueHistory, UNKNOWN};
 use super::linear::{Panels, larger};
 use super::solve::{NO_POWER, PATIENCE, REACH, SAFETY, drive};
 use super::system::{Flow, Friction, Side};
-use super::trail::{Trail, UNKNOWN};
 use super::work::{Drive, Tolerance};
 use crate::lanes::{LANES, Lane, count, each, gather, greatest, over, weighted, wide};
 
@@ -41,7 +41,7 @@ pub struct WorkLanes {
     rate: Lane,
     largest: Lane,
     /// Results of the models for the meshes. \[W\]
-    asked: Vec<Lane>,
+    model_losses: Vec<Lane>,
     used: Vec<Lane>,
     used_before: Vec<Lane>,
     answer: Vec<Lane>,
@@ -145,7 +145,7 @@ impl SparseVector {
 
 /// True if two lanes have the same numbers.
 #[inline(always)]
-fn same(a: &Lane, b: &Lane) -> bool {
+fn same_numbers(a: &Lane, b: &Lane) -> bool {
     count(|i| a[i] == b[i]) == LANES as u64
 }
 
@@ -193,7 +193,7 @@ impl SparseFlow {
 
 impl Flow {
     /// Workspace for the blocks of this flow.
-    pub fn work_abreast(&self) -> WorkLanes {
+    pub fn work_batched(&self) -> WorkLanes {
         let (n, k) = (self.columns, self.meshes.len());
         let lanes = |count: usize| vec![ZERO; count];
         let size = self.size.max(n);
@@ -208,7 +208,7 @@ impl Flow {
             rolling: lanes(k),
             rate: ZERO,
             largest: ZERO,
-            asked: lanes(k),
+            model_losses: lanes(k),
             used: lanes(2 * k + n),
             used_before: lanes(2 * k + n),
             answer: lanes(2 * k + n),
@@ -231,40 +231,40 @@ impl Flow {
 
     /// As [`Flow::real`] for the points of a block. With an extrapolation history the initial torques are extrapolated from it, and
     /// the block becomes its next step.
-    pub fn real_abreast(
+    pub fn real_batched(
         &self,
         task: &TaskLanes<'_>,
-        trail: Option<(&mut Trail, f64)>,
+        history: Option<(&mut TorqueHistory, f64)>,
         work: &mut WorkLanes,
         mut losses: impl FnMut(&mut FlowLanes<'_>),
     ) {
-        let Some((trail, at)) = trail.filter(|_| task.tolerance.passes > 1) else {
-            return self.iterate_abreast(task, false, 0, work, &mut losses);
+        let Some((history, at)) = history.filter(|_| task.tolerance.passes > 1) else {
+            return self.iterate_batched(task, false, 0, work, &mut losses);
         };
         let guess = wide(
             #[inline(always)]
-            || self.guess_abreast(task, trail, at, work),
+            || self.guess_batched(task, history, at, work),
         );
         let guessed = guess && {
-            self.ask_abreast(work, &mut losses);
+            self.evaluate_models_batched(work, &mut losses);
             wide(
                 #[inline(always)]
                 || {
-                    let (growth, measured) = (trail.growth(at), trail.rate.as_ref());
+                    let (growth, measured) = (history.growth(at), history.rate.as_ref());
                     let rate = measured.map_or(Lane::all(UNKNOWN), |rate| over(rate, |rate| rate * growth));
-                    self.judge_abreast(task, &rate, work)
+                    self.finish_guess_batched(task, &rate, work)
                 },
             )
         };
         let good = guessed && !work.done.contains(&false);
-        self.iterate_abreast(task, guessed, usize::from(guess), work, &mut losses);
+        self.iterate_batched(task, guessed, usize::from(guess), work, &mut losses);
         if work.alone.contains(&true) {
-            return trail.clear();
+            return history.clear();
         }
         if !guessed {
-            trail.rate = Some(work.rate);
+            history.rate = Some(work.rate);
         }
-        trail.push(
+        history.push(
             task.torques,
             at,
             &work.drives,
@@ -275,7 +275,7 @@ impl Flow {
 
     /// Iterates models and equilibrium until they agree: from the start, or after a first iteration from a guess. `pass` is the
     /// number of previous iterations.
-    fn iterate_abreast(
+    fn iterate_batched(
         &self,
         task: &TaskLanes<'_>,
         guessed: bool,
@@ -287,16 +287,16 @@ impl Flow {
         if !guessed {
             wide(
                 #[inline(always)]
-                || self.begin_abreast(task, work),
+                || self.begin_batched(task, work),
             );
         }
         let mut known = false;
         while pass < FEW.min(task.tolerance.passes) && !settled(work) {
             pass += 1;
-            self.ask_abreast(work, losses);
+            self.evaluate_models_batched(work, losses);
             wide(
                 #[inline(always)]
-                || self.pass_abreast(task, work, (known, guessed), pass),
+                || self.iteration_batched(task, work, (known, guessed), pass),
             );
             known = true;
         }
@@ -305,8 +305,8 @@ impl Flow {
         }
     }
 
-    fn ask_abreast(&self, work: &mut WorkLanes, losses: &mut impl FnMut(&mut FlowLanes<'_>)) {
-        work.asked.fill(ZERO);
+    fn evaluate_models_batched(&self, work: &mut WorkLanes, losses: &mut impl FnMut(&mut FlowLanes<'_>)) {
+        work.model_losses.fill(ZERO);
         wide(
             #[inline(always)]
             || {
@@ -321,43 +321,43 @@ impl Flow {
             drives: &work.drives,
             ports: &work.ports,
             done: &work.done,
-            mesh_loss: &mut work.asked,
+            mesh_loss: &mut work.model_losses,
             drags: &mut work.answer[drags..],
         });
     }
 
     /// Extrapolates the torques of a first iteration; false if there is no basis for it.
     #[inline(always)]
-    fn guess_abreast(&self, task: &TaskLanes<'_>, trail: &mut Trail, at: f64, work: &mut WorkLanes) -> bool {
-        if !trail.weigh(task.torques, at) {
+    fn guess_batched(&self, task: &TaskLanes<'_>, history: &mut TorqueHistory, at: f64, work: &mut WorkLanes) -> bool {
+        if !history.weigh(task.torques, at) {
             return false;
         }
-        self.prepare_abreast(task, work);
-        work.drives.copy_from_slice(&trail.drives);
+        self.prepare_batched(task, work);
+        work.drives.copy_from_slice(&history.drives);
         for (place, unknown) in work.unknown[..self.size].iter_mut().enumerate() {
-            *unknown = trail.guess(place);
+            *unknown = history.guess(place);
         }
         // Whether the driving gears are still the same is known only after the losses have been evaluated.
-        self.torques_abreast(work);
+        self.torques_batched(work);
         true
     }
 
     /// Completes a first iteration from extrapolated torques: the equilibrium with its losses, and which lanes have converged.
     /// False if a driving gear changed, which invalidates the guess.
     #[inline(always)]
-    fn judge_abreast(&self, task: &TaskLanes<'_>, rate: &Lane, work: &mut WorkLanes) -> bool {
+    fn finish_guess_batched(&self, task: &TaskLanes<'_>, rate: &Lane, work: &mut WorkLanes) -> bool {
         let k = self.meshes.len();
         work.answers();
         std::mem::swap(&mut work.used, &mut work.answer);
-        self.right_abreast(work);
+        self.right_side_batched(work);
         // A stationary drag has no power, but its torque loads rotating members.
         let fastest = task.speeds.iter().fold(0.0, |most, speed| larger(most, speed.abs()));
         let speed = |speed: f64| if speed == 0.0 { fastest } else { speed.abs() };
         for ((power, row), relative) in work.powers.iter_mut().zip(&self.meshes).zip(&work.relative) {
             *power = (self.scale[row.row] * row.z1 * speed(relative[1])).abs();
         }
-        let neglected = self.close_abreast(task.speeds, speed, work);
-        self.accept_abreast(task.speeds, work);
+        let neglected = self.cfriction_losses_batched(task.speeds, speed, work);
+        self.accept_batched(task.speeds, work);
         let meshes = self.meshes.iter().zip(&work.powers);
         let ports = self.unknown.iter().zip(&work.step[self.rows..]);
         let moved = greatest(
@@ -373,13 +373,13 @@ impl Flow {
         if work.done.contains(&false) {
             work.rate = *rate;
             // The following code takes the torques as an equilibrium with the losses used.
-            self.right_abreast(work);
-            self.friction_abreast(work);
-            self.refine_abreast(work);
+            self.right_side_batched(work);
+            self.friction_batched(work);
+            self.refine_batched(work);
             for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
                 *unknown = each(|i| unknown[i] + step[i]);
             }
-            self.accept_abreast(task.speeds, work);
+            self.accept_batched(task.speeds, work);
             for losses in [&mut work.used_before, &mut work.answer_before] {
                 losses.copy_from_slice(&work.used);
             }
@@ -393,7 +393,7 @@ impl Flow {
 
     /// Writes the given torques, for any first iteration.
     #[inline(always)]
-    fn prepare_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
+    fn prepare_batched(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
         work.alone = [false; LANES];
         work.done = [false; LANES];
         // No other column has an applied torque; torques of the other ports follow from the unknowns.
@@ -408,9 +408,9 @@ impl Flow {
     }
 
     #[inline(always)]
-    fn begin_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
+    fn begin_batched(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
         let k = self.meshes.len();
-        self.prepare_abreast(task, work);
+        self.prepare_batched(task, work);
         work.rate = Lane::all(UNKNOWN);
         work.used.fill(ZERO);
         // An earlier block may have left NaN.
@@ -422,7 +422,7 @@ impl Flow {
             }
         }
         work.drives.fill(Drive::Neither);
-        self.solve_abreast(task.speeds, work, &[false; LANES]);
+        self.solve_batched(task.speeds, work, &[false; LANES]);
         // The driving gears of the point with the largest power are usually those of the others.
         let sound = (0..LANES).filter(|i| !work.alone[*i]);
         let most = sound.max_by(|a, b| work.largest[*a].total_cmp(&work.largest[*b]));
@@ -443,7 +443,13 @@ impl Flow {
 
     /// Processes the results of the models in one iteration.
     #[inline(always)]
-    fn pass_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes, (known, guessed): (bool, bool), pass: usize) {
+    fn iteration_batched(
+        &self,
+        task: &TaskLanes<'_>,
+        work: &mut WorkLanes,
+        (known, guessed): (bool, bool),
+        pass: usize,
+    ) {
         let &TaskLanes { speeds, tolerance, .. } = task;
         let k = self.meshes.len();
         work.answers();
@@ -458,7 +464,7 @@ impl Flow {
         for e in 0..work.used.len() {
             let (used, answer) = (&work.used[e], &work.answer[e]);
             let (used_before, answer_before) = (&work.used_before[e], &work.answer_before[e]);
-            if !(same(used, answer) && same(used, used_before) && same(answer, answer_before)) {
+            if !(same_numbers(used, answer) && same_numbers(used, used_before) && same_numbers(answer, answer_before)) {
                 work.live.push(e);
             }
         }
@@ -490,7 +496,7 @@ impl Flow {
         let back = if known { work.secant() } else { ZERO };
         let back = each(|i| if last[i] { 0.0 } else { back[i] });
         work.advance(&back, 2 * k);
-        self.solve_abreast(speeds, work, &last);
+        self.solve_batched(speeds, work, &last);
         for mesh in 0..k {
             work.turn(mesh, k);
         }
@@ -504,13 +510,13 @@ impl Flow {
 
     /// As [`Flow::solve`]; converged lanes are refined.
     #[inline(always)]
-    fn solve_abreast(&self, speeds: &[f64], work: &mut WorkLanes, kept: &[bool; LANES]) {
-        self.right_abreast(work);
-        self.friction_abreast(work);
-        self.step_abreast(work);
+    fn solve_batched(&self, speeds: &[f64], work: &mut WorkLanes, kept: &[bool; LANES]) {
+        self.right_side_batched(work);
+        self.friction_batched(work);
+        self.step_batched(work);
         work.unknown.copy_from_slice(&work.step);
         if kept.contains(&true) {
-            self.refine_abreast(work);
+            self.refine_batched(work);
             let all = !kept.contains(&false);
             for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
                 *unknown = if all {
@@ -520,12 +526,12 @@ impl Flow {
                 };
             }
         }
-        self.accept_abreast(speeds, work);
+        self.accept_batched(speeds, work);
     }
 
     /// Writes given torques and losses to the right-hand side.
     #[inline(always)]
-    fn right_abreast(&self, work: &mut WorkLanes) {
+    fn right_side_batched(&self, work: &mut WorkLanes) {
         let k = self.meshes.len();
         let (loaded, others) = work.right.split_at_mut(self.columns);
         for ((right, applied), drag) in loaded.iter_mut().zip(&work.applied).zip(&work.used[2 * k..]) {
@@ -537,7 +543,7 @@ impl Flow {
         for (mesh, row) in self.meshes.iter().enumerate() {
             let side = usize::from(work.drives[mesh] == Drive::Second);
             let (loss, relative) = (&work.used[k + mesh], work.relative[mesh][side]);
-            if relative == 0.0 || same(loss, &ZERO) {
+            if relative == 0.0 || same_numbers(loss, &ZERO) {
                 continue;
             }
             let torque = over(loss, |loss| loss / relative);
@@ -552,20 +558,20 @@ impl Flow {
 
     /// Solves for the correction of the unknowns that removes their residual.
     #[inline(always)]
-    fn refine_abreast(&self, work: &mut WorkLanes) {
-        self.lack_abreast(work);
-        self.step_abreast(work);
+    fn refine_batched(&self, work: &mut WorkLanes) {
+        self.residual_batched(work);
+        self.step_batched(work);
     }
 
-    /// As [`solve_abreast`](Self::solve_abreast) from unknowns close to the solution: the meshes lose their share of the correction
+    /// As [`solve_batched`](Self::solve_batched) from unknowns close to the solution: the meshes lose their share of the correction
     /// as if it were frictionless. Keeps the correction as well, and returns a bound of the neglected share of its power, which is
     /// about the square of the sum of the loss shares of coupled meshes and ports. Infinite if that is not small, as close to
     /// self-locking.
     #[inline(always)]
-    fn close_abreast(&self, speeds: &[f64], speed: impl Fn(f64) -> f64, work: &mut WorkLanes) -> Lane {
+    fn cfriction_losses_batched(&self, speeds: &[f64], speed: impl Fn(f64) -> f64, work: &mut WorkLanes) -> Lane {
         work.active.clear();
         work.active.extend(0..self.meshes.len());
-        self.lose_abreast(work);
+        self.friction_losses_batched(work);
         // The new unknowns replace the correction until it is known.
         self.sparse.inverse.product(&work.right, &mut work.step);
         for (share, friction) in work.shares.iter_mut().zip(&self.friction) {
@@ -605,17 +611,17 @@ impl Flow {
 
     /// Writes the residual of the unknowns to the right-hand side.
     #[inline(always)]
-    fn lack_abreast(&self, work: &mut WorkLanes) {
+    fn residual_batched(&self, work: &mut WorkLanes) {
         self.sparse.base.product(&work.unknown, &mut work.residual);
         for (right, residual) in work.right.iter_mut().zip(&work.residual) {
             *right = each(|i| right[i] - residual[i]);
         }
-        self.lose_abreast(work);
+        self.friction_losses_batched(work);
     }
 
     /// Writes the friction losses of the meshes' torques to the right-hand side.
     #[inline(always)]
-    fn lose_abreast(&self, work: &mut WorkLanes) {
+    fn friction_losses_batched(&self, work: &mut WorkLanes) {
         for &mesh in &work.active {
             let (row, side) = (self.friction[mesh].row, usize::from(work.drives[mesh] == Drive::Second));
             let (share, torque) = (&work.used[mesh], &work.unknown[row]);
@@ -626,8 +632,8 @@ impl Flow {
 
     /// Torques and the losses used, from the solved unknowns.
     #[inline(always)]
-    fn accept_abreast(&self, speeds: &[f64], work: &mut WorkLanes) {
-        self.torques_abreast(work);
+    fn accept_batched(&self, speeds: &[f64], work: &mut WorkLanes) {
+        self.torques_batched(work);
         let ports = speeds.iter().copied().zip(&work.ports);
         work.largest = greatest(work.rolling.iter().map(|rolling| (1.0, rolling)).chain(ports));
         let k = self.meshes.len();
@@ -647,7 +653,7 @@ impl Flow {
 
     /// Torques of ports and powers of meshes, from the unknowns.
     #[inline(always)]
-    fn torques_abreast(&self, work: &mut WorkLanes) {
+    fn torques_batched(&self, work: &mut WorkLanes) {
         for (port, torque) in self.unknown.iter().zip(&work.unknown[self.rows..]) {
             work.ports[*port] = *torque;
         }
@@ -660,10 +666,10 @@ impl Flow {
 
     /// Factors the small system of the meshes with friction. It is close to identity, so no pivoting is needed.
     #[inline(always)]
-    fn friction_abreast(&self, work: &mut WorkLanes) {
+    fn friction_batched(&self, work: &mut WorkLanes) {
         work.active.clear();
         for mesh in 0..self.meshes.len() {
-            if !same(&work.used[mesh], &ZERO) {
+            if !same_numbers(&work.used[mesh], &ZERO) {
                 work.active.push(mesh);
             }
         }
@@ -716,7 +722,7 @@ impl Flow {
     }
 
     #[inline(always)]
-    fn step_abreast(&self, work: &mut WorkLanes) {
+    fn step_batched(&self, work: &mut WorkLanes) {
         self.sparse.inverse.product(&work.right, &mut work.step);
         let n = work.active.len();
         for (share, &mesh) in work.shares.iter_mut().zip(&work.active) {
@@ -752,9 +758,9 @@ impl WorkLanes {
     /// The entries of the losses from the results of the models.
     #[inline(always)]
     fn answers(&mut self) {
-        let k = self.asked.len();
+        let k = self.model_losses.len();
         for mesh in 0..k {
-            let (loss, rolling) = (&self.asked[mesh], &self.rolling[mesh]);
+            let (loss, rolling) = (&self.model_losses[mesh], &self.rolling[mesh]);
             let proportional = |i: usize| loss[i] > 0.0 && loss[i] < 0.5 * rolling[i].abs();
             self.answer[mesh] = each(|i| {
                 if proportional(i) {

@@ -20,7 +20,7 @@ pub(super) const UNKNOWN: f64 = f64::INFINITY;
 /// Torques of the points of a block over previous speeds. The abscissa of a step is the logarithm of its speed, because losses are
 /// nearly power laws of speed: polynomials over it are more accurate where speeds are low and far apart.
 #[derive(Debug, Clone, Default)]
-pub struct Trail {
+pub struct TorqueHistory {
     /// Given torques.
     torques: Vec<Lane>,
     pub(super) drives: Vec<Drive>,
@@ -45,7 +45,7 @@ struct Step {
     unknowns: Vec<Lane>,
 }
 
-impl Trail {
+impl TorqueHistory {
     /// Forgets all steps.
     pub fn clear(&mut self) {
         self.steps.clear();
@@ -147,10 +147,10 @@ fn lagrange(steps: &[Step], first: usize, place: f64) -> impl Iterator<Item = (u
 mod tests {
     use super::*;
 
-    fn follow(trail: &mut Trail, speeds: &[f64], law: impl Fn(f64) -> f64) {
+    fn follow(history: &mut TorqueHistory, speeds: &[f64], law: impl Fn(f64) -> f64) {
         for (i, speed) in speeds.iter().enumerate() {
             let mut torques = vec![Lane::all(law(*speed))];
-            trail.push(
+            history.push(
                 &[Lane::all(3.0)],
                 *speed,
                 &[Drive::First],
@@ -158,14 +158,14 @@ mod tests {
                 (i > 0).then_some(true),
             );
         }
-        trail.rate = Some(Lane::all(0.1));
+        history.rate = Some(Lane::all(0.1));
     }
 
     /// Number of steps used for a guess at an abscissa, given where the rate was measured.
-    fn steps_at(trail: &mut Trail, given: f64, place: f64) -> usize {
-        trail.measured = place;
-        if trail.weigh(&[Lane::all(given)], place) {
-            trail.weights.len()
+    fn steps_at(history: &mut TorqueHistory, given: f64, place: f64) -> usize {
+        history.measured = place;
+        if history.weigh(&[Lane::all(given)], place) {
+            history.weights.len()
         } else {
             0
         }
@@ -174,36 +174,36 @@ mod tests {
     #[test]
     fn a_guess_continues_a_cubic() {
         let law = |x: f64| 2.0 - x + 0.3 * x * x - 0.01 * x * x * x;
-        let mut trail = Trail::default();
-        follow(&mut trail, &[1.0, 2.0, 2.9, 4.0, 5.1], law);
-        assert_eq!(steps_at(&mut trail, 3.0, 6.0), 4);
-        assert!((trail.guess(0)[7] - law(6.0)).abs() < 1e-13);
+        let mut history = TorqueHistory::default();
+        follow(&mut history, &[1.0, 2.0, 2.9, 4.0, 5.1], law);
+        assert_eq!(steps_at(&mut history, 3.0, 6.0), 4);
+        assert!((history.guess(0)[7] - law(6.0)).abs() < 1e-13);
         // Far from previous steps a polynomial of lower degree is more accurate.
-        assert!((1..3).contains(&steps_at(&mut trail, 3.0, 20.0)));
+        assert!((1..3).contains(&steps_at(&mut history, 3.0, 20.0)));
     }
 
     #[test]
     fn without_common_steps_nothing_is_guessed() {
-        let mut trail = Trail::default();
-        assert_eq!(steps_at(&mut trail, 3.0, 6.0), 0);
-        follow(&mut trail, &[1.0, 2.0], |x| x);
-        assert_eq!(steps_at(&mut trail, 3.0, 3.0), 2);
-        assert_eq!(steps_at(&mut trail.clone(), 3.1, 3.0), 0);
+        let mut history = TorqueHistory::default();
+        assert_eq!(steps_at(&mut history, 3.0, 6.0), 0);
+        follow(&mut history, &[1.0, 2.0], |x| x);
+        assert_eq!(steps_at(&mut history, 3.0, 3.0), 2);
+        assert_eq!(steps_at(&mut history.clone(), 3.1, 3.0), 0);
         // A repeated speed leaves one step.
-        follow(&mut trail, &[1.0, 2.0, 2.0], |x| x);
-        assert_eq!(steps_at(&mut trail, 3.0, 3.0), 1);
+        follow(&mut history, &[1.0, 2.0, 2.0], |x| x);
+        assert_eq!(steps_at(&mut history, 3.0, 3.0), 1);
     }
 
     #[test]
     fn a_rate_counts_as_grown_far_away_and_after_many_guesses() {
-        let mut trail = Trail::default();
+        let mut history = TorqueHistory::default();
         let given = [Lane::all(3.0)];
-        let push = |trail: &mut Trail, speed: f64, guess: Option<bool>| {
-            trail.push(&given, speed.ln(), &[Drive::First], &mut vec![Lane::ZERO], guess);
+        let push = |history: &mut TorqueHistory, speed: f64, guess: Option<bool>| {
+            history.push(&given, speed.ln(), &[Drive::First], &mut vec![Lane::ZERO], guess);
         };
-        let growth = |trail: &Trail, speed: f64| trail.growth(speed.ln());
-        push(&mut trail, 100.0, None);
-        trail.rate = Some(Lane::all(0.1));
+        let growth = |history: &TorqueHistory, speed: f64| history.growth(speed.ln());
+        push(&mut history, 100.0, None);
+        history.rate = Some(Lane::all(0.1));
         for (speed, grown) in [
             (100.0, 1.0),
             (200.0, 1.0),
@@ -212,34 +212,34 @@ mod tests {
             (12.5, 4.0),
             (1000.0, 5.0),
         ] {
-            assert!((growth(&trail, speed) / grown - 1.0).abs() < 1e-8, "{speed}");
+            assert!((growth(&history, speed) / grown - 1.0).abs() < 1e-8, "{speed}");
             // Far away only good guesses continue, and very far none.
             for (good, most) in [(Some(true), MOST), (Some(false), 1.0)] {
-                let mut trail = trail.clone();
-                push(&mut trail, 100.0, good);
-                assert_eq!(trail.weigh(&given, speed.ln()), grown <= most, "{speed} {good:?}");
+                let mut history = history.clone();
+                push(&mut history, 100.0, good);
+                assert_eq!(history.weigh(&given, speed.ln()), grown <= most, "{speed} {good:?}");
             }
         }
         for _ in 0..512 {
-            push(&mut trail, 100.0, Some(true));
+            push(&mut history, 100.0, Some(true));
         }
-        assert_eq!(growth(&trail, 100.0), 2.0);
-        push(&mut trail, 100.0, None);
-        assert_eq!(growth(&trail, 100.0), 1.0);
+        assert_eq!(growth(&history, 100.0), 2.0);
+        push(&mut history, 100.0, None);
+        assert_eq!(growth(&history, 100.0), 1.0);
         // Standstill is far from all speeds, and not near itself.
-        assert!(!trail.weigh(&given, f64::NEG_INFINITY));
-        push(&mut trail, 0.0, None);
-        assert!(!trail.weigh(&given, f64::NEG_INFINITY) && !trail.weigh(&given, f64::ln(100.0)));
+        assert!(!history.weigh(&given, f64::NEG_INFINITY));
+        push(&mut history, 0.0, None);
+        assert!(!history.weigh(&given, f64::NEG_INFINITY) && !history.weigh(&given, f64::ln(100.0)));
     }
 
     #[test]
     fn steps_outlive_a_solution_without_a_guess_but_not_other_drivers() {
-        let mut trail = Trail::default();
-        follow(&mut trail, &[1.0, 1.1, 1.2, 1.3, 1.4], |x| x);
+        let mut history = TorqueHistory::default();
+        follow(&mut history, &[1.0, 1.1, 1.2, 1.3, 1.4], |x| x);
         let (given, next) = ([Lane::all(3.0)], 1.5);
-        trail.push(&given, next, &[Drive::First], &mut vec![Lane::all(next)], None);
-        assert_eq!(steps_at(&mut trail, 3.0, next + 0.1), DEPTH);
-        trail.push(&given, next + 0.1, &[Drive::Second], &mut vec![Lane::all(next)], None);
-        assert_eq!(steps_at(&mut trail, 3.0, next + 0.2), 1);
+        history.push(&given, next, &[Drive::First], &mut vec![Lane::all(next)], None);
+        assert_eq!(steps_at(&mut history, 3.0, next + 0.1), DEPTH);
+        history.push(&given, next + 0.1, &[Drive::Second], &mut vec![Lane::all(next)], None);
+        assert_eq!(steps_at(&mut history, 3.0, next + 0.2), 1);
     }
 }

@@ -1,6 +1,6 @@
 //! Batched points that differ in one torque.
 //!
-//! Speeds, oils and all values that depend only on them, including notes, are computed once per row. The numbers of [`Row::solve`]
+//! Speeds, oils and all values that depend only on them, including notes, are computed once per batch. The numbers of [`Batch::solve`]
 //! are those of [`Transmission::evaluate`] to the bit, except for the sign of zero; the same holds for points that are evaluated
 //! one by one, see [`Block::alone`].
 
@@ -14,7 +14,7 @@ use shared::Shared;
 
 use super::{Point, PowerFlow, Scratch, Solution};
 use crate::attach::State;
-use crate::flow::{Drive, FlowLanes, TaskLanes, Trail, WorkLanes};
+use crate::flow::{Drive, FlowLanes, TaskLanes, TorqueHistory, WorkLanes};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, Powers, count, each, is_even, over, weighted, wide};
 use crate::loads::{LEAST_STATIC_SAFETY, LoadLanes, SupportLoad};
 use crate::loss::{Extent, Measure, NoteBase, Notebook, Notes};
@@ -23,21 +23,21 @@ use crate::transmission::{Case, Component, PartInfo, PartKind, Transmission};
 /// No untaken thrust.
 static NO_THRUST: Lane = Lane::ZERO;
 
-/// Workspace for the rows of one case. All of it is allocated once, except the values that [`Row::follow`] keeps of previous rows.
+/// Workspace for the batches of one case. All of it is allocated once, except the values that [`Batch::follow`] keeps of previous batches.
 #[derive(Debug, Clone)]
-pub struct RowScratch {
-    /// The state of the row.
+pub struct BatchScratch {
+    /// The state of the batch.
     state: Scratch,
     /// For points that are evaluated one by one.
     alone: Scratch,
     work: WorkLanes,
-    /// One for each block of a row, in their order.
-    trails: Vec<Trail>,
+    /// One for each block of a batch, in their order.
+    histories: Vec<TorqueHistory>,
     /// For each of these blocks the remembered values of its components and meshes.
     powers: Vec<Vec<Powers>>,
     /// The next block.
     next: usize,
-    /// The given values of the previous row, except its first speed and its first torque.
+    /// The given values of the previous batch, except its first speed and its first torque.
     before: Vec<f64>,
     given: Vec<Lane>,
     /// Torques of ports for load corrections.
@@ -62,7 +62,7 @@ pub struct RowScratch {
     common: Vec<Extent>,
     own: Vec<Extent>,
     totals: Vec<Extent>,
-    /// Points of the row for which the shared notes have not been counted yet.
+    /// Points of the batch for which the shared notes have not been counted yet.
     points: u32,
     /// True if a shared note is outside the range of a model.
     row_outside: bool,
@@ -72,7 +72,7 @@ pub struct RowScratch {
     called: usize,
 }
 
-impl RowScratch {
+impl BatchScratch {
     /// Observed extents of every limit and observed quantity since the last call, one count per point.
     pub fn take_totals(&mut self) -> Vec<Extent> {
         self.count_row();
@@ -82,13 +82,13 @@ impl RowScratch {
             .collect()
     }
 
-    /// Forgets the previous rows, so that [`Row::follow`] starts again.
+    /// Forgets the previous batches, so that [`Batch::follow`] starts again.
     pub fn forget(&mut self) {
-        self.trails.iter_mut().for_each(Trail::clear);
+        self.histories.iter_mut().for_each(TorqueHistory::clear);
         self.powers.iter_mut().flatten().for_each(Powers::forget);
     }
 
-    /// Counts the shared notes for the points of the row.
+    /// Counts the shared notes for the points of the batch.
     fn count_row(&mut self) {
         let points = std::mem::take(&mut self.points);
         for (total, seen) in self.totals.iter_mut().zip(&self.state.cells) {
@@ -106,26 +106,26 @@ impl RowScratch {
 }
 
 /// Points that differ in the first given torque.
-pub struct Row<'a> {
+pub struct Batch<'a> {
     transmission: &'a Transmission,
     case: &'a Case,
     point: Point<'a>,
     temperatures: &'a [f64],
     /// False if every point must be evaluated one by one.
     together: bool,
-    s: &'a mut RowScratch,
+    s: &'a mut BatchScratch,
 }
 
 impl Transmission {
-    /// Workspace for evaluating the rows of a case; one per thread.
-    pub fn row_scratch(&self, case: &Case) -> RowScratch {
+    /// Workspace for evaluating the batches of a case; one per thread.
+    pub fn batch_scratch(&self, case: &Case) -> BatchScratch {
         let lanes = |count: usize| vec![Lane::all(0.0); count];
         let supports = self.supports.len();
-        RowScratch {
+        BatchScratch {
             state: self.scratch(case),
             alone: self.scratch(case),
-            work: case.flow.work_abreast(),
-            trails: Vec::new(),
+            work: case.flow.work_batched(),
+            histories: Vec::new(),
             powers: Vec::new(),
             next: 0,
             before: Vec::new(),
@@ -155,7 +155,7 @@ impl Transmission {
         }
     }
 
-    /// False for parts whose loss is computed once per row.
+    /// False for parts whose loss is computed once per batch.
     fn hangs_on_torque(&self, part: &PartInfo) -> bool {
         match part.kind {
             PartKind::Component(i) => self.components[i].loaded && !self.components[i].off,
@@ -164,7 +164,7 @@ impl Transmission {
         }
     }
 
-    /// Writes the notes that are independent of load, once for all points of a row.
+    /// Writes the notes that are independent of load, once for all points of a batch.
     fn note_row(&self, s: &mut Scratch) {
         let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
         let kept = Cell::from_mut(s.kept.as_mut_slice()).as_slice_of_cells();
@@ -174,7 +174,7 @@ impl Transmission {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         for component in &self.components {
             if !component.loaded || component.off || component.notes_hang_on_load {
@@ -197,17 +197,17 @@ impl Transmission {
         }
     }
 
-    /// Prepares a row of points at the temperatures of the nodes, or at one for all nodes. \[degC\]
+    /// Prepares a batch of points at the temperatures of the nodes, or at one for all nodes. \[degC\]
     ///
     /// # Panics
     /// As [`Transmission::evaluate`], and if the case gives no torque: bugs of the caller.
-    pub fn row<'a>(
+    pub fn batch<'a>(
         &'a self,
         case: &'a Case,
         point: &Point<'a>,
         temperatures: &'a [f64],
-        scratch: &'a mut RowScratch,
-    ) -> Row<'a> {
+        scratch: &'a mut BatchScratch,
+    ) -> Batch<'a> {
         assert!(!case.torque_ports.is_empty(), "a case that gives a torque");
         let speeds = point.speeds.get(1..).unwrap_or_default().iter();
         let rest = speeds
@@ -246,7 +246,7 @@ impl Transmission {
                 }
             }
         }
-        Row {
+        Batch {
             transmission: self,
             case,
             point: *point,
@@ -257,7 +257,7 @@ impl Transmission {
     }
 }
 
-impl Row<'_> {
+impl Batch<'_> {
     /// Solves the points with these first torques, at most [`LANES`]. \[Nm\]
     ///
     /// # Panics
@@ -266,12 +266,12 @@ impl Row<'_> {
         self.block(torques, false)
     }
 
-    /// As [`Row::solve`], with the first torques extrapolated from the blocks with the same number and torques in previous rows
+    /// As [`Batch::solve`], with the first torques extrapolated from the blocks with the same number and torques in previous batches
     /// that differ only in the first speed, and with remembered powers of loads. One iteration is then often enough, and the losses
-    /// agree with those of [`Row::solve`] within the tolerance, not to the bit.
+    /// agree with those of [`Batch::solve`] within the tolerance, not to the bit.
     ///
     /// # Panics
-    /// As [`Row::solve`].
+    /// As [`Batch::solve`].
     pub fn follow(&mut self, torques: &[f64]) -> Block<'_> {
         self.block(torques, true)
     }
@@ -292,7 +292,7 @@ impl Row<'_> {
         }
     }
 
-    /// Evaluates a single point of the row.
+    /// Evaluates a single point of the batch.
     pub fn alone(&mut self, torque: f64) -> Solution<'_> {
         let count = self.point.torques.len();
         let torques = &mut self.s.state.given[..count];
@@ -305,10 +305,10 @@ impl Row<'_> {
     #[inline(always)]
     fn solve_together(&mut self, torques: &[f64], following: bool) {
         let (t, case) = (self.transmission, self.case);
-        let RowScratch {
+        let BatchScratch {
             state: settled,
             work,
-            trails,
+            histories,
             powers,
             next,
             given,
@@ -348,8 +348,8 @@ impl Row<'_> {
         let followed = self.point.speeds.first().filter(|_| following).map(|speed| {
             let number = *next;
             *next += 1;
-            if trails.len() == number {
-                trails.push(Trail::default());
+            if histories.len() == number {
+                histories.push(TorqueHistory::default());
             }
             (number, speed.abs().ln())
         });
@@ -372,7 +372,7 @@ impl Row<'_> {
             temperatures: &settled.temperatures,
             surface: settled.surface,
             loads: &settled.loads,
-            asked: &settled.asked,
+            calls: &settled.calls,
         };
         let corrected = t.imported.is_some() || !t.load_factors.is_empty();
         let braking = &settled.braking;
@@ -393,7 +393,7 @@ impl Row<'_> {
                     if corrected {
                         loads.fill(LoadLanes::NONE);
                     }
-                    t.loads.evaluate_abreast(tangential, state.speeds, passed, loads);
+                    t.loads.evaluate_batched(tangential, state.speeds, passed, loads);
                 },
             );
             if corrected {
@@ -402,7 +402,7 @@ impl Row<'_> {
                 }
                 t.correct_lanes(case, ports, (one, one_ports), loads);
             }
-            let (wanted, asked) = wide(
+            let (wanted, calls) = wide(
                 #[inline(always)]
                 || {
                     for (drags, idle) in flow.drags.iter_mut().zip(&settled.idle_drags) {
@@ -417,11 +417,11 @@ impl Row<'_> {
             );
             for &i in braking {
                 let (component, speed) = (&t.components[i], settled.relative[i]);
-                *called += asked;
-                if asked < torques.len() {
+                *called += calls;
+                if calls < torques.len() {
                     components[i].want(&wanted);
                 }
-                let untaken = ask(
+                let untaken = evaluate_component(
                     component,
                     &state,
                     loads,
@@ -455,8 +455,8 @@ impl Row<'_> {
                         is_even(own_torques)
                     },
                 );
-                *called += asked;
-                if asked < torques.len() {
+                *called += calls;
+                if calls < torques.len() {
                     meshes[i].want(&wanted);
                 }
                 if even {
@@ -487,8 +487,8 @@ impl Row<'_> {
             steady: &settled.idle_drags,
             tolerance: self.point.tolerance,
         };
-        let trail = followed.map(|(number, place)| (&mut trails[number], place));
-        case.flow.real_abreast(&task, trail, work, losses);
+        let history = followed.map(|(number, place)| (&mut histories[number], place));
+        case.flow.real_batched(&task, history, work, losses);
         for (own, flow) in alone_lanes.iter_mut().zip(&work.alone) {
             *own |= flow;
         }
@@ -500,7 +500,7 @@ impl Row<'_> {
         };
         for i in (0..t.components.len()).filter(resting) {
             *called += torques.len();
-            let untaken = ask(
+            let untaken = evaluate_component(
                 &t.components[i],
                 &state,
                 loads,
@@ -646,8 +646,8 @@ impl Row<'_> {
                             let total = meshes[i].total_watts(speed, |watts| watts);
                             let used = &work.mesh_loss[i];
                             factors[i] = each(|lane| {
-                                let asked = total[lane] * count;
-                                count * if asked > 0.0 { used[lane] / asked } else { 1.0 }
+                                let returned = total[lane] * count;
+                                count * if returned > 0.0 { used[lane] / returned } else { 1.0 }
                             });
                             if speed == 0.0 {
                                 Lane::ZERO
@@ -655,7 +655,7 @@ impl Row<'_> {
                                 each(|lane| total[lane] * factors[i][lane])
                             }
                         }
-                        // Computed once per row.
+                        // Computed once per batch.
                         PartKind::Drag(_) => *watts,
                     };
                 }
@@ -666,7 +666,7 @@ impl Row<'_> {
 }
 
 /// Evaluates the model of a component in all lanes; returns the untaken thrust.
-fn ask<'a>(
+fn evaluate_component<'a>(
     component: &Component,
     state: &State<'_>,
     loads: &'a [LoadLanes],

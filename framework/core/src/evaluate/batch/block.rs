@@ -1,20 +1,20 @@
-//! Results of some solved points of a row.
+//! Results of some solved points of a batch.
 
-use super::RowScratch;
+use super::BatchScratch;
 use crate::flow::{Balance, Status};
 use crate::lanes::{LANES, Lane, each, over, wide};
 use crate::transmission::{PartKind, Transmission};
 
-/// Some solved points of a row.
+/// Some solved points of a batch.
 pub struct Block<'a> {
     pub(super) transmission: &'a Transmission,
     /// Number of the reference port.
     pub(super) reference: usize,
-    pub(super) s: &'a RowScratch,
+    pub(super) s: &'a BatchScratch,
 }
 
 impl Block<'_> {
-    /// By lane: true if the point must be evaluated by [`Row::alone`](super::Row::alone); the other results of the lane are then
+    /// By lane: true if the point must be evaluated by [`Batch::alone`](super::Batch::alone); the other results of the lane are then
     /// undefined. Lanes beyond the given torques are undefined, here and in the iterations.
     pub fn alone(&self) -> &[bool; LANES] {
         &self.s.alone_lanes
@@ -27,12 +27,12 @@ impl Block<'_> {
 
     /// Operating state of the transmission.
     pub fn status(&self, lane: usize) -> Status {
-        Status::of(self.powers(lane), self.reference)
+        Status::from_powers(self.powers(lane), self.reference)
     }
 
     /// Input and output power. \[W\]
     pub fn balance(&self, lane: usize) -> Balance {
-        Balance::of(self.powers(lane))
+        Balance::from_powers(self.powers(lane))
     }
 
     /// Sums of all losses. \[W\]

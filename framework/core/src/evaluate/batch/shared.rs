@@ -2,7 +2,7 @@
 
 use crate::loss::{Loss, Undefined};
 
-/// Result of one part in a block whose lanes have equal loads, as beside an idling gear: usually the same in all blocks of a row.
+/// Result of one part in a block whose lanes have equal loads, as beside an idling gear: usually the same in all blocks of a batch.
 #[derive(Debug, Clone)]
 pub(super) struct Shared<K> {
     /// The loads.
@@ -21,11 +21,11 @@ impl<K: Copy + PartialEq> Shared<K> {
     };
 
     /// The result for the present loads, evaluated again if they have changed.
-    pub fn answer(&mut self, at: K, ask: impl FnOnce() -> Result<Loss, Undefined>) -> Result<Loss, Undefined> {
+    pub fn answer(&mut self, at: K, evaluate: impl FnOnce() -> Result<Loss, Undefined>) -> Result<Loss, Undefined> {
         if self.at != Some(at) {
             *self = Self {
                 at: Some(at),
-                answer: ask(),
+                answer: evaluate(),
                 noted: false,
             };
         }
@@ -33,11 +33,11 @@ impl<K: Copy + PartialEq> Shared<K> {
     }
 
     /// The same for an evaluation that also writes notes: evaluated again unless the notes are already shared.
-    pub fn note(&mut self, at: K, ask: impl FnOnce() -> Result<Loss, Undefined>) {
+    pub fn note(&mut self, at: K, evaluate: impl FnOnce() -> Result<Loss, Undefined>) {
         if self.at != Some(at) || !self.noted {
             *self = Self {
                 at: Some(at),
-                answer: ask(),
+                answer: evaluate(),
                 noted: true,
             };
         }
@@ -56,29 +56,29 @@ mod tests {
     #[test]
     fn an_answer_is_asked_for_where_the_load_moved_and_noted_once() {
         let mut shared = Shared::NONE;
-        let asked = std::cell::Cell::new(0);
-        let ask = || {
-            asked.set(asked.get() + 1);
+        let calls = std::cell::Cell::new(0);
+        let evaluate = || {
+            calls.set(calls.get() + 1);
             Ok(Loss::POWERS)
         };
         for (load, answers) in [(1.0, 1), (1.0, 1), (2.0, 2), (1.0, 3)] {
-            assert!(shared.answer(load, ask).is_ok());
-            assert_eq!(asked.get(), answers, "{load}");
+            assert!(shared.answer(load, evaluate).is_ok());
+            assert_eq!(calls.get(), answers, "{load}");
         }
         for (load, answers) in [(1.0, 4), (1.0, 4), (2.0, 5), (2.0, 5)] {
-            shared.note(load, ask);
-            assert_eq!(asked.get(), answers, "{load}");
+            shared.note(load, evaluate);
+            assert_eq!(calls.get(), answers, "{load}");
         }
         // The result is reused, but the notes must be written again, in whichever way they were lost.
-        assert!(shared.answer(2.0, ask).is_ok());
-        assert_eq!(asked.get(), 5);
+        assert!(shared.answer(2.0, evaluate).is_ok());
+        assert_eq!(calls.get(), 5);
         shared.overwritten();
-        shared.note(2.0, ask);
-        assert_eq!(asked.get(), 6);
+        shared.note(2.0, evaluate);
+        assert_eq!(calls.get(), 6);
         // NaN is equal to nothing.
         for answers in [7, 8] {
-            shared.note(f64::NAN, ask);
-            assert_eq!(asked.get(), answers);
+            shared.note(f64::NAN, evaluate);
+            assert_eq!(calls.get(), answers);
         }
     }
 }

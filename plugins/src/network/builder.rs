@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 /// Nodes and links added so far.
 #[derive(Default)]
-pub struct Lay {
+pub struct NetworkBuilder {
     nodes: Map<String, Value>,
     links: Map<String, Value>,
     sources: Map<String, Value>,
@@ -31,7 +31,7 @@ pub fn number(value: f64) -> Value {
     json!(format!("{value:.3e}").parse::<f64>().unwrap_or(value))
 }
 
-impl Lay {
+impl NetworkBuilder {
     /// Adds a node with a heat capacity in J/K and returns its name.
     pub fn node(&mut self, wanted: &str, what: &str, capacity: f64) -> String {
         let name = free(&self.nodes, wanted, what);
@@ -122,16 +122,16 @@ mod tests {
 
     #[test]
     fn names_are_free_and_numbers_short() {
-        let mut lay = Lay::default();
-        assert_eq!(lay.node("a", "shaft", 1.0), "a");
-        assert_eq!(lay.node("a", "bearing", 1.0), "a_bearing");
-        assert_eq!(lay.node("a", "bearing", 1.0), "a_bearing_2");
-        assert_eq!(lay.node("ambient", "shaft", 1.0), "ambient_shaft");
+        let mut builder = NetworkBuilder::default();
+        assert_eq!(builder.node("a", "shaft", 1.0), "a");
+        assert_eq!(builder.node("a", "bearing", 1.0), "a_bearing");
+        assert_eq!(builder.node("a", "bearing", 1.0), "a_bearing_2");
+        assert_eq!(builder.node("ambient", "shaft", 1.0), "ambient_shaft");
         assert_eq!(number(1234.567), json!(1235.0));
-        lay.link("self", "a", "a", 1.0);
-        lay.link("l", "a", "a_bearing", 1.53);
-        lay.link("l", "a", "a_bearing", 2.0);
-        let written = lay.written();
+        builder.link("self", "a", "a", 1.0);
+        builder.link("l", "a", "a_bearing", 1.53);
+        builder.link("l", "a", "a_bearing", 2.0);
+        let written = builder.written();
         assert_eq!(
             written["links"],
             json!({ "l": { "conductance": 1.53, "between": ["a", "a_bearing"] },
