@@ -33,6 +33,7 @@ mod args;
 mod commands;
 mod interrupt;
 mod output;
+mod shard;
 mod threads;
 
 use std::ffi::OsString;

@@ -32,6 +32,7 @@ mod limits;
 mod locked;
 mod measured;
 mod mistakes;
+mod modules;
 mod mutated;
 mod network;
 mod new;

@@ -14,6 +14,7 @@ use gearloss_studies::study::{Study, Write};
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::result_files::Files;
 use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
@@ -28,7 +29,7 @@ pub struct Run<'a> {
     bars: Bars,
     pub(super) report: RefCell<Report>,
     /// Folder of the results.
-    pub(super) files: write::Files,
+    pub(super) files: Files,
     /// Quantities outside their stated ranges, counted over all analyses.
     pub(super) left: Cell<usize>,
     /// The same for the end of the run.
@@ -104,7 +105,7 @@ impl<'a> Run<'a> {
             language,
             study,
             analyses: StudyRun::new(language, study),
-            files: write::Files::new(folder),
+            files: Files::new(folder),
             bars: Bars {
                 shown: Out::error().is_terminal(),
             },

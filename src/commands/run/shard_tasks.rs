@@ -10,9 +10,9 @@ use gearloss_studies::study::Study;
 use gearloss_studies::tasks::{Task, TaskResults};
 
 use super::folder::cannot;
-use super::shard::Shard;
 use super::task_file::{Place, TaskFile};
 use crate::output::Failure;
+use crate::shard::Shard;
 
 /// Results of shards, and the folder of the computing shard.
 pub struct ShardTasks {

@@ -2,7 +2,7 @@
 
 use gearloss_studies::analysis::Note;
 
-use super::{Run, Runner};
+use super::runner::{Run, Runner};
 use crate::output::{Failure, Out, beyond, significant};
 
 /// Start of each line.

@@ -17,12 +17,12 @@ pub struct Common {
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
     /// Number of equal components at this position; each carries the full load of the position. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 1000))]
     pub count: u32,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 

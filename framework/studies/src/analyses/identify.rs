@@ -11,6 +11,7 @@ pub mod next;
 pub mod outcome;
 pub mod parameter;
 pub mod posterior;
+mod published;
 mod record;
 pub mod search;
 mod tables;

@@ -1,6 +1,10 @@
 //! Losses and efficiency over a grid, or at the points of a file.
 
+mod axes;
+mod entry;
 pub mod export;
+mod exported;
+mod outcome;
 mod plan;
 mod points;
 mod shown;
@@ -8,14 +12,13 @@ mod shown;
 use std::ops::Range;
 use std::sync::Arc;
 
-use gearloss_framework::description::Ordered;
 use gearloss_framework::loss::Extent;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+pub use axes::Axes;
+pub use entry::MapEntry;
 pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
-pub use plan::Axes;
+pub use outcome::{MapOfSet, MapOutcome, Mark, NotesOfSet, PartModel, SumMeaning};
 pub use points::MapPoints;
 pub use shown::{LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};
 
@@ -23,177 +26,14 @@ use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss, columns};
 use self::shown::Selection;
-use super::numbers::word;
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
-use crate::analysis::{
-    Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, WeakPoint, evidence, merge, notes,
-};
+use super::{Analysis, Built, Context, Stopped};
+use crate::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
 use crate::measured::Measured;
 use crate::register_analysis;
-use crate::study::{Data, Uses, Write};
+use crate::study::{Data, Write};
 use crate::table::Table;
 
-/// Losses and efficiency over a grid.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct MapEntry {
-    /// Gearbox; default: the first.
-    pub gearbox: Option<String>,
-    /// Grid; not with `points`.
-    pub grid: Option<String>,
-    /// File of points instead of a grid, for example of measured data: torque, speed, and optionally gear and oil temperature of each
-    /// point.
-    pub points: Option<Data>,
-    /// Columns of the points that change a value of the gearbox: column to resolved path.
-    #[serde(default)]
-    pub bind: Ordered<String>,
-    /// Gear of points without a column `gear`; default: the first.
-    pub gear: Option<String>,
-    /// Measured points that are drawn into the figures.
-    pub measured: Option<Data>,
-    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// Formats to write; default: CSV and JSON. Figures show efficiency, loss and, with a heat balance, temperature.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
-    /// Loss tables for other programs, one file for each gear; requires a grid.
-    #[serde(default)]
-    pub export: Vec<ExportName>,
-    /// Maximum relative deviation of the straight lines of a `lossy_gear` table from the loss torque at a grid point; above it there is an
-    /// error. [-]
-    #[serde(default = "quarter")]
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub lossy_gear_limit: f64,
-}
-
-/// About the difference between model sets.
-fn quarter() -> f64 {
-    0.25
-}
-
-impl Entry for MapEntry {
-    const TYPE: &'static str = "map";
-    const MEANING: &'static str = "Losses and efficiency over a grid.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("points", self.points.as_ref())
-                .with("measured", self.measured.as_ref())
-        }
-    }
-}
-
 register_analysis!(MapEntry);
-
-/// The maps of an analysis.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct MapOutcome {
-    /// Provenance.
-    #[serde(flatten)]
-    pub head: Head,
-    /// One for each gear, each model set and each combination of bound values.
-    pub maps: Vec<MapOfSet>,
-    /// The points of all maps; without rows if these were passed to [`Context::sink`].
-    #[serde(skip)]
-    pub table: Table,
-    /// Notes on the file of points.
-    #[serde(skip)]
-    pub about_points: Vec<String>,
-    /// Notes on the file of measured points.
-    #[serde(skip)]
-    pub about_measured: Vec<String>,
-    /// Measured points for figures.
-    #[serde(skip)]
-    pub marks: Vec<Mark>,
-    /// Combined notes of all maps of a set, if they form one table over a bound value.
-    #[serde(skip)]
-    pub notes_of_sets: Option<Vec<NotesOfSet>>,
-    /// Requested tables for other programs.
-    #[serde(skip)]
-    pub exports: Vec<ExportName>,
-    /// Maximum relative deviation of the straight lines of a `lossy_gear` table.
-    #[serde(skip)]
-    pub lossy_gear_limit: f64,
-}
-
-/// A map with one model set, one gear and one combination of bound values.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct MapOfSet {
-    /// Name of the set.
-    pub model_set: String,
-    /// Gear state.
-    pub gear: String,
-    /// Bound values: resolved path to value.
-    pub bound: serde_json::Map<String, Value>,
-    /// Oil temperature; absent if each point has its own. [degC]
-    pub oil_temperature_degc: Option<f64>,
-    /// The sums of losses of each point.
-    pub sums: Vec<SumMeaning>,
-    /// The components whose losses are listed for each point, in order.
-    pub parts: Vec<PartModel>,
-    /// Number of iterations over the loss models.
-    pub passes: usize,
-    /// Notes of models.
-    pub notes: Vec<Note>,
-    /// Formulas, defaults and data with low evidence grades.
-    pub evidence: Vec<WeakPoint>,
-    /// The points.
-    #[schemars(with = "Vec<points::MapPoint<'static>>")]
-    pub points: MapPoints,
-    /// Origin of the oil temperature.
-    #[serde(skip)]
-    pub oil: OilTemperature,
-    /// Data for figures and text.
-    #[serde(skip)]
-    pub shown: ShownMap,
-    /// Further data for tables of other programs.
-    #[serde(skip)]
-    pub export: ExportData,
-}
-
-/// A sum of losses.
-#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
-pub struct SumMeaning {
-    /// Name.
-    pub sum: &'static str,
-    /// Description.
-    pub meaning: &'static str,
-}
-
-/// A component with losses.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct PartModel {
-    /// Path.
-    pub part: String,
-    /// Loss mechanism.
-    pub mechanism: &'static str,
-    /// Model.
-    pub model: &'static str,
-}
-
-/// A measured point for figures.
-#[derive(Debug, Clone)]
-pub struct Mark {
-    /// Gear; absent: any.
-    pub gear: Option<String>,
-    /// Torque. [Nm]
-    pub torque: f64,
-    /// Speed. [rad/s]
-    pub speed: f64,
-}
-
-/// Notes of all maps of a set.
-#[derive(Debug, Clone)]
-pub struct NotesOfSet {
-    /// Name of the set.
-    pub model_set: String,
-    /// The notes.
-    pub notes: Vec<Note>,
-}
 
 impl Analysis for MapEntry {
     type Outcome = MapOutcome;
@@ -217,7 +57,7 @@ impl MapEntry {
         for plan in &planned {
             cx.checked(&plan.built, &plan.points)?;
         }
-        export::check(cx, &self.export, &planned)?;
+        exported::check(cx, &self.export, &planned)?;
         if cx.only_checks {
             self.measured(cx)?;
             return Err(Stopped::Checked);
@@ -538,45 +378,4 @@ fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
         }
     };
     Some(names.into_iter().map(of_set).collect())
-}
-
-impl MapOfSet {
-    /// The bound values, for a heading.
-    pub fn bound_words(&self) -> String {
-        let words = self
-            .bound
-            .iter()
-            .map(|(path, value)| format!(", {path} {}", word(value)));
-        words.collect()
-    }
-}
-
-impl MapOutcome {
-    /// Names of the sets in the order of the maps.
-    pub fn set_names(&self) -> Vec<&str> {
-        let mut sets: Vec<&str> = Vec::new();
-        for map in &self.maps {
-            if !sets.contains(&map.model_set.as_str()) {
-                sets.push(&map.model_set);
-            }
-        }
-        sets
-    }
-}
-
-impl Outcome for MapOutcome {
-    fn head(&self) -> &Head {
-        &self.head
-    }
-
-    fn tables(&self) -> Vec<Table> {
-        vec![self.table.clone()]
-    }
-
-    fn notes(&self) -> Vec<&Note> {
-        match &self.notes_of_sets {
-            Some(sets) => sets.iter().flat_map(|set| &set.notes).collect(),
-            None => self.maps.iter().flat_map(|map| &map.notes).collect(),
-        }
-    }
 }

@@ -2,21 +2,17 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 
-use super::compare::{self, ComparisonOfSets};
+use super::compare::ComparisonOfSets;
 use super::folds::FoldsOfSet;
 use super::found::Found;
-use super::hold_out::{self, HoldOutOfSet};
-use super::next::{self, NextOfSet};
+use super::hold_out::HoldOutOfSet;
+use super::next::NextOfSet;
 use super::parameter::ParameterOfSet;
-use super::posterior::{self, PosteriorOfSet};
+use super::posterior::PosteriorOfSet;
 use super::search::SearchOfSet;
-use super::{tables, values};
-use crate::analyses::{Head, Outcome, TextFile};
+use crate::analyses::Head;
 use crate::analysis::Note;
-use crate::identify::Identified;
-use crate::table::Table;
 
 /// Identification of uncertain parameters from measured points with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -304,45 +300,4 @@ pub struct LossOfPoint {
     pub share: Option<f64>,
     /// 95 % band of the share. [-]
     pub share_band: Option<[f64; 2]>,
-}
-
-impl Outcome for IdentifyOutcome {
-    fn head(&self) -> &Head {
-        &self.head
-    }
-
-    fn tables(&self) -> Vec<Table> {
-        let (name, all) = (self.head.analysis.as_str(), &self.identifications[..]);
-        let mut list = vec![
-            tables::points(name, all),
-            tables::shares(name, all),
-            tables::parameters(name, all),
-        ];
-        list.extend(self.requested.posterior.then(|| posterior::table(name, all)));
-        list.extend(self.held_out.as_ref().map(|_| hold_out::table(name, all)));
-        list.extend(self.requested.next.then(|| next::table(name, all)));
-        list.extend(self.comparison_of_sets.as_ref().map(|sets| compare::table(name, sets)));
-        list
-    }
-
-    fn notes(&self) -> Vec<&Note> {
-        self.identifications.iter().flat_map(|o| &o.outside).collect()
-    }
-
-    fn found(&self) -> Vec<(String, Value)> {
-        // A study can only name the values of one set.
-        match &self.identifications[..] {
-            [o] => Identified::overrides(&o.found.parameters, o.found.fitted.theta()),
-            _ => Vec::new(),
-        }
-    }
-
-    fn files(&self) -> Vec<TextFile> {
-        let name = &self.head.analysis;
-        let file = |o: &IdentificationOfSet| TextFile {
-            name: format!("{name}-{}.yaml", o.model_set.replace('/', "-")),
-            text: values::as_yaml(name, o),
-        };
-        self.identifications.iter().map(file).collect()
-    }
 }

@@ -1,5 +1,10 @@
 //! Tables of identifications: points, losses by mechanism, parameters.
 
+pub(super) mod compare;
+pub(super) mod hold_out;
+pub(super) mod next;
+pub(super) mod posterior;
+
 use gearloss_numerics::inference::Reach;
 
 use super::outcome::IdentificationOfSet;

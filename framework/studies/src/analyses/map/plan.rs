@@ -7,20 +7,10 @@ use serde_json::Value;
 
 use super::super::axes::grid_axes;
 use super::super::{Built, Context, Stopped};
-use super::MapEntry;
+use super::axes::Axes;
+use super::entry::MapEntry;
 use crate::analysis::{Field, Given, Points};
 use crate::study::{Envelope, Grid};
-
-/// Axes of a grid for one gearbox.
-#[derive(Debug, Clone)]
-pub struct Axes {
-    /// Torques. [Nm]
-    pub torques: Vec<f64>,
-    /// Speeds. [rad/s]
-    pub speeds: Vec<f64>,
-    /// Ratings of speed and torque if the axes use fractions of them.
-    pub shares: [Option<f64>; 2],
-}
 
 /// The points of one map over a grid.
 pub struct Planned<'a> {

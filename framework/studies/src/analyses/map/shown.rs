@@ -1,7 +1,7 @@
 //! Data of the points of a map for figures and text, independent of its rows.
 
 use super::super::numbers::spread_over;
-use super::Axes;
+use super::axes::Axes;
 use crate::analysis::{Field, Numbered, PointResult};
 
 /// Grids with more points are shown by a selection of their rows and columns.
