@@ -422,7 +422,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.to",
-            "the bounds cross",
+            "the bounds are reversed",
         ),
         (
             "x: { path: meshes.M1.loss_factor, from: -1, to: 1 }",

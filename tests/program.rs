@@ -533,7 +533,7 @@ fn a_set_that_locks_itself_has_no_torques_and_says_which_way() {
     assert!(
         text.contains("status dragged")
             && text.contains("self-locking: torque at `output` alone does not turn it")
-            && text.contains("only because `input` (0.0548"),
+            && text.contains("only maintained because `input` (0.0548"),
         "{text}"
     );
     // Driven from the input, and with rings that lose less, nothing locks.

@@ -150,7 +150,7 @@ fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
         (
             format!("samples: 1000, {one}"),
             vec![
-                "1000 samples are no power of two",
+                "the number of samples must be a power of two, not 1000",
                 "write `samples: 1024`",
                 "analyses.what.samples",
             ],
@@ -164,7 +164,7 @@ fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
         (
             format!("parameters: [{{ path: {kv}, from: 6 mm2/s, to: 6 mm2/s }}]"),
             vec![
-                "two finite ends in order, not 6 mm2/s and 6 mm2/s",
+                "two finite ends in ascending order, not 6 mm2/s and 6 mm2/s",
                 "wider than nothing",
             ],
         ),

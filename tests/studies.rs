@@ -340,7 +340,7 @@ analyses:
     assert!(worst > 15.0, "the refusal below would prove nothing: {worst}");
     assert!(
         text.contains("analyses.strict.export: the straight lines of `LossyGear` deviate from the loss torque by")
-            && text.contains("above the limit of 10 %")
+            && text.contains("the limit is 10 %")
             && text.contains("`lossy_gear_limit: 0."),
         "{text}"
     );
@@ -424,7 +424,7 @@ analyses:
     let inputs = band["inputs"].as_array().unwrap();
     same(number(&inputs[0]["correlation_with_mean_loss"]), 1.0, 1e-5);
     assert!(number(&inputs[1]["correlation_with_mean_loss"]).abs() < 0.05);
-    for words in ["valeu", "one of `plus_minus`, `percent`", "two finite ends in order"] {
+    for words in ["valeu", "one of `plus_minus`, `percent`", "two finite ends in ascending order"] {
         assert!(text.contains(words), "{words}: {text}");
     }
 }

@@ -156,7 +156,7 @@ fn all_pairs_stand_on_the_same_points() {
         );
     }
     assert!(
-        text.contains("1 of 3 points lack a value somewhere") && text.contains("line 4: models fast, "),
+        text.contains("1 of 3 points have no value at some pair") && text.contains("line 4: models fast, "),
         "{text}"
     );
     let far = json(&folder, "far")["surfaces"][0].clone();
@@ -187,7 +187,7 @@ fn what_cannot_be_drawn_is_told_with_its_place_and_how_to_mend_it() {
         ),
         (
             replaced("5 mm2/s, 6.4 mm2/s", "7 mm2/s, 6.4 mm2/s"),
-            ["do not rise all along", "analyses.what.x.values.1"],
+            ["the values are not ascending", "analyses.what.x.values.1"],
         ),
         (
             replaced("5 mm2/s, 6.4 mm2/s", "-5 mm2/s, 6.4 mm2/s"),

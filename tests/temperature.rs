@@ -54,7 +54,7 @@ fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
     let gap = 100.0 * (number(&fast["loss_w"]) / 60.0 - 1.0);
     assert!(
         text.contains(&format!(
-            "loss minus measurement in %: mean {gap:.2}, worst {gap:.2}, 1 points"
+            "loss minus measurement in %: mean {gap:.2}, max {gap:.2}, 1 points"
         )),
         "{text}"
     );
@@ -73,7 +73,7 @@ fn a_tiny_measured_loss_has_no_deviation_in_percent() {
     let gap = 100.0 * (fast / 60.0 - 1.0);
     assert!(
         text.contains(&format!(
-            "loss minus measurement in %: mean {gap:.2}, worst {gap:.2}, 1 points"
+            "loss minus measurement in %: mean {gap:.2}, max {gap:.2}, 1 points"
         )) && text.contains("note: 1 points are omitted"),
         "{text}"
     );

@@ -220,7 +220,7 @@ mod tests {
             ErrorKind::NotFound
         );
         let long = files.read(Path::new("rig.csv"), 2).unwrap_err().to_string();
-        assert_eq!(long, "it has 1 MB, and no more than 1 MB are read");
+        assert_eq!(long, "it has 1 MB; at most 1 MB are read");
     }
 
     #[cfg(unix)]

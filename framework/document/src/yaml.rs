@@ -303,7 +303,7 @@ mod tests {
             ("a: 1\na: 2", "occurs twice"),
             ("a: 1\n---\nb: 2", "second document"),
             ("", "empty"),
-            ("a: [1, 2", "not YAML"),
+            ("a: [1, 2", "not valid YAML"),
             ("? [a, b]\n: 1", "key that is not a text"),
         ] {
             let read = read_yaml(0, text);

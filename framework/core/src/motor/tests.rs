@@ -75,8 +75,8 @@ fn faults_of_a_map_tell_line_and_column() {
     assert_eq!(
         messages("n [rpm],torque [Nm],eta [-]\n1,1,1\n"),
         [
-            "line 1: no column holds the speed; there are: n, torque, eta",
-            "line 1: no column holds the efficiency or the loss; there are: n, torque, eta",
+            "line 1: there is no column for the speed; there are: n, torque, eta",
+            "line 1: there is no column for the efficiency or the loss; there are: n, torque, eta",
         ]
     );
     assert_eq!(

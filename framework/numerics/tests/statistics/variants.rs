@@ -134,7 +134,7 @@ fn check_7_5_offset_and_constant_drag() {
             (Verdict::OnlyInCombination, vec![other], 0.0)
         );
         assert!(fit.deviation(k).is_none() && fit.interval(k, 0.95, 1.0).is_none());
-        assert!(fit.sentence(k).contains("do not tell them apart"));
+        assert!(fit.sentence(k).contains("the data do not separate them"));
     }
     // Their sum is known as well as the offset alone was, and the others keep their intervals.
     let mut both = vec![0.0; 9];
@@ -179,7 +179,7 @@ fn parameters_that_nothing_depends_on_are_not_seen() {
     assert_eq!(fit.determination(8).verdict, Verdict::NotSeen);
     assert_eq!(fit.determination(9).verdict, Verdict::Held);
     assert!(fit.deviation(8).is_none() && fit.deviation(9).is_none() && fit.to_profile(8, 0.95).is_none());
-    assert!(fit.sentence(8).contains("less than the instruments can see") && fit.sentence(9).contains("held at 1"));
+    assert!(fit.sentence(8).contains("less effect than the accuracy of the instruments") && fit.sentence(9).contains("fixed at 1"));
     near(deviation(&fit, 1), 0.0560232651, 1e-7);
     let mut gradient = vec![0.0; 10];
     gradient[8] = 1.0;

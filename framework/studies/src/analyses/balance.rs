@@ -91,7 +91,7 @@ pub struct BalanceOfPoint {
     pub stable: Vec<StableTemperature>,
     /// Heat of each heat path there.
     pub ways: Vec<HeatOfPath>,
-    /// Heat input in addition to the losses. [W]
+    /// Heat input in addition to the losses.
     pub sources_w: HeatSources,
     /// Point at which losses or heat had no value.
     pub undefined: Option<UndefinedBalance>,

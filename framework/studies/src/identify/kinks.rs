@@ -199,7 +199,7 @@ mod tests {
         (kink.regimes, kink.lines) = (None, vec![2, 4, 6, 8, 9]);
         assert_eq!(
             kink.sentence(),
-            format!("{words}, the loss changes abruptly by 0.20 % (5 lines, 2 to 9)")
+            format!("{words}: the loss changes abruptly by 0.20 % (5 lines, 2 to 9)")
         );
     }
 }

@@ -676,7 +676,7 @@ mod tests {
             ("torque > 1000", 10, "has no unit", "`1000 Nm`"),
             ("torque > 1000 rpm", 10, "`rpm` is not a unit of torque", "kNm"),
             ("torque > 1000 Mm", 15, "`Mm` is not a unit", "Nm"),
-            ("torque > 1000 Nm speed < 2 rpm", 18, "`speed` follows", "`and`"),
+            ("torque > 1000 Nm speed < 2 rpm", 18, "unexpected `speed`", "`and`"),
             ("torque > 1,5 Nm", 10, "a comma", "point"),
             ("torque = 5 Nm", 8, "no comparison", "`==`"),
             ("torque > first", 10, "not a number", "`1 Nm`"),
