@@ -1,12 +1,15 @@
 //! Text, figures, pages and files of results.
 
 pub mod card;
+pub mod check;
 mod contours;
 pub mod csv;
 pub mod deviations;
+pub mod eval;
 pub mod exports;
 pub mod figure;
 pub mod html;
+pub mod models;
 pub mod page;
 pub mod parquet;
 pub mod plot;

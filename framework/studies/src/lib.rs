@@ -2,10 +2,12 @@
 
 pub mod analyses;
 pub mod analysis;
+pub mod checked;
 pub mod duty;
 pub mod fit;
 pub mod identify;
 pub mod measured;
+pub mod needs;
 pub mod results;
 pub mod study;
 pub mod table;
